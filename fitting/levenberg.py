@@ -17,6 +17,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from jaxbearing.numerics.batching import in_turn
 from jaxbearing.programs import KeptProgram
 
 OFFSET = 1e-7
@@ -181,7 +182,7 @@ def _spectrum(state: State) -> tuple[Array, Array, Array, Array]:
     """Eigenvalues and eigenvectors of the scaled normal matrix, the scaled gradient along these, and which of them are
     searched."""
     scaled = state.normal / jnp.outer(state.size, state.size)
-    eigenvalues, vectors = jnp.linalg.eigh(scaled)
+    eigenvalues, vectors = in_turn(jnp.linalg.eigh, scaled)  # see `numerics.lapack`
     along = vectors.T @ (state.gradient / state.size)
     return eigenvalues, vectors, along, eigenvalues > FLAT * jnp.max(eigenvalues)
 

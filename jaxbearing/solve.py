@@ -1,4 +1,15 @@
-"""The steady verb: a scene in, a solution out."""
+"""`solve` and `jit_solver`: from a scene to its steady state.
+
+A scene is the complete description of a problem: an object of the package, loaded from a file or built in Python.
+Four programs compute the same solution. Which one runs depends on where `solve` is called:
+
+- `_solve_quickly`: outside of `jax.jit`. It is compiled quickly, and cached on the disk.
+- `_solve_optimised`: with `optimised=True` and in `jit_solver`. It is compiled with all optimisations, and cached.
+- `_solve_differentiated`: outside of `jax.jit`, for numbers that are differentiated or batched. It solves first, and
+  then evaluates the solution once more at the roots that were found. The roots are the unknowns of all iterations of a
+  solve, so the second evaluation needs no iteration, and its derivatives are those of the implicit function theorem.
+- `_solve`: inside of `jax.jit`, as a part of the user's program.
+"""
 
 import dataclasses
 from collections.abc import Callable

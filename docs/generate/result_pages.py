@@ -4,7 +4,7 @@ import dataclasses
 from pathlib import Path
 
 from jaxbearing._derived import derived_results
-from jaxbearing.bearings import frequencies, growth, solution, supplied
+from jaxbearing.bearings import frequencies, growth, ring_deflection, solution, supplied
 from jaxbearing.bearings.ball import solution as ball_solution
 from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
 from jaxbearing.bearings.cylindrical.motion import results as roller_motion
@@ -33,6 +33,7 @@ SECTIONS = {
         "rolling_by_race": solution.RollingByRace,
         "boundary_power": solution.BoundaryPower,
         "supply": supplied.SupplyResult,
+        "outer_ring": ring_deflection.RingDeflection,
         "fit": growth.FitResult,
         "thermal": thermal_result.ThermalResult,
         "thermal.temperatures": thermal_result.NodeTemperatures,

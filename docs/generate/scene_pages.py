@@ -63,6 +63,9 @@ _NAMED = {
     "SectionTable": "shaft.sections",
     "BearingEntry": "bearing.NAME",
     "SetEntry": "set.NAME",
+    "MemberEntry": "set.NAME.bearing.NUMBER",
+    "BearingTables": "bearing",
+    "MembersTables": "set.NAME.bearing",
     **{f"{one}Table": f"force.NAME, {one}" for one in ("PointLoad", "Gear", "Belt", "Mass")},
 }
 """Tables that stand in fields of several names."""

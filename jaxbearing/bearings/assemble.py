@@ -14,6 +14,7 @@ from .facts import Facts
 from .frequencies import textbook_frequencies
 from .interactions import Costs
 from .ring import Port
+from .ring_deflection import RingDeflection
 from .solution import (
     RING_FREEDOMS,
     BoundaryPower,
@@ -41,6 +42,7 @@ class Results(NamedTuple, Generic[Elements, Losses]):
     raceway_power: RacewayPower | None = None
     laminae: LaminaLoads | None = None
     boundary_power: BoundaryPower | None = None
+    outer_ring: RingDeflection | None = None
 
 
 def assemble(

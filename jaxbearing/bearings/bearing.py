@@ -1,4 +1,11 @@
-"""Base class of all bearing scenes: what a bearing family implements, and the unknown freedoms of the inner ring."""
+"""Base class of all bearing scenes: what a bearing family implements, and the unknown freedoms of the inner ring.
+
+Terms: a *scene* is the complete description of a problem. The *port* is the point of the inner ring at which loads and
+displacements are exchanged with a shaft. The *row* of a bearing is its rolling elements without films and friction, as
+the first stage of a shaft's search takes them. The *seats* are the fits of the rings on shaft and in housing (`[fits]`
+in a scene file). A *catalogue load* is a load by which a maker rates a bearing. A tilt is *exact* if the grooves move
+with the rotation of the ring, and linearised if they move with its first-order displacement.
+"""
 
 import abc
 import dataclasses
@@ -50,7 +57,7 @@ class AbstractBearing(AbstractScene):
     yield_pressure: ClassVar[float] = ROLLER_PRESSURE
     """Hertz pressure beyond which elements and races yield, Pa."""
     without_effect: ClassVar[str] = "traction on the raceways"
-    """Name of the part without which the `unused_parts` of a scene have no effect, for messages."""
+    """Name of the missing part that leaves the `unused_parts` of a scene without effect, for messages."""
 
     geometry: eqx.AbstractVar[Any]
     materials: eqx.AbstractVar[Any]
@@ -67,7 +74,7 @@ class AbstractBearing(AbstractScene):
         return self.solved_running(lambda running: running.solve_ring(options))
 
     def simulated(self, duration: float | None, **settings: Any) -> Any:
-        """A run of the temperatures in time; the scene must have a thermal network."""
+        """Simulates the temperatures over time. The scene must have a thermal network."""
         if self.thermal is None:
             raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; {TAKEN}")
         from .warming.runs import simulate_warm_up
@@ -82,8 +89,8 @@ class AbstractBearing(AbstractScene):
         check_restart(self, restart)
 
     def solved_running(self, solve: Callable[[Any], Solution]) -> Solution:
-        """Solves the bearing as it runs: seats and temperatures change its dimensions first, and with a thermal network
-        the temperatures are solved for as well.
+        """Solves the bearing with its running dimensions, which depend on fits and temperatures. With a thermal network
+        the temperatures are unknowns too.
 
         **Arguments:** `solve`: function that solves a scene without thermal network and seats.
         """
@@ -115,12 +122,12 @@ class AbstractBearing(AbstractScene):
     @property
     @abc.abstractmethod
     def dissipates(self) -> bool:
-        """True if the scene models a loss."""
+        """True if the model of the scene includes friction losses."""
 
     @property
     @abc.abstractmethod
     def raceway_diameters(self) -> tuple[Array, Array]:
-        """Diameters of inner and outer raceway (in ball bearings of the bottoms of the grooves), m."""
+        """Diameters of the inner and the outer raceway, m; in a ball bearing those at the bottom of the grooves."""
 
     @abc.abstractmethod
     def play(self, growth: Growth) -> Play:
@@ -128,7 +135,7 @@ class AbstractBearing(AbstractScene):
 
     @abc.abstractmethod
     def grown(self: Bearing, growth: Growth) -> Bearing:
-        """The bearing with the dimensions after this growth, and without seats."""
+        """Returns the bearing with its dimensions changed by `growth`, and without fits."""
 
     play_is_clearance: ClassVar[bool] = True
     """True if the play is a diametral clearance; otherwise it is an axial displacement."""
@@ -141,13 +148,13 @@ class AbstractBearing(AbstractScene):
 
         **Arguments:**
         - `ring`: an inner ring that is held; by default the ring of the operating point.
-        - `exact_tilt`: whether the grooves of a ball bearing move with the exact rotation of the ring; by default as in
-          the solve of the scene.
+        - `exact_tilt`: True to move the grooves of a ball bearing by the exact rotation of the ring, False to linearise
+          it; by default the choice of the scene.
         """
 
     @abc.abstractmethod
     def row(self, expansion: Array) -> AbstractRow:
-        """The bearing at its speeds without films and friction, for a ring that is held.
+        """The bearing at its speeds as a dry, frictionless row of elements under a held inner ring.
 
         **Arguments:** `expansion`: growth of the inner raceway's radius less that of the outer one, m.
         """
@@ -160,8 +167,8 @@ class AbstractBearing(AbstractScene):
     def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
         """Sizes and loads of the raceway contacts for the life.
 
-        **Arguments:** `elements`, `laminae`, `force`: fields of a solution. Without a force a ring that is held has no
-        catalogue load.
+        **Arguments:** `elements`, `laminae`, `force`: fields of a solution. For a held ring, the catalogue load is
+        defined only if `force` is given.
         """
 
     @abc.abstractmethod
@@ -184,16 +191,16 @@ class AbstractBearing(AbstractScene):
 
     @property
     def drawing_angle(self) -> Array:
-        """Nominal contact angle, rad; 0 if the geometry has none or is given by a clearance."""
+        """Nominal contact angle, rad; 0 if the geometry has none or gives a clearance instead."""
         given = getattr(self.geometry, "contact_angle", None)
         return jnp.asarray(0.0 if given is None else given)
 
     def point_contacts(self, elements: Any) -> PointContact | None:
-        """Point contacts at the raceways of a solution, shape (2, element), races first; `None` for line contacts."""
+        """Raceway contacts of a solution as point contacts, shape (2 races, element); `None` for line contacts."""
         return None
 
     def race_lines(self, elements: Any) -> LineContact | None:
-        """Raceway contacts as lines with an even load, shape (2, 1), races first; `None` for point contacts."""
+        """Raceway contacts as uniformly loaded line contacts, shape (2 races, 1); `None` for point contacts."""
         return None
 
     @property
@@ -208,7 +215,7 @@ class AbstractBearing(AbstractScene):
 
     @property
     def rated_to_first_order(self) -> bool:
-        """True if the life is computed from loads with the tilt of the ring linearised."""
+        """True if the loads for the life are computed with a linearised tilt of the ring."""
         return False
 
     @property
@@ -219,12 +226,12 @@ class AbstractBearing(AbstractScene):
     @property
     @abc.abstractmethod
     def port_distance(self) -> Array:
-        """Distance of the point where `ring` of the solution counts from the port, along $+e_x$, m."""
+        """Axial distance along $+e_x$ from the port to the point whose displacement `ring` of the solution gives, m."""
 
     @property
     @abc.abstractmethod
     def slips(self) -> bool:
-        """True if the elements' speeds are unknowns; they follow from rolling without sliding else."""
+        """True if the speeds of the elements are unknowns. Otherwise they follow from rolling without sliding."""
 
     @abc.abstractmethod
     def unused_parts(self) -> tuple[str, ...]:
@@ -232,10 +239,10 @@ class AbstractBearing(AbstractScene):
 
     @abc.abstractmethod
     def assumptions(self) -> tuple[str, ...]:
-        """Notes for the user: assumptions of the model, and uses for which the scene's data were not made."""
+        """Notes for the user: assumptions of the model, and uses that the data of the scene do not cover."""
 
     def with_lateral_freedom(self: Bearing) -> Bearing:
-        """The scene with the freedoms across the axis that the stiffness of a shaft's support needs."""
+        """The scene with the freedoms perpendicular to the axis, which the stiffness of a shaft support requires."""
         return self
 
     @property
@@ -245,7 +252,7 @@ class AbstractBearing(AbstractScene):
 
     @property
     def skewed(self) -> bool:
-        """True if the ring may move across the load line: by loads, displacements or the places of the elements."""
+        """True if loads, given displacements or the positions of the elements can move the ring off the load line."""
         operation: AbstractOperation = self.operation
         return operation.skewed or self.geometry.first_element_angle is not None
 
@@ -253,8 +260,8 @@ class AbstractBearing(AbstractScene):
     def unknown_freedoms(self) -> tuple[str, ...]:
         """Freedoms of the inner ring that are unknowns of a solve, under given loads.
 
-        Those that only symmetry keeps at 0 are not among them: all but the axial one where all rolling elements are
-        alike, the lateral one where the load line is a line of symmetry.
+        Freedoms that symmetry keeps at 0 are left out. If all rolling elements are loaded alike, only the axial freedom
+        remains. If the load line is a line of symmetry, the lateral freedom is left out.
         """
         operation: AbstractOperation = self.operation
         forces = ["axial"]

@@ -17,6 +17,7 @@ from jaxtyping import Array
 from ..contacts import Gupta
 from ..contacts.laws import SPEED_SMOOTHING
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
+from ..numerics import lapack
 from ..numerics.safe import smooth_abs
 from .bearing import AbstractBearing
 from .facts import BUSY, Contacts, Excess, Facts, SolvedBearing
@@ -213,7 +214,7 @@ def _unstable(result: SolvedBearing) -> Excess:
         "the equilibrium is unstable: the ring is free to tilt, and the least thrust or moment tips it into another "
         "one; give it a small axial load, or hold its tilt (leave out the moment)"
     )
-    return {text: -jnp.linalg.eigvalsh(0.5 * (stiffness + stiffness.T))[0]}
+    return {text: -lapack.lowest_eigenvalue(stiffness)}
 
 
 RESULT_CHECKS: tuple[Callable[[SolvedBearing], Excess], ...] = (

@@ -18,6 +18,7 @@ from ..numerics.status import Status
 from ..thermal.result import ThermalResult
 from .frequencies import KinematicFrequencies, frequencies_of_motion
 from .growth import FitResult
+from .ring_deflection import RingDeflection
 from .supplied import SupplyResult
 
 INNER_TOLERANCE = 1e-8
@@ -217,6 +218,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     rolling_by_race: RollingByRace | None = None
     boundary_power: BoundaryPower | None = None
     supply: SupplyResult | None = None
+    outer_ring: RingDeflection | None = None
+    """Deformed shape of the outer ring, if it bends."""
     textbook_frequencies: KinematicFrequencies | None = None
     """Frequencies of rolling without slip at the contact angle of the drawing."""
 

@@ -56,6 +56,21 @@ class AbstractArrowSystem(eqx.Module):
         """
         raise NotImplementedError
 
+    def local_inputs(self, globals_: Float[Array, " g"]) -> Float[Array, "p element"] | None:
+        """What each element sees of the globals, in place of the globals themselves; `None`: it sees all of them.
+
+        A few numbers for each element, such as the opening between the rings there, follow from the globals cheaply.
+        `element` then takes them as `shared` and is differentiated with m + p tangents instead of m + g, so that many
+        globals cost hardly more than few. Its second result then goes through `gathered`.
+        """
+        del globals_
+        return None
+
+    def gathered(self, globals_: Float[Array, " g"], acting: Float[Array, "q element"]) -> Float[Array, " k"]:
+        """Totals from the second result of `element`, of a system with `local_inputs`; by default their sums."""
+        del globals_
+        return jnp.sum(acting, axis=1)
+
     @property
     def increasing(self) -> bool:
         """True if each equation grows with its own unknown at every root, see the class. Where an equation falls, the
@@ -90,7 +105,8 @@ class AbstractArrowSystem(eqx.Module):
         """Local residuals, contributions to the totals, and the largest residual of nested solves (0: there are none).
 
         Column j of a result depends on column j of the arguments only. `shared` holds the globals, copied along the
-        element axis: this copy allows one forward pass to yield every block of the arrow.
+        element axis: this copy allows one forward pass to yield every block of the arrow. With `local_inputs` it holds
+        these, and the second result has q rows, which `gathered` turns into the totals.
         """
 
     def tangents(
@@ -147,16 +163,14 @@ class Equations(NamedTuple):
 
 def evaluate(system: AbstractArrowSystem, point: ArrowPoint) -> Equations:
     """All residuals at a point."""
-    n = point.elements.shape[1]
-    shared = jnp.broadcast_to(point.globals[:, None], (point.globals.shape[0], n))
-    local, contribution, inner = system.element(point.elements, shared)
-    global_part, global_inner = system.global_residual(point.globals, jnp.sum(contribution, axis=1))
+    local, acting, inner = system.element(point.elements, seen_by_elements(system, point))
+    global_part, global_inner = system.global_residual(point.globals, system.gathered(point.globals, acting))
     return Equations(ArrowPoint(local, global_part), jnp.maximum(inner, global_inner))
 
 
 def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations, ArrowJacobian]:
-    """Equations and Jacobian blocks, by forward autodiff with m + g tangents."""
-    values, tangents, inner = system.tangents(point.elements, shared_by_elements(point))
+    """Equations and Jacobian blocks, by forward autodiff with m + g tangents, with `local_inputs` with m + p."""
+    values, tangents, inner = system.tangents(point.elements, seen_by_elements(system, point))
     return assembled(system, point, values, tangents, inner)
 
 
@@ -165,13 +179,19 @@ def shared_by_elements(point: ArrowPoint) -> Float[Array, "g element"]:
     return jnp.broadcast_to(point.globals[:, None], (point.globals.shape[0], point.elements.shape[1]))
 
 
+def seen_by_elements(system: AbstractArrowSystem, point: ArrowPoint) -> Float[Array, "p element"]:
+    """The argument `shared` of `element`: the local inputs if there are any, otherwise the globals."""
+    inputs = system.local_inputs(point.globals)
+    return shared_by_elements(point) if inputs is None else inputs
+
+
 def element_tangents(
     element: Callable[[Array, Array], tuple[Array, Array, Seen]],
     unknowns: Float[Array, "m element"],
     shared: Float[Array, "g element"],
 ) -> tuple[Float[Array, "row element"], Float[Array, "row m+g element"], Seen]:
-    """Local residuals and contributions to totals of `element`, their derivatives by the element's unknowns and the
-    globals, and its third result, a pytree of arrays, which is not differentiated."""
+    """Local residuals and contributions of `element`, their derivatives with respect to the element's unknowns and the
+    globals, and the third result of `element`. The third result is a pytree of arrays and is not differentiated."""
     m, n = unknowns.shape
     width = m + shared.shape[0]
 
@@ -190,6 +210,8 @@ def assembled(
     system: AbstractArrowSystem, point: ArrowPoint, values: Array, tangents: Array, inner: Array
 ) -> tuple[Equations, ArrowJacobian]:
     """Equations and Jacobian blocks from those of the elements (`element_tangents`)."""
+    if system.local_inputs(point.globals) is not None:
+        return _assembled_through_inputs(system, point, values, tangents, inner)
     m, g = point.elements.shape[0], point.globals.shape[0]
     totals = jnp.sum(values[m:], axis=1)
     global_part, pullback, global_inner = jax.vjp(system.global_residual, point.globals, totals, has_aux=True)
@@ -204,11 +226,36 @@ def assembled(
     return Equations(ArrowPoint(values[:m], global_part), jnp.maximum(inner, global_inner)), jacobian
 
 
+def _assembled_through_inputs(
+    system: AbstractArrowSystem, point: ArrowPoint, values: Array, tangents: Array, inner: Array
+) -> tuple[Equations, ArrowJacobian]:
+    """`assembled` for tangents by the local inputs, chained with the derivatives of the inputs by the globals.
+
+    The contributions of the elements are then those to the global residuals, and `chain` is the unit matrix.
+    """
+    m, g = point.elements.shape[0], point.globals.shape[0]
+    p, n = tangents.shape[1] - m, values.shape[1]
+    moved = jax.jacfwd(system.local_inputs)(point.globals) if g else jnp.zeros((p, n, 0))
+    closed = lambda globals_, acting: system.global_residual(globals_, system.gathered(globals_, acting))
+    global_part, pullback, global_inner = jax.vjp(closed, point.globals, values[m:], has_aux=True)
+    nothing = jnp.zeros((0, 0)), jnp.zeros((0, *values[m:].shape))
+    direct, chain = jax.vmap(pullback)(jnp.eye(g)) if g else nothing
+    acting = jnp.einsum("qpn,png->qng", tangents[m:, m:], moved)
+    jacobian = ArrowJacobian(
+        local=tangents[:m, :m],
+        right_border=jnp.einsum("mpn,png->mgn", tangents[:m, m:], moved),
+        contributions=jnp.einsum("gqn,qmn->gmn", chain, tangents[m:, :m]),
+        corner=direct + jnp.einsum("gqn,qnh->gh", chain, acting),
+        chain=jnp.eye(g),
+    )
+    return Equations(ArrowPoint(values[:m], global_part), jnp.maximum(inner, global_inner)), jacobian
+
+
 def empty_jacobian(system: AbstractArrowSystem, point: ArrowPoint) -> ArrowJacobian:
     """A Jacobian of zeros with the right shapes, the initial value of a loop."""
     m, n = point.elements.shape
     g = point.globals.shape[0]
-    k = g + system.extra_totals
+    k = g + system.extra_totals if system.local_inputs(point.globals) is None else g
     return ArrowJacobian(
         jnp.zeros((m, m, n)), jnp.zeros((m, g, n)), jnp.zeros((k, m, n)), jnp.zeros((g, g)), jnp.zeros((g, k))
     )
@@ -243,8 +290,8 @@ def uphill_step(
 
     Each equation is expected to grow with its own unknown while the unknowns before it are in equilibrium. Where it
     falls, the Newton step points away from a root that lies beyond a maximum of the residual; with the sign of the
-    pivot changed, it points towards that root. Elements of more than 4 unknowns, which LAPACK eliminates, keep their
-    pivots.
+    pivot changed, it points towards that root. Elements with more than 4 unknowns are eliminated by LAPACK, and their
+    pivots are not changed.
 
     **Returns:** the step x; True for each element that has a negative pivot; True if one of the globals has one.
     """
@@ -260,7 +307,8 @@ def uphill_step(
 def solve_arrow(jacobian: ArrowJacobian, right: ArrowPoint) -> ArrowPoint:
     """J x = right, by elimination of the elements and the Schur complement of the globals.
 
-    Matrix and right side are eliminated apart: in one array, autodiff could not see that x is linear in `right`.
+    The matrix and the right-hand side are eliminated separately. If they shared one array, autodiff could not see that
+    x is linear in `right`.
     """
     coupled, schur = eliminated(jacobian)
     return _solved(jacobian, coupled, schur, right)

@@ -30,7 +30,7 @@ from .arrow import (
     element_tangents,
     eliminated,
     evaluate,
-    shared_by_elements,
+    seen_by_elements,
     solve_arrow,
 )
 from .small_linear import solve_blocks, solve_dense
@@ -81,7 +81,7 @@ class AbstractConvexArrow(AbstractArrowSystem):
 
     def potential(self, point: ArrowPoint) -> Float[Array, ""]:
         """The potential, which is convex. It is unbounded below if there is no equilibrium."""
-        energies = self.acting(point.elements, shared_by_elements(point))[2]
+        energies = self.acting(point.elements, seen_by_elements(self, point))[2]
         return jnp.sum(energies) - self.work(point.globals)
 
 
@@ -175,7 +175,7 @@ def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float,
     caps = system.step_caps()
 
     def look(point: ArrowPoint) -> tuple[ArrowPoint, _View]:
-        values, tangents, energies = _tangents(system.without_guess(), point.elements, shared_by_elements(point))
+        values, tangents, energies = _tangents(system.without_guess(), point.elements, seen_by_elements(system, point))
         equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
         energy = jnp.sum(energies) - system.work(point.globals)
         return point, _View(energy, _largest(equations.residual), (equations.residual, jacobian))
@@ -195,7 +195,7 @@ def settle(system: AbstractConvexArrow, point: ArrowPoint) -> ArrowPoint:
     steps."""
     system, point = jax.lax.stop_gradient((system, point))
     m = point.elements.shape[0]
-    shared, caps = shared_by_elements(point), system.step_caps().elements
+    shared, caps = seen_by_elements(system, point), system.step_caps().elements
 
     def look(elements: Array) -> tuple[Array, _View]:
         values, tangents, energies = _tangents(system.without_guess(), elements, shared)
@@ -225,7 +225,7 @@ def settled(system: AbstractConvexArrow, point: ArrowPoint) -> Settled:
     """The system with all elements at their minima for the globals of `point`."""
     system, point = jax.lax.stop_gradient((system, point))
     point = settle(system, point)
-    values, tangents, energies = _tangents(system, point.elements, shared_by_elements(point))
+    values, tangents, energies = _tangents(system, point.elements, seen_by_elements(system, point))
     equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
     return Settled(point, jnp.sum(energies), equations.residual.globals, eliminated(jacobian)[1])
 
@@ -241,7 +241,7 @@ def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance
     def look(point: ArrowPoint) -> tuple[ArrowPoint, _View]:
         inside = ArrowPoint(point.elements, jnp.clip(point.globals, low, high))
         point = settle(system, inside)
-        values, tangents, energies = _tangents(system.without_guess(), point.elements, shared_by_elements(point))
+        values, tangents, energies = _tangents(system.without_guess(), point.elements, seen_by_elements(system, point))
         equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
         held = pushed_out(system, point, equations.residual).astype(float)
         coupled, schur = eliminated(jacobian)

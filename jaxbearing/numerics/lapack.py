@@ -1,8 +1,8 @@
-"""Linear solves by LAPACK that a batch cannot block.
+"""LAPACK for the lanes of a batch, which cannot block each other.
 
-The triangular solves and the Cholesky factorisation of jaxlib share the matrices of a large batch out to XLA's threads,
-and wait for them on one of these threads. Two such calls at once on two threads wait for ever: seen with jaxlib 0.10 on
-two cores and 10 000 matrices of 5 x 5. On a CPU each lane of a batch therefore makes its own call here.
+Before jaxlib 0.11, LAPACK's functions share the matrices of a large batch out to XLA's threads and wait for them on one
+of these threads. As many such calls at once as there are threads wait for ever: seen with jaxlib 0.10 on two cores and
+10 000 matrices of 5 x 5. On a CPU each lane of a batch therefore makes its own call here.
 """
 
 import jax
@@ -18,7 +18,7 @@ def solve(matrix: Float[Array, "*block n n"], right: Float[Array, "*block n r"])
 
     **Arguments:** `matrix`, `right`: the leading axes, of a few matrices only, are solved in one call.
     """
-    factors, _, order = jax.lax.linalg.lu(jax.lax.stop_gradient(matrix))
+    factors, order = in_turn(_factored, jax.lax.stop_gradient(matrix))
     return jax.lax.custom_linear_solve(
         lambda x: matrix @ x,
         right,
@@ -35,6 +35,20 @@ def solve_vector(matrix: Float[Array, "n n"], right: Float[Array, " n"]) -> Floa
 def inverse(matrix: Float[Array, "n n"]) -> Float[Array, "n n"]:
     """The inverse of one matrix, by `solve`."""
     return solve(matrix, jnp.eye(matrix.shape[-1], dtype=matrix.dtype))
+
+
+def lowest_eigenvalue(matrix: Float[Array, "n n"]) -> Float[Array, ""]:
+    """The least eigenvalue of the symmetric part of one matrix; its derivative is 0 here."""
+    return in_turn(_lowest, jax.lax.stop_gradient(matrix))
+
+
+def _lowest(matrix: Float[Array, "n n"]) -> Float[Array, ""]:
+    return jnp.linalg.eigvalsh(0.5 * (matrix + matrix.T))[0]
+
+
+def _factored(matrix: Float[Array, "*block n n"]) -> tuple[Float[Array, "*block n n"], Int[Array, "*block n"]]:
+    factors, _, order = jax.lax.linalg.lu(matrix)
+    return factors, order
 
 
 _Given = tuple[Float[Array, "*block n n"], Int[Array, "*block n"], Float[Array, "*block n r"]]

@@ -39,10 +39,10 @@ _GOING = -1
 class NewtonResult(NamedTuple):
     """Result of the iteration. If the lane failed, `point` is finite and not a solution.
 
-    `jacobian`, `residual_norm` (the largest scaled residual), `worst_equation` and `worst_element` refer to the last
-    trial at which the system asked for, and not an easier one, was evaluated. If the lane converged, `point` is one
-    Newton step (below the step tolerance) further. `worst_element` means something only if the worst equation belongs
-    to an element.
+    `jacobian`, `residual_norm` (the largest scaled residual), `worst_equation` and `worst_element` belong to the last
+    trial of the given system, not to a trial of an easier one. If the lane converged, `point` lies one Newton step
+    (shorter than the step tolerance) beyond that trial. `worst_element` means something only if the worst equation
+    belongs to an element.
     """
 
     point: ArrowPoint
@@ -66,7 +66,7 @@ class _Iterate(NamedTuple):
     status: Int[Array, ""]
     equations: Equations
     jacobian: ArrowJacobian
-    """`equations` and `jacobian` are those of the system asked for, at the last trial at which it was evaluated."""
+    """`equations` and `jacobian` belong to the last trial of the given system, not of an easier one."""
 
 
 def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
@@ -85,7 +85,7 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         iterations = state.iterations + 1
         steps = iterations if continuation is None else continuation.steps + 1
         limit = options.max_steps if continuation is None else continuation.step_limit(options.max_steps)
-        # settled with a nested solve that failed: no other step changes that
+        # the trial is a root, but a nested solve failed there: further steps do not change that
         hopeless = verdict.settled & ~verdict.converged
         failed = (verdict.stuck | (steps >= limit) | hopeless) & ~verdict.converged
         won, lost = verdict.converged, failed
@@ -99,7 +99,7 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
             )
             won = verdict.converged & at_system
             following = following.begun_anew(restart, guess)
-            # what is reported is about the system asked for, not about an easier one
+            # report values of the given system, not of an easier one
             newest, last = (equations, jacobian), (state.equations, state.jacobian)
             equations, jacobian = jax.tree.map(lambda new, old: jnp.where(at_system, new, old), newest, last)
         failure = jnp.where(verdict.stuck, int(Status.DIVERGED), int(Status.NOT_CONVERGED))
@@ -165,8 +165,8 @@ def _root_jvp(primals, tangents, *, options: NewtonOptions):
 
 @eqx.filter_custom_jvp
 def _known_root(system: AbstractArrowSystem, *, root: _Root, stiffness: bool) -> _Root:
-    """A root that was found before, with the implicit derivatives that `_root` gives. **Arguments:** `stiffness`:
-    whether the Jacobian has a derivative; it is NaN otherwise."""
+    """A root that was found before, with the implicit derivatives that `_root` gives. **Arguments:** `stiffness`: True
+    to differentiate the Jacobian too; otherwise its derivative is NaN."""
     return root
 
 
@@ -180,8 +180,8 @@ def _known_root_jvp(primals, tangents, *, root: _Root, stiffness: bool):
 def _implicit(system: Any, system_dot: Any, root: _Root, stiffness: bool = True) -> tuple[_Root, _Root]:
     """A root and its directional derivative, by the implicit function theorem. Without `stiffness` the derivative of
     the Jacobian is NaN."""
-    # The tangent that comes in is set to 0 for a failed lane as well as the one that goes out: NaN times 0 would
-    # otherwise reach parameters that lanes share, in forward and reverse mode.
+    # Both the incoming and the outgoing tangent of a failed lane are set to 0. Otherwise NaN times 0 would reach
+    # parameters that lanes share, in forward and in reverse mode.
     select = lambda t: jnp.where(root.solved, t, 0.0)
     system_dot = jax.tree.map(select, system_dot)
     residual_dot = _directional(lambda s: evaluate(s, root.point).residual, (system,), (system_dot,))
@@ -211,18 +211,18 @@ def _finite(x: Array) -> Array:
 def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[System, NewtonResult]:
     """Solve a block-arrow system from its own first guess.
 
-    Returns the system to evaluate results with, and the result. The derivative of the solution (and of the Jacobian
-    at the solution) is that of the implicit function, in both modes and to any order: nothing is differentiated
-    through the iteration, and a solve that is not differentiated does not pay for derivatives.
+    Returns a system, which must be used to evaluate results, and the result of the iteration. The derivative of the
+    solution (and of the Jacobian at the solution) is that of the implicit function, in both modes and to any order. The
+    iteration itself is never differentiated, and a solve that is not differentiated does not pay for derivatives.
 
-    Newton's step is changed where a pivot of the Jacobian is negative (`arrow.uphill_step`) if the system says that an
-    equation must grow with its own unknown at the root (`increasing`). Where the iteration fails, and the system has
-    homotopies, it is tried by continuation (`continuation`): from an easier system to the one asked for, in stages that
-    shorten where one fails. `iterations` counts all steps.
+    If the system states that each equation grows with its own unknown at the root (`increasing`), Newton's step is
+    changed wherever a pivot of the Jacobian is negative (`arrow.uphill_step`). If the iteration fails and the system
+    has homotopies, continuation leads from an easier system to the given one (`continuation`). A stage that fails is
+    replaced by shorter ones. `iterations` counts all steps.
 
     A lane that fails never raises and never spoils a neighbour under `vmap`: its point is finite and not a solution,
     and the returned system passes no derivative for it, so that NaN times zero cannot reach a parameter that lanes
-    share. Whoever computes results from the point masks them by `converged`.
+    share. The caller must mask results that it computes from the point by `converged`.
 
     **Arguments:** `system`: equations and parameters; `options`: tolerances and limits.
     """
@@ -236,6 +236,8 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
     end = root.end
     elements, globals_ = jnp.abs(end.equations.residual.elements), jnp.abs(end.equations.residual.globals)
     sizes = jnp.concatenate([jnp.max(elements, axis=1, initial=0.0), globals_])
+    # a system without unknowns is solved by its one point
+    sizes = sizes if sizes.size else jnp.zeros(1)
     worst = jnp.argmax(jnp.where(jnp.isnan(sizes), jnp.inf, sizes))
     m = elements.shape[0]
     worst_element = jnp.argmax(elements[jnp.minimum(worst, m - 1)]) if m else jnp.asarray(0)

@@ -1,5 +1,6 @@
 """Linear solves for many small dense systems, component axes first, batch axis last."""
 
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
@@ -7,6 +8,8 @@ from . import lapack
 
 UNROLLED_LIMIT = 4
 """Largest block eliminated by unrolled scalar arithmetic; above it LAPACK is faster (measured)."""
+MOST_PIVOTS_UNROLLED = 8
+"""Largest matrix whose pivots are made positive by unrolled arithmetic: the program grows with the third power."""
 
 
 def solve_blocks(
@@ -60,6 +63,8 @@ def with_positive_pivots(
     """The matrix with additions to its diagonal that make negative pivots of its elimination positive, with the same
     absolute value; and True where something was added."""
     m = matrix.shape[0]
+    if m > MOST_PIVOTS_UNROLLED:
+        return _positive_pivots_in_a_loop(matrix)
     rows = [[matrix[i, j] for j in range(m)] for i in range(m)]
     changed = jnp.zeros(matrix.shape[2:], dtype=bool)
     added = []
@@ -74,6 +79,25 @@ def with_positive_pivots(
                 rows[i][j] = rows[i][j] - factor * rows[k][j]
     shifted = [[matrix[i, j] + added[i] if i == j else matrix[i, j] for j in range(m)] for i in range(m)]
     return jnp.stack([jnp.stack(row) for row in shifted]) if m else matrix, changed
+
+
+def _positive_pivots_in_a_loop(
+    matrix: Float[Array, "m m *batch"],
+) -> tuple[Float[Array, "m m *batch"], Bool[Array, "*batch"]]:
+    """`with_positive_pivots` of a large matrix."""
+    m = matrix.shape[0]
+    place = jnp.arange(m).reshape((m,) + (1,) * (matrix.ndim - 2))
+
+    def eliminate(k: Array, state: tuple[Array, Array]) -> tuple[Array, Array]:
+        rows, added = state
+        pivot = rows[k, k]
+        added = added.at[k].set(jnp.where(pivot < 0, -2.0 * pivot, 0.0))
+        factor = jnp.where(place > k, rows[:, k] / jnp.abs(pivot)[None], 0.0)
+        return rows - factor[:, None] * rows[k][None], added
+
+    _, added = jax.lax.fori_loop(0, m, eliminate, (matrix, jnp.zeros_like(matrix[0])))
+    diagonal = jnp.eye(m).reshape((m, m) + (1,) * (matrix.ndim - 2))
+    return matrix + diagonal * added[:, None], jnp.any(added > 0, axis=0)
 
 
 def cholesky(matrix: Float[Array, "m m"]) -> Float[Array, "m m"]:

@@ -16,10 +16,11 @@ from pydantic_core import PydanticCustomError
 from ..bearings.priors import DRAG
 from .distributions import means_of
 from .errors import SceneError
-from .fields import names_at
+from .fields import names_at, tables_at
 from .kinds import kind_named
 from .laws import MAXWELL_EYRING
 from .oil.catalogue import with_catalogue
+from .shaft.members import at, each_bearing, put
 from .units import LENGTH, parse
 
 Preset = Literal["best"]
@@ -156,6 +157,8 @@ _OF_SLIDING = {
     "tapered_roller_bearing": (),
 }
 """Kind of scene -> tables that only a scene with traction has."""
+_SHAFT = "shaft"
+"""The kind of scenes whose bearings have presets of their own."""
 _TILTS = ("misalignment", "misalignment_lateral", "moment", "moment_lateral")
 """Fields of the operating point with which cylindrical rollers tilt, and then roll without sliding."""
 
@@ -168,11 +171,14 @@ def listing(kind: str) -> Iterator[tuple[str, str]]:
 
 
 def filling(tables: Mapping[str, Any], removed: tuple[str, ...], model: type[BaseModel], file: str) -> Filling:
-    """The tables of a scene with what its preset adds; without a preset as they are.
+    """The tables of a scene with what its preset adds, or those of the bearings on a shaft; without a preset as they
+    are.
 
     **Arguments:** `removed`: dotted paths that a `--set` takes out; `model`: schema of the scene; `file`: its name.
     """
     kind = kind_named(tables.get("kind"))
+    if kind == _SHAFT:
+        return _on_shaft(tables, removed, model, file)
     if tables.get("laws") != "best" or kind not in BEST:
         return Filling(dict(tables), {})
     known = _with_means(tables, model, file)
@@ -193,6 +199,33 @@ def filling(tables: Mapping[str, Any], removed: tuple[str, ...], model: type[Bas
         added |= {f"{table}.{name}": value for name, value in found.items()}
     estimated = tuple(path for path in added if path in _ESTIMATED)
     return Filling(filled, added, estimated, tuple(left_out))
+
+
+def _on_shaft(tables: Mapping[str, Any], removed: tuple[str, ...], model: type[BaseModel], file: str) -> Filling:
+    """The tables of a shaft with what the presets of its bearings add; arguments as of `filling`."""
+    found = Filling(dict(tables), {})
+    for keys in each_bearing(tables):
+        entry, models, above = at(tables, keys), tables_at(model, keys), ".".join(keys)
+        if not isinstance(entry, Mapping) or not models:
+            continue
+        mine = tuple(path.removeprefix(f"{above}.") for path in removed if path.startswith(f"{above}."))
+        one = filling(entry, mine, models[0], file)
+        found = Filling(
+            put(found.tables, keys, one.tables),
+            found.added | {f"{above}.{path}": value for path, value in one.added.items()},
+            (*found.estimated, *(f"{above}.{path}" for path in one.estimated)),
+            (*found.left_out, *(f"{above}.{text}" for text in one.left_out)),
+        )
+    return found
+
+
+def names_a_preset(tables: Any) -> bool:
+    """True for tables that may have a preset: they name one, or they name a scene of a bearing that is not read yet."""
+    if isinstance(tables, list):
+        return any(names_a_preset(one) for one in tables)
+    if not isinstance(tables, Mapping):
+        return False
+    return "laws" in tables or isinstance(tables.get("scene"), str) or any(map(names_a_preset, tables.values()))
 
 
 def _with_means(tables: Mapping[str, Any], model: type[BaseModel], file: str) -> Mapping[str, Any]:

@@ -20,7 +20,9 @@ from .kinds import kind_named
 from .oil.catalogue import with_catalogue
 from .oil.files import Origin, origins, prior_ranges
 from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value, preset
+from .presets import names_a_preset
 from .presets import said_of as said_of_preset
+from .shaft.members import at, each_bearing, put
 from .table import Table
 from .toml_files import parse_toml, read_text
 from .units import describe, shortened
@@ -52,7 +54,7 @@ _KINDS = {
 """Kinds of scenes; each is imported when the first scene of it is read."""
 KINDS = tuple(_KINDS)
 SHAFT = "shaft"
-"""The kind of scenes with bearings that have scenes themselves."""
+"""Kind of the scenes whose parts include the scenes of bearings."""
 
 
 def _module(kind: _Kind, name: str) -> ModuleType:
@@ -81,7 +83,7 @@ def tables_of(scene: AbstractScene) -> dict[str, Any]:
 
 
 def plain_scene(scene: AbstractScene) -> AbstractScene:
-    """The scene with what has no effect in it as files give it."""
+    """The scene, with the values of a scene file in all fields that have no effect."""
     return _module(_KINDS[SHAFT], "writer").plain_scene(scene) if scene.kind == SHAFT else scene
 
 
@@ -90,14 +92,14 @@ def load_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
 
     **Arguments:**
     - `source`: path of a TOML file, or one of `builtin_names()`.
-    - `overrides`: dotted path of a field -> value as it would be typed, {"operation.inner_speed": "12000 rpm"}, or a
-      plain number for a field without a unit; the
-      value "none" takes an optional table or field out. `oil.file` and the files of `simulation` are relative to the
-      working folder here, and to the file's own folder in a scene file.
+    - `overrides`: maps the dotted path of a field to its value, as text with a unit, {"operation.inner_speed":
+      "12000 rpm"}, or as a plain number for a field without a unit. The value "none" removes an optional table or
+      field. Here, `oil.file` and the files of `simulation` are relative to the working folder; in a scene file they are
+      relative to the folder of that file.
 
-    A field that is given as a distribution has its mean in the scene: a `MeanUsedWarning` says so. What `laws = "best"`
-    stands for, law by law, is said by a `PresetUsedWarning`. The states of a load spectrum are no part of the scene: a
-    `StatesUnusedWarning` says so.
+    A field that is given as a distribution takes its mean, and a `MeanUsedWarning` reports it. A `PresetUsedWarning`
+    lists the laws that `laws = "best"` stands for. The scene leaves out the states of a load spectrum, and a
+    `StatesUnusedWarning` reports it.
 
     **Raises:** `SceneError` with file, field, what was found and what is expected.
     """
@@ -109,8 +111,8 @@ def load_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
 
 
 def load_distributions(source: str | Path, overrides: Overrides | None = None) -> dict[str, Distribution]:
-    """The fields of a scene that are given as a distribution, by dotted path, in SI, and those of its oil that are a
-    prior of the catalogue (a standard oil's rheology); arguments as those of `load_scene`.
+    """The distributions in a scene, by dotted path, in SI units: the fields that are given as a distribution, and the
+    priors of the catalogue for its oil (the rheology of a standard oil). Arguments as those of `load_scene`.
 
     **Raises:** as `load_scene`.
     """
@@ -121,9 +123,9 @@ def load_distributions(source: str | Path, overrides: Overrides | None = None) -
 def distributions_in(
     mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None, *, priors: bool = False
 ) -> dict[str, Distribution]:
-    """The distributions in the tables of a scene; arguments as those of `scene_from_tables`, and `priors`: with those
-    of the oil's catalogue. **Raises:** `SceneError` with what is wrong with them; what else is wrong with the scene is
-    not looked at."""
+    """The distributions in the tables of a scene. Arguments as those of `scene_from_tables`; `priors`: True to include
+    the priors of the oil catalogue. **Raises:** `SceneError` for errors in the distributions; other errors of the scene
+    are not checked."""
     overrides = as_texts(overrides)
     try:
         model, _ = _schema(mapping, overrides, origin)
@@ -137,7 +139,7 @@ def distributions_in(
 
 
 def warn_of_means(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> None:
-    """Warns of each distribution of which a scene has the mean; arguments and errors as those of
+    """Warns about each distribution that a scene replaces by its mean. Arguments and errors as those of
     `distributions_in`."""
     found = distributions_in(mapping, origin, overrides)
     if not found:
@@ -148,8 +150,8 @@ def warn_of_means(mapping: Mapping[str, Any], origin: str, overrides: Overrides 
 
 
 def warn_of_preset(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> None:
-    """Warns of the laws, and of the estimates, for which the preset of a scene stands; arguments as those of
-    `scene_from_tables`, which has read the same."""
+    """Warns which laws and estimates the preset of a scene stands for. Arguments as those of `scene_from_tables`, which
+    must have accepted them."""
     said = preset_note(mapping, origin, overrides)
     if said:
         warnings.warn(said, PresetUsedWarning, stacklevel=3)
@@ -158,7 +160,7 @@ def warn_of_preset(mapping: Mapping[str, Any], origin: str, overrides: Overrides
 def preset_note(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> str:
     """What the preset of a scene stands for, law by law; "" without a preset. Arguments as of `warn_of_preset`."""
     texts = as_texts(overrides)
-    if "laws" not in mapping and "laws" not in texts:
+    if not names_a_preset(mapping) and not any(path.rpartition(".")[2] in ("laws", "scene") for path in texts):
         return ""
     return said_of_preset(preset(mapping, texts, scene_model(mapping, texts, origin), origin)[0])
 
@@ -214,7 +216,7 @@ def _schema(
 
 
 def _with_culprit(problem: SceneError, overrides: Mapping[str, str], origin: str) -> SceneError:
-    """The problem with the `--set` that is to blame for it beside the name of the file, where there is one."""
+    """The problem. If an override caused it, that `--set` is added to the name of the file."""
     culprit = next((path for path in overrides if _related(path, problem.path)), None)
     if culprit is None or problem.file != origin:
         return problem
@@ -228,7 +230,7 @@ def _build(
     origin: str,
     problems: list[SceneError],
 ) -> AbstractScene:
-    """**Raises:** `SceneError` with these problems and all that the schema and the classes refuse."""
+    """Builds the scene. **Raises:** `SceneError` with `problems` and all errors that schema and classes find."""
     complete, refused, unknown = _with_oils(raw)
     table, found = draft(model, complete, origin, refused)
     problems = [*problems, *unknown, *found]
@@ -248,22 +250,21 @@ def _build(
 
 
 def _with_oils(raw: Mapping[str, Any]) -> tuple[dict[str, Any], list[str], list[SceneError]]:
-    """The tables with what their oils stand for, those of bearings on a shaft too; names of tables whose oil is
-    refused, and why."""
+    """The tables with catalogue oils replaced by their data, also for bearings on a shaft. Also returns the names of
+    tables whose oil is invalid, and the errors."""
     complete, refused, problems = dict(raw), [], []
     if isinstance(raw.get("oil"), Mapping):
         try:
             complete["oil"] = with_catalogue(raw["oil"])
         except SceneError as error:
             refused, problems = ["oil"], [error]
-    for word in ("bearing", "set") if is_shaft(raw) else ():
-        entries = raw.get(word)
-        for name, entry in entries.items() if isinstance(entries, Mapping) else ():
-            if isinstance(entry, Mapping):
-                inner, wrong, found = _with_oils(entry)
-                complete[word] = {**complete[word], name: inner}
-                refused += [word] if wrong else []
-                problems += [one.inside(f"{word}.{name}") for one in found]
+    for keys in each_bearing(raw) if is_shaft(raw) else ():
+        entry = at(raw, keys)
+        if isinstance(entry, Mapping):
+            inner, wrong, found = _with_oils(entry)
+            complete = put(complete, keys, inner)
+            refused += [keys[0]] if wrong else []
+            problems += [one.inside(".".join(keys)) for one in found]
     return complete, refused, problems
 
 
@@ -291,18 +292,18 @@ def read_tables(source: str | Path) -> tuple[str, dict[str, Any]]:
 
 
 def without_states(mapping: Mapping[str, Any]) -> dict[str, Any]:
-    """The tables without the states of a load spectrum; those of a shaft, whose states are a part of it, as they
-    are."""
+    """The tables without the states of a load spectrum. The tables of a shaft are returned unchanged, because states
+    are part of a shaft."""
     return {name: table for name, table in mapping.items() if name != STATES or is_shaft(mapping)}
 
 
 def read_base(source: str | Path) -> tuple[str, dict[str, Any]]:
-    """As `read_tables`, with a `StatesUnusedWarning` of states that are left out."""
+    """As `read_tables`, but warns with `StatesUnusedWarning` if states are left out."""
     label, mapping = read_all(source)
     states = None if is_shaft(mapping) else mapping.pop(STATES, None)
     if states is not None:
         count = len(states) if isinstance(states, list) else 1
-        said = f"{label}: the scene is that without its {count} [[state]] tables; 'jaxbearing spectrum' solves them"
+        said = f"{label}: the scene leaves out its {count} [[state]] tables; 'jaxbearing spectrum' solves them"
         warnings.warn(said, StatesUnusedWarning, stacklevel=3)
     return label, mapping
 
@@ -334,11 +335,11 @@ def _read_file(source: str | Path) -> tuple[str, dict[str, Any]]:
 
 _OF_OIL = (("simulation", "oil_inlet_table"), ("simulation", "oil_flow_table"))
 _FILES = (("oil",), ("simulation", "speed_table"), ("simulation", "load_table"), *_OF_OIL)
-"""Tables with the name of a further file in their field `file`."""
+"""Tables whose field `file` names another file."""
 
 
 def _beside(mapping: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """The tables of a file in this folder, with the paths of further files as they are seen from here."""
+    """The tables of a file in `folder`, with the paths of other files made relative to the working folder."""
     for tables in _FILES:
         mapping = _moved(mapping, tables, folder)
     return mapping

@@ -60,6 +60,7 @@ SPEED = Dimension("a rotational speed", "rad/s", "10500 rpm")
 SURFACE_SPEED = Dimension("a speed", "m/s", "1 mm/s")
 FORCE = Dimension("a force", "N", "25 kN")
 LINE_LOAD = Dimension("a load per length or a stiffness", "N/m", "76.31 N/mm")
+FOUNDATION = Dimension("a stiffness per length", "N/m^2", "1e10 N/m^2")
 LINE_CONTACT_STIFFNESS = Dimension("a stiffness of line contacts", "N/m^(10/9)", "60 N/um^(10/9)")
 MOMENT = Dimension("a moment", "N*m", "50 N*m")
 PRESSURE = Dimension("a pressure or modulus", "Pa", "203 GPa")
@@ -96,7 +97,7 @@ _BY_UNIT = {
         *(DENSITY, VISCOSITY, KINEMATIC_VISCOSITY, CONDUCTIVITY, CONDUCTIVITY_SLOPE, KELVIN_PER_PRESSURE),
         *(KELVIN2_PER_PRESSURE, TIME, FREQUENCY, TANGENTIAL_COMPLIANCE, LINE_CONTACT_STIFFNESS, THERMAL_EXPANSION),
         *(HEAT_CAPACITY, HEAT_CAPACITY_SLOPE, HEAT_CONDUCTANCE, BODY_HEAT_CAPACITY, AREA),
-        *(MASS, ACCELERATION, TILT_STIFFNESS),
+        *(MASS, ACCELERATION, TILT_STIFFNESS, FOUNDATION),
     )
 } | {"kg/(m^3 K)": DENSITY_SLOPE}
 

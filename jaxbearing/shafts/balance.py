@@ -20,6 +20,8 @@ import numpy as np
 from jax.scipy.linalg import block_diag
 from jaxtyping import Array, Float
 
+from ..numerics import lapack
+from ..numerics.once import once
 from .beam import Beam, beam_of, gravity_along, shifts
 from .forces import AbstractForce, ActingForce
 from .mounting import Support
@@ -71,11 +73,7 @@ class Balance(eqx.Module):
 
     def inverse(self, stiffness: Float[Array, "bearing 5 5"]) -> Float[Array, "unknown unknown"]:
         """Inverse of the derivatives of the residual. **Arguments:** `stiffness`: of the bearings in their frames."""
-        rows, columns = self.row_units(), self.column_units()
-        coupled = jnp.einsum("bij,bjz->biz", stiffness, self.attach.reshape(self.count, 5, -1))
-        matrix = self.linear + self.left @ coupled.reshape(5 * self.count, -1)
-        scaled = jnp.linalg.inv(matrix * rows[:, None] * columns[None, :])
-        return columns[:, None] * scaled * rows[None, :]
+        return _inverse(self, stiffness)
 
     def lengths(self) -> Float[Array, "5"]:
         """Factors that make lengths of the five freedoms."""
@@ -98,6 +96,15 @@ class Balance(eqx.Module):
         outer = unknowns[5 + 5 * n : 5 + 10 * n].reshape(n, 5) if self.supported else jnp.zeros((n, 5))
         end = len(unknowns) - self.springs
         return Parts(unknowns[:5], unknowns[5 : 5 + 5 * n].reshape(n, 5), outer, unknowns[end:])
+
+
+@once
+def _inverse(balance: Balance, stiffness: Array) -> Array:
+    rows, columns = balance.row_units(), balance.column_units()
+    coupled = jnp.einsum("bij,bjz->biz", stiffness, balance.attach.reshape(balance.count, 5, -1))
+    matrix = balance.linear + balance.left @ coupled.reshape(5 * balance.count, -1)
+    scaled = lapack.inverse(matrix * rows[:, None] * columns[None, :])
+    return columns[:, None] * scaled * rows[None, :]
 
 
 class Parts(NamedTuple):

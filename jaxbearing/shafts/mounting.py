@@ -16,7 +16,7 @@ from jaxtyping import Array, Float
 from .._scene import label, number, optional_number
 from .._types import Scalar
 from ..bearings.bearing import AbstractBearing
-from ..numerics.checks import Checked
+from ..numerics.checks import RANGES, Checked, array_module, demand
 from ..numerics.precision import as_float
 from ..numerics.structure import choice
 
@@ -136,6 +136,14 @@ class MountedBearing(Checked):
         return SENSES[self.thrust]
 
 
+def _demand_each(name: str, values: Any, bound: str) -> None:
+    """Checks each of several numbers of a set. **Raises:** `ValueError` for known ones beyond their bound."""
+    if not isinstance(values, np.ndarray | np.generic | float | jax.Array):
+        return
+    fine = array_module(values).all(RANGES[bound].holds(values))
+    demand(f"{{path}}.{name} must be {bound}", fine, lambda: f"set.{name} must be {bound}, got {np.asarray(values)}")
+
+
 class MatchedSet(Checked):
     """Several bearings that are ground to each other and mounted side by side.
 
@@ -182,6 +190,8 @@ class MatchedSet(Checked):
             shape = () if value is None else np.shape(value)
             if shape and shape != (count,):
                 raise ValueError(f"set.{name} must have {count} numbers for the picture {self.picture!r}, got {shape}")
+        _demand_each("distance", self.distance, "> 0")
+        _demand_each("mismatch", self.mismatch, "finite")
 
     @property
     def count(self) -> int:

@@ -1,6 +1,7 @@
 """Dotted paths of the numbers of a shaft, as scene files have them: `bearing.rear.position`,
 `bearing.rear.geometry.diametral_clearance`, `set.front.preload.force`, `force.pinion.torque`,
 `shaft.sections.2.outer_diameter`. Bearings, sets and forces are found by their names, sections by their numbers from 1.
+So are the bearings of a set that differ: `set.front.bearing.2.geometry.n_balls`.
 """
 
 import dataclasses
@@ -16,6 +17,8 @@ LISTS = {"bearing": "bearings", "set": "sets", "force": "forces"}
 """First word of a path -> field of `ShaftSystem` that holds what it is about."""
 _BEARING = "scene"
 """Field of a mounted bearing, or of a set, that holds the bearing; paths leave it out."""
+NUMBERED = "bearing"
+"""Word of a path before the number of one of the different bearings of a set."""
 _Changes = dict[tuple[str, ...], Any]
 
 
@@ -82,12 +85,33 @@ def _changed(entry: Any, changes: _Changes, above: str) -> Any:
             wrong = next(iter(bearings))
             raise AttributeError(f"the scene has no '{above}.{wrong}': {type(entry).__name__} has {', '.join(own)}")
         scene = entry.scene
-        if isinstance(scene, tuple):
-            scene = tuple(_of_bearing(one, bearings) for one in scene)
-        else:
-            scene = _of_bearing(scene, bearings)
-        mine[(_BEARING,)] = scene
+        one = not isinstance(scene, tuple)
+        mine[(_BEARING,)] = _of_bearing(scene, bearings) if one else _of_bearings(scene, bearings, above)
     return _replaced(entry, mine, f"{above}.")
+
+
+def _of_bearings(scenes: tuple[Any, ...], changes: dict[str, Any], above: str) -> tuple[Any, ...]:
+    """The bearings of a set that differ: a change is of the one that its path numbers, or of all.
+
+    **Raises:** `AttributeError` for a number that the set does not have.
+    """
+    found = list(scenes)
+    for path, value in changes.items():
+        keys = path.split(".")
+        if keys[0] != NUMBERED:
+            found = [_of_bearing(one, {path: value}) for one in found]
+            continue
+        place = _number(keys[1:2], len(scenes))
+        if place is None:
+            raise AttributeError(f"the scene has no '{above}.{path}'; the set has bearings 1 to {len(scenes)}")
+        found[place] = _of_bearing(found[place], {".".join(keys[2:]): value})
+    return tuple(found)
+
+
+def _number(keys: list[str], count: int) -> int | None:
+    """The place of a bearing by its number from 1; `None` where there is none."""
+    given = keys[0] if keys else ""
+    return int(given) - 1 if given.isdecimal() and 1 <= int(given) <= count else None
 
 
 def _of_bearing(scene: Any, changes: dict[str, Any]) -> Any:
@@ -107,8 +131,12 @@ def path_in_file(system: Any, path: str) -> str:
         place = re.fullmatch(r"shaft\.sections\.(\d+)\.(.*)", path)
         return path if place is None else f"shaft.sections.{int(place[1]) + 1}.{place[2]}"
     word = next(word for word, field in LISTS.items() if field == found[1])
-    name = names_of(system, word)[int(found[2])]
-    return f"{word}.{name}.{found[3].removeprefix(f'{_BEARING}.')}"
+    place = int(found[2])
+    name, rest = names_of(system, word)[place], found[3].removeprefix(f"{_BEARING}.")
+    if rest != found[3] and isinstance(entries_of(system, word)[place].scene, tuple):
+        number, _, rest = rest.partition(".")
+        rest = f"{NUMBERED}.{int(number) + 1}.{rest}"
+    return f"{word}.{name}.{rest}"
 
 
 def part_at(system: Any, path: str) -> Any:
@@ -131,7 +159,13 @@ def _inside(part: Any, keys: list[str]) -> Any:
         own = [field.name for field in dataclasses.fields(part)] if isinstance(part, eqx.Module) else []
         if key not in own and _BEARING in own:
             scene: Any = getattr(part, _BEARING)
-            return _inside(scene[0] if isinstance(scene, tuple) else scene, keys[place:])
+            rest = keys[place:]
+            if not isinstance(scene, tuple):
+                return _inside(scene, rest)
+            if key != NUMBERED:
+                return _inside(scene[0], rest)
+            number = _number(rest[1:2], len(scene))
+            return None if number is None else _inside(scene[number], rest[2:])
         part = getattr(part, key, None)
     return part
 

@@ -7,6 +7,10 @@ it. Newton's steps are accepted where the potential falls (Armijo), with a facto
 step is shortened (Levenberg). At the minimum begins Newton's iteration with each bearing's own solution under a held
 ring: with the centrifugal force of every ball, films, friction, cage, seats and temperatures as its scene has them, and
 the exact stiffness. Derivatives follow from the implicit function theorem at that root.
+
+`Balance` holds the linear part of the problem: the shaft, its supports and its loads. Its matrix `attach` gives the
+displacement of each bearing from the unknowns. Some sets of bearings are preloaded by a force, an offset or a spring,
+which adds an unknown and its equation.
 """
 
 from typing import Any, NamedTuple
@@ -14,6 +18,7 @@ from typing import Any, NamedTuple
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from ..numerics.newton import NewtonOptions
@@ -23,31 +28,38 @@ from .balance import Balance
 from .batches import AbstractBatch, LinearBatch, RollingBatch, solutions
 
 START_TOLERANCE = 1e-5
-"""Residual of the first stage, over the size of the loads."""
+"""Tolerance of the first stage for the residual, relative to the size of the loads."""
 TRIALS = 400
-"""Most trials of the first stage. Supports of 1e3 N/m, 10 mm away, need 60."""
+"""Largest number of trials of the first stage. A shaft that reaches supports of 1e3 N/m after 10 mm needs 60."""
 LONGEST_STEP = 2e-4
 """Largest displacement in one step of the first stage, m; tilts are multiplied by the span."""
 FARTHEST, MOST_TILT = 1e-2, 0.1
-"""Displacement, m, and tilt, rad, of an inner ring against its outer ring beyond which there is no equilibrium."""
+"""Largest displacement, m, and tilt, rad, of an inner ring relative to its outer ring; beyond them the search reports
+that there is no equilibrium."""
+FAR_START = 0.1
+"""Part of these bounds beyond which the search does not begin at the shaft that is clamped at x = 0: a load that bends
+a slender cantilever by more than `FARTHEST` is harmless between bearings."""
+NOMINAL, ARM = 1e8, 5e-3
+"""Stiffness of each bearing, N/m, with which the search begins there, and its lever against tilt, m."""
 SOFTEST, LEAST_STIFFNESS = 1e2, 1e5
-"""Stiffness, N/m, that is added to every freedom of a bearing in the first stage, and the least one that the factor of
-Levenberg multiplies."""
+"""Stiffness that the first stage adds to every freedom of a bearing, and lower limit of the stiffness that the
+Levenberg factor multiplies, N/m."""
 FACTOR, LEAST_FACTOR, TENFOLD = 1e-9, 1e-12, 10.0
-"""First and least factor of Levenberg, and by how much it grows where a step is shortened and falls elsewhere."""
+"""First and smallest Levenberg factor, and the ratio by which it grows after a shortened step and falls after a full
+step."""
 ARMIJO, SHORTER, SHORTEST = 1e-4, 0.3, 1e-6
-"""Part of the promised fall that a step must bring; factor of one that does not; fraction at which a step is taken as
-it is, because the fall is lost in rounding."""
+"""Fraction of the predicted decrease that a step must achieve; factor by which a rejected step is shortened; fraction
+below which a step is accepted in any case, because its decrease is lost in round-off."""
 ANCHOR = 0.1
-"""Stiffness, N/m, that is added to every freedom of a bearing in the steps of the second stage and in derivatives: a
-shaft that floats in clearance without load has a place of its own. It exerts no force, and is 1e-9 of the stiffness of
-a loaded bearing."""
+"""Stiffness, N/m, that is added to every freedom of a bearing in the steps of the second stage and in derivatives. It
+gives a unique position to a shaft that floats in its clearance without load. It exerts no force, and is 1e-9 of the
+stiffness of a loaded bearing."""
 NEWTON_TRIALS = 60
 """Most trials of the second stage."""
 ROUNDED_STEP = 1e-16
-"""Displacement, m, below which a Newton step is rounding."""
+"""Displacement, m, below which a Newton step counts as round-off."""
 MOST_ROUNDED = 1e-7
-"""Largest scaled residual that may be left where the step is rounding."""
+"""Largest scaled residual that is accepted if the Newton step is round-off."""
 
 
 class Problem(eqx.Module):
@@ -87,7 +99,7 @@ def _held(problem: Problem, rows: list[Any], displacement: Float[Array, "bearing
 def ports(
     problem: Problem, displacement: Float[Array, "bearing 5"], options: NewtonOptions
 ) -> tuple[Float[Array, "bearing 5"], Float[Array, "bearing 5 5"], Bool[Array, ""]]:
-    """Forces and stiffness of all bearings by their own solutions, and whether all have one."""
+    """Forces and stiffness of all bearings from their full solutions, and whether all solutions converged."""
     forces, stiffness, good = [], [], jnp.asarray(True)
     for batch in problem.batches:
         own = displacement[batch.index]
@@ -104,8 +116,9 @@ def ports(
 
 
 class Start(NamedTuple):
-    """End of the first stage: the unknowns, the scaled residual, steps, whether a ring ran away, and the freedom that
-    moved farthest (5 times the bearing's number + freedom)."""
+    """End of the first stage: the unknowns, the scaled residual, the number of steps, whether a ring left its range
+    (`FARTHEST`, `MOST_TILT`), the index of the freedom that moved farthest (5 times bearing plus freedom), and the
+    scale."""
 
     unknowns: Float[Array, " unknown"]
     residual: Float[Array, ""]
@@ -131,16 +144,30 @@ class _Descent(NamedTuple):
     steps: Int[Array, ""]
 
 
+def _first_place(balance: Balance, most: Array) -> Array:
+    """Where the search begins: at no displacement and no force of the bearings, or, where that is far from contact, at
+    the equilibrium on linear bearings.
+
+    **Arguments:** `most`: bounds of the displacements, m and rad.
+    """
+    zero = jnp.zeros_like(balance.load)
+    displacement = balance.offset.reshape(balance.count, 5)
+    nominal = jnp.asarray(NOMINAL * np.diag([1.0, 1.0, 1.0, ARM**2, ARM**2]))
+    residual = balance.left @ (displacement @ nominal).ravel() - balance.load
+    on_springs = -balance.inverse(jnp.broadcast_to(nominal, (balance.count, 5, 5))) @ residual
+    return jnp.where(jnp.max(jnp.abs(displacement) / most[None]) > FAR_START, on_springs, zero)
+
+
 def minimise(problem: Problem) -> Start:
     """The minimum of the potential to `START_TOLERANCE`."""
     problem = jax.lax.stop_gradient(problem)
     balance = problem.balance
     rows = [batch.rows(problem.expansion) for batch in problem.batches]
-    zero = jnp.zeros_like(balance.load)
-    at_zero = balance.displacements(zero)
-    elements = [batch.initial(row, at_zero[batch.index]) for batch, row in zip(problem.batches, rows, strict=True)]
-    units, lengths = balance.row_units(), balance.lengths()
     most = jnp.where(jnp.arange(5) < 3, FARTHEST, MOST_TILT)
+    first = _first_place(balance, most)
+    at_first = balance.displacements(first)
+    elements = [batch.initial(row, at_first[batch.index]) for batch, row in zip(problem.batches, rows, strict=True)]
+    units, lengths = balance.row_units(), balance.lengths()
 
     def look(state: _Descent) -> _Descent:
         trial = state.unknowns + state.fraction * state.step
@@ -160,7 +187,7 @@ def minimise(problem: Problem) -> Start:
         step = -balance.inverse(held.stiffness + more[:, :, None] * jnp.eye(5)[None]) @ residual
         moved = jnp.max(jnp.abs((balance.attach @ step).reshape(-1, 5) * lengths[None]))
         step = step * jnp.minimum(1.0, LONGEST_STEP / jnp.maximum(moved, 1e-30))
-        # closures load the bearings without an outer load: the first trial is the start
+        # preload acts even without an external load, so the scale is that of the first trial
         loaded = balance.force_scale + jnp.sum(jnp.abs(held.force / lengths[None]))
         scale = jnp.where(state.trials == 0, loaded, state.scale)
         size = jnp.max(jnp.abs(residual * units)) / scale
@@ -186,16 +213,16 @@ def minimise(problem: Problem) -> Start:
 
     one, none = jnp.ones(()), jnp.asarray(0)
     begin = _Descent(
-        unknowns=zero,
+        unknowns=first,
         elements=elements,
-        step=zero,
+        step=jnp.zeros_like(first),
         energy=jnp.inf * one,
         slope=0.0 * one,
         fraction=one,
         factor=FACTOR * one,
         residual=jnp.inf * one,
         scale=one,
-        far=jnp.zeros_like(at_zero),
+        far=jnp.zeros_like(at_first),
         done=none > 0,
         trials=none,
         steps=none,
@@ -209,7 +236,7 @@ class Root(NamedTuple):
     """The equilibrium.
 
     - `unknowns`: see `balance`.
-    - `inverse`: of the derivatives of the residual by the unknowns.
+    - `inverse`: inverse of the Jacobian of the residual.
     - `solved`: True if the search converged.
     """
 

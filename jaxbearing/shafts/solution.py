@@ -29,6 +29,8 @@ class BearingOnShaft(eqx.Module):
       bearing.
     - `life`: `None` without a rating in the bearing's scene.
     - `name`, `sense`: its name; 1 if its axis points along +X, else -1.
+    - `sliding_difference`: of rollers that slide, whose losses come from another model than the forces on the shaft;
+      `None` of all others.
     """
 
     position: _Number = eqx.field(metadata=label("m", "position along the shaft"))
@@ -57,6 +59,10 @@ class BearingOnShaft(eqx.Module):
     life: Life | None
     name: str = eqx.field(static=True)
     sense: float = eqx.field(static=True)
+    sliding_difference: Float[Array, "5"] | None = eqx.field(
+        default=None,
+        metadata=label("mixed", "force of the sliding rollers at the same displacement without tilt, less force"),
+    )
 
     @property
     def radial_force(self) -> Float[Array, "*batch"]:

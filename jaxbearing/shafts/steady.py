@@ -214,6 +214,9 @@ def _bearings(
                 name=place.name,
                 sense=place.sense,
             )
+            if apart is not None:
+                assert losses is not None
+                found[index] = dataclasses.replace(found[index], sliding_difference=losses.force - force[number])
             if one is not None:
                 assert losses is not None
                 checks |= {f"{place.name}: {text}": flag for text, flag in losses.checks.items()}

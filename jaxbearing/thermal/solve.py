@@ -177,8 +177,12 @@ def _stability(slopes: Slopes | None, solved: Array, capacity: Array | None) -> 
     """Margin and rate where the slopes are known; of a lane that failed, finite numbers that mean nothing."""
     if slopes is None:
         return None, None
-    slopes = jax.lax.stop_gradient(slopes)
     there = Slopes(*(jnp.where(solved, matrix, jnp.eye(matrix.shape[0])) for matrix in slopes))
+    return in_turn(_margin_and_rate, jax.lax.stop_gradient((there, capacity)))
+
+
+def _margin_and_rate(given: tuple[Slopes, Array | None]) -> tuple[Array, Array | None]:
+    there, capacity = given
     return thermal_margin(there), None if capacity is None else thermal_rate(there, capacity)
 
 

@@ -41,7 +41,11 @@ def sampled(dataset: xr.Dataset, labels: Mapping[str, Label]) -> dict[str, Sampl
     good = dataset["failure"].values == ""
     found = {}
     for name, label in labels.items():
-        values = np.asarray(dataset[label.variable].values, dtype=np.float64)
+        data = dataset[label.variable]
+        if label.along is not None:
+            dimension, one = label.along
+            data = data.sel({dimension: one})
+        values = np.asarray(data.values, dtype=np.float64)
         if values.shape[:1] != good.shape:
             # all samples share it
             values = np.broadcast_to(values, (good.size, *values.shape))

@@ -1,7 +1,6 @@
 """Which results of a solution are looked at, and their labels."""
 
 import dataclasses
-import functools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
@@ -11,6 +10,7 @@ import jax.numpy as jnp
 
 from .._derived import derived_parts, derived_results
 from ..bearings.operation import LOAD_FIELDS, AbstractOperation
+from ..bearings.solution import RING_FREEDOMS, force_units
 from ..report.labels import dimensions
 from ..scenes.errors import nearest
 
@@ -29,16 +29,26 @@ DEFAULT = (
     "traction_coefficient",
 )
 """Results that are looked at where none is named, as far as a scene has them."""
-_NAME = re.compile(r"(?P<name>[A-Za-z_][\w.]*)(?:\[(?P<place>[0-9]{1,6})\])?")
+MIXED = "mixed"
+"""Unit, in labels, of results whose numbers have units of their own."""
+_OF_ENTRIES = {"bearings": ("largest_load",), "sets": ("preload", "loss_force")}
+"""Usual results of each bearing and set of a shaft."""
+_ALONG = {"bearings": "bearing", "sets": "set"}
+"""Results of a shaft by the names of its bearings and sets -> the dimension of data sets that they stand along."""
+_SYSTEM = {"life": "system", "torque": "torque"}
+"""Parts of a shaft's results -> the beginning of their names in data sets."""
+_NAME = re.compile(r"(?P<name>[A-Za-z_][\w.-]*)(?:\[(?P<place>[0-9]{1,6})\])?")
 
 
 class Label(NamedTuple):
-    """Unit and description of a result, its name in data sets, and its place there."""
+    """Unit and description of a result, its name in data sets, and its place there; `along`: dimension and name of the
+    bearing, or set, of a shaft."""
 
     unit: str
     description: str
     variable: str
     place: int | None
+    along: tuple[str, str] | None = None
 
 
 def values_of(solution: Any, names: Sequence[str]) -> dict[str, jax.Array]:
@@ -53,7 +63,8 @@ def names_in(solution: Any, wanted: Sequence[str] | None) -> tuple[str, ...]:
     """
     known = dict(_known(solution))
     if wanted is None:
-        found = tuple(name for name in (*DEFAULT, *_forces(solution)) if _there(solution, name, known))
+        usual = (*DEFAULT, *_forces(solution), *_of_entries(solution))
+        found = tuple(name for name in usual if _there(solution, name, known))
         if not found:
             raise ValueError("results: found none of those that are usual in this scene; expected names of results")
         return found
@@ -66,9 +77,51 @@ def labels_of(solution: Any, names: Sequence[str]) -> dict[str, Label]:
     for name in names:
         path, place = _parted(name)
         said = known[path]
-        words = said["description"] if place is None else f"{said['description']}, {said['dims'][0]} {place}"
-        found[name] = Label(_unit(said, place), words, variable_of(path), place)
+        words = said["description"] if place is None else f"{said['description']}, {_place_in_words(said, place)}"
+        variable, along = _in_data(solution, path)
+        found[name] = Label(_unit(path, said, place), words, variable, place, along)
     return found
+
+
+def _place_in_words(said: Mapping[str, Any], place: int) -> str:
+    if said["unit"] == MIXED:
+        return RING_FREEDOMS[place].replace("_", " ")
+    return f"{said['dims'][0]} {place}"
+
+
+def _entry_of(solution: Any, path: str) -> tuple[str, str, str] | None:
+    """Field of a shaft's results with one part for each name, the name, and the rest of a path; `None` of others."""
+    table, _, rest = path.partition(".")
+    entries = getattr(solution, table, None)
+    if table not in _ALONG or not isinstance(entries, Mapping):
+        return None
+    name = max((one for one in entries if rest.startswith(f"{one}.")), key=len, default=None)
+    return None if name is None else (table, name, rest.removeprefix(f"{name}."))
+
+
+def _in_data(solution: Any, path: str) -> tuple[str, tuple[str, str] | None]:
+    """Name of a result in data sets, and the dimension and name of its bearing or set."""
+    entry = _entry_of(solution, path)
+    if entry is not None:
+        table, name, rest = entry
+        if rest.startswith("solution."):
+            return f"{name.replace('.', '_')}_{variable_of(rest.removeprefix('solution.'))}", None
+        return f"{_ALONG[table]}_{rest.replace('.', '_')}", (_ALONG[table], name)
+    part, _, rest = path.partition(".")
+    if part in _SYSTEM and isinstance(getattr(solution, "bearings", None), Mapping):
+        return f"{_SYSTEM[part]}_{rest.replace('.', '_')}", None
+    return variable_of(path), None
+
+
+def _at(solution: Any, path: str) -> Any:
+    """The result at a path."""
+    entry = _entry_of(solution, path)
+    if entry is not None:
+        table, name, path = entry
+        solution = getattr(solution, table)[name]
+    for name in path.split("."):
+        solution = getattr(solution, name)
+    return solution
 
 
 def paths_of(solution: Any) -> tuple[str, ...]:
@@ -81,12 +134,12 @@ def variable_of(path: str) -> str:
     return path.removeprefix("elements.").replace(".", "_")
 
 
-def _unit(said: Mapping[str, Any], place: int | None) -> str:
-    if said["dims"] == ("freedom",) and place is not None:
-        from ..bearings.solution import force_units
-
-        return force_units()[place]
-    return said["unit"]
+def _unit(path: str, said: Mapping[str, Any], place: int | None) -> str:
+    if place is None:
+        return said["unit"]
+    if path.endswith(".outer") and said["unit"] == MIXED:
+        return ("m", "m", "m", "rad", "rad")[place]
+    return force_units()[place] if said["dims"] == ("freedom",) or said["unit"] == MIXED else said["unit"]
 
 
 def _known(part: Any, above: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
@@ -95,6 +148,9 @@ def _known(part: Any, above: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
         value = getattr(part, field.name)
         if dataclasses.is_dataclass(value):
             yield from _known(value, f"{above}{field.name}.")
+        elif field.name in _ALONG and isinstance(value, Mapping):
+            for name, one in value.items():
+                yield from _known(one, f"{above}{field.name}.{name}.")
         elif value is not None and field.metadata.get("description"):
             yield above + field.name, {**field.metadata, "dims": dimensions(field.type)}
     for name, one in derived_parts(type(part)).items():
@@ -112,7 +168,7 @@ def _parted(name: str) -> tuple[str, int | None]:
 
 
 def _value(solution: Any, path: str, place: int | None) -> Any:
-    value = functools.reduce(getattr, path.split("."), solution)
+    value = _at(solution, path)
     return value.reshape(()) if place is None else value[place]
 
 
@@ -127,7 +183,7 @@ def _there(solution: Any, name: str, known: Mapping[str, Any]) -> bool:
     if path == "fit.axial_shift" and solution.fit.clearance is not None:
         # the play of tapered bearings only
         return False
-    value = functools.reduce(getattr, path.split("."), solution)
+    value = _at(solution, path)
     return value is not None and (place is not None or value.size == 1)
 
 
@@ -139,11 +195,19 @@ def _forces(solution: Any) -> Iterator[str]:
             yield f"force[{place}]"
 
 
+def _of_entries(solution: Any) -> Iterator[str]:
+    """Usual results of the bearings and sets of a shaft."""
+    for table, names in _OF_ENTRIES.items():
+        entries = getattr(solution, table, None)
+        for entry in entries if isinstance(entries, Mapping) else ():
+            yield from (f"{table}.{entry}.{name}" for name in names)
+
+
 def _resolved(solution: Any, text: str, known: Mapping[str, Mapping[str, Any]]) -> str:
     parted = _NAME.fullmatch(text.strip())
     name = "" if parted is None else parted["name"]
     path = next((one for one in known if name in (one, variable_of(one), one.replace(".", "_"))), None)
-    value = None if path is None else functools.reduce(getattr, path.split("."), solution)
+    value = None if path is None else _at(solution, path)
     if parted is None or path is None or value is None:
         near = nearest(name, {one for path in known for one in (path, variable_of(path))}) if name else ""
         hint = f"; did you mean '{near}'?" if near else ""

@@ -20,6 +20,7 @@ from ..catalogue.dimensions import clearance_limits
 from ..distribution import Distribution
 from ..mounting import iso286
 from ..sensitivity import UsualTolerance
+from ..shafts.paths import NUMBERED
 from ..shafts.scene import ShaftSystem
 
 BORE_OVER_PITCH = 0.7
@@ -128,11 +129,14 @@ def _on_shaft(scene: ShaftSystem, given: Mapping[str, Distribution]) -> dict[str
             found[named] = one
     for word, entries in (("bearing", scene.bearings), ("set", scene.sets)):
         for entry in entries:
-            bearing = entry.scene[0] if isinstance(entry.scene, tuple) else entry.scene
-            if isinstance(bearing, AbstractScene):
-                inner = usual_tolerances(bearing)
+            above = f"{word}.{entry.name}"
+            each = {above: entry.scene}
+            if isinstance(entry.scene, tuple):
+                each = {f"{above}.{NUMBERED}.{place + 1}": one for place, one in enumerate(entry.scene)}
+            for name, bearing in each.items():
+                inner = usual_tolerances(bearing) if isinstance(bearing, AbstractScene) else {}
                 kept = {path: one for path, one in inner.items() if not path.startswith("operation.")}
-                found |= {f"{word}.{entry.name}.{path}": one for path, one in kept.items()}
+                found |= {f"{name}.{path}": one for path, one in kept.items()}
     found |= {
         path: UsualTolerance(0.5 * (one.highest - one.lowest), "as the scene says") for path, one in given.items()
     }

@@ -73,7 +73,7 @@ def test_the_whole_report(request):
     assert [name for name, section in found["sections"].items() if "failed" in section] == []
     facts = report.facts_of(found)
     # what is left out would be looked at by none of the loops
-    counted = ("roller", "ball", "scaling", "dynamics", "film", "sweep")
+    counted = ("roller", "ball", "scaling", "dynamics", "film", "sweep", "shaft")
     assert {name for name in facts if name.endswith(": failed")} == {f"{name}: failed" for name in counted}
     assert sum(name.endswith("reference off scipy's DOP853, um") for name in facts) == 1
     for name, value in facts.items():
@@ -92,6 +92,8 @@ def test_the_whole_report(request):
     assert facts["roller: error of Newton"] < 1e-9
     assert facts["ball: error of the core"] < 1e-9
     assert facts["tapered: error with 30 laminae"] < 1e-6
+    assert facts["shaft: error, four bearings"] < 1e-9
+    assert facts["shaft: exponent over bearings"] < 1.2
     assert 1.8 < facts["film: order of the error"] < 2.2
     assert facts["film: mass balance"] < 1e-8
     assert facts["fit: noise-free recovery"] < 1e-6

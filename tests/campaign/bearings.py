@@ -280,17 +280,24 @@ def _work(numbers: Numbers, results: Results) -> np.ndarray:
     return sum((numbers[load] * results[f"ring.{name}"] for load, name in pairs if load in numbers), np.zeros(1))
 
 
-def _softer(numbers: Numbers, results: Results, others: Numbers, twin: Results) -> np.ndarray:
+def _yields(numbers: Numbers, results: Results, others: Numbers, twin: Results) -> np.ndarray:
     """How far the work falls; an elastic bearing gives way in the direction of its load: the operator is monotone."""
     before, after = _work(numbers, results), _work(numbers, twin)
-    lighter = largest(results["elements.load_inner"]) - largest(twin["elements.load_inner"])
     scale = np.maximum(np.abs(before), np.abs(after))
+    return (before - after) / np.maximum(scale, TINY)
+
+
+def _softer(numbers: Numbers, results: Results, others: Numbers, twin: Results) -> np.ndarray:
+    """How far the work falls, or under a single load the largest load of an element."""
+    lighter = largest(results["elements.load_inner"]) - largest(twin["elements.load_inner"])
     single = sum(name in numbers for name in LOADS) == 1
     unloaded = lighter / np.maximum(largest(results["elements.load_inner"]), TINY) if single else np.zeros(1)
-    return np.maximum((before - after) / np.maximum(scale, TINY), unloaded)
+    return np.maximum(_yields(numbers, results, others, twin), unloaded)
 
 
 HEAVIER = Twin("more load, more deflection", _heavier, _softer, 1e-9, base=at_rest)
+YIELDING = Twin("more load, more work", _heavier, _yields, 1e-9, base=at_rest)
+"""Where lobes press elements at the sides of the load: more load may relieve these."""
 CRAWL = Twin("at rest = hardly turning", _crawling, _crawl_error, 1e-6, base=at_rest)
 SCALE = 1.7
 

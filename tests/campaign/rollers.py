@@ -106,7 +106,10 @@ def roller_numbers(v: Numbers, scene: Any) -> Numbers:
     return numbers
 
 
-def roller_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:
+def roller_balances(
+    scene: Any, n: Numbers, r: Results, opening: np.ndarray | float = 0.0
+) -> dict[str, tuple[np.ndarray, float]]:
+    """**Arguments:** `opening`: of the outer raceway at each roller, m, where it is not round."""
     inner, outer = r["elements.load_inner"], r["elements.load_outer"]
     cosine = np.cos(r["elements.azimuth"])
     radial = n["operation.radial_load"]
@@ -135,7 +138,7 @@ def roller_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.nd
         error = np.maximum(np.abs(pressure - r[f"elements.pressure_{name}"]) - least, 0.0)
         found[f"Hertz, {name}"] = (np.max(error, axis=1) / np.max(pressure, axis=1), 1e-9)
     approach = elastic.palmgren(inner.T, length, modulus).T + elastic.palmgren(outer.T, length, modulus).T
-    closing = r["ring.radial"][:, None] * cosine - n["geometry.diametral_clearance"][:, None] / 2.0
+    closing = r["ring.radial"][:, None] * cosine - n["geometry.diametral_clearance"][:, None] / 2.0 - opening
     scale = np.max(np.abs(closing), axis=1) + np.max(approach, axis=1)
     if scene.contact is None:
         gap = np.where(inner > 0, approach - closing, np.maximum(closing - approach, 0.0))

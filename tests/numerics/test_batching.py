@@ -103,7 +103,8 @@ def test_on_other_devices_lanes_go_side_by_side(monkeypatch):
     monkeypatch.undo()
     mapped = jax.make_jaxpr(jax.vmap(size))(SCALES)
     loops = lambda program: str(program).count("scan[")
-    assert loops(mapped) == loops(text) + 1
+    assert loops(text) == 0
+    assert loops(mapped) > 0  # the search, and what LAPACK solves after it
 
 
 def test_a_lane_that_fails_harms_no_other():

@@ -60,6 +60,13 @@ def test_lanes_and_their_derivatives(batched):
             np.testing.assert_allclose(slopes[0][lane], -by_right @ x.T, rtol=1e-10, atol=1e-12)
 
 
+def test_lowest_eigenvalue():
+    matrices = some(4, 5, 5)
+    found = jax.jit(jax.vmap(lapack.lowest_eigenvalue))(matrices)
+    np.testing.assert_allclose(found, np.linalg.eigvalsh(0.5 * (matrices + matrices.mT))[:, 0], rtol=1e-12)
+    assert not np.any(jax.grad(lapack.lowest_eigenvalue)(matrices[0]))
+
+
 def test_a_singular_lane_spoils_no_other():
     matrices = some(3, 5, 5).at[1].set(0.0)
     found = jax.jit(jax.vmap(lapack.solve))(matrices, some(3, 5, 1, seed=1))
@@ -67,10 +74,12 @@ def test_a_singular_lane_spoils_no_other():
     assert np.all(np.isfinite(found[::2]))
 
 
-@pytest.mark.parametrize("solve", ["lapack.solve(m, r)", "dense.solve_dense(m, r[:, 0])"])
+@pytest.mark.parametrize(
+    "solve", ["lapack.solve(m, r)", "lapack.lowest_eigenvalue(m)", "dense.solve_dense(m, r[:, 0])"]
+)
 def test_many_lanes_of_two_solves_end(solve):
-    """In jaxlib 0.10 two batched triangular solves at once on two threads wait for ever; a process that hangs is ended
-    by its time limit, 100 times what it needs."""
+    """In jaxlib 0.10 two batched calls of LAPACK at once on two threads wait for ever. The time limit, 100 times what
+    the process needs, ends one that hangs."""
     program = f"""
         import jax, jax.numpy as jnp, numpy as np
         from jaxbearing.numerics import dense, lapack

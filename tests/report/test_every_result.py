@@ -18,7 +18,7 @@ from rich.console import Console
 
 import jaxbearing as jb
 from jaxbearing import plots
-from jaxbearing.bearings import frequencies, solution, supplied
+from jaxbearing.bearings import frequencies, ring_deflection, solution, supplied
 from jaxbearing.bearings.ball import solution as ball_solution
 from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
 from jaxbearing.bearings.solution import RING_FREEDOMS, Solution
@@ -60,6 +60,7 @@ PARTS = (
     solution.BoundaryPower,
     solution.RollingByRace,
     supplied.SupplyResult,
+    ring_deflection.RingDeflection,
     frequencies.KinematicFrequencies,
     tapered_solution.TaperedResults,
     tapered_solution.TaperedPowerLoss,

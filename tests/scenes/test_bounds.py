@@ -26,9 +26,7 @@ from jaxbearing.scenes.reader import builtin_names, load_scene
 from jaxbearing.sweeps.fields import SceneSource, dimension_of
 from jaxbearing.time_laws import Tabulated
 
-_OF_BEARINGS = [name for name in builtin_names() if load_scene(name).kind != "shaft"]
-"""Without shafts, whose numbers have other paths in trees than in files (`shafts.paths`)."""
-SCENES = [*_OF_BEARINGS, "rated", "rotating load", "capped couple"]
+SCENES = [*builtin_names(), "rated", "rotating load", "capped couple"]
 RATED = {
     "rating.dynamic_capacity": "14 kN",
     "rating.static_capacity": "8 kN",
@@ -118,7 +116,7 @@ def test_eager_copies_are_refused_and_traced_ones_are_flagged(name):
             bad.flat[-1] = value
             in_files = path.rpartition(".")[2].replace("friction_coefficient", "gyroscopic_friction")
             with pytest.raises(ValueError, match=in_files):
-                given.replace({path: bad if shape else float(value)})
+                given.replace({given.path_in_file(path): bad if shape else float(value)})
             leaves = jax.tree.leaves(given)
             leaves[where[path]] = bad
             flags, valid = broken(leaves)

@@ -79,7 +79,8 @@ def test_built_in_scenes(name, tmp_path):
 def _in_order(tables):
     if tables["kind"] == "shaft":  # [life] without a slope of its own stands for tables [rating] of the bearings
         return [name for name in ("kind", "shaft", "set", "bearing", "force", "state") if name in tables]
-    order = ("kind", "geometry", "materials", "oil", "contact", "kinematics", "cage", "flange", "drag", "rating")
+    order = ("kind", "geometry", "outer_ring", "materials", "oil", "contact")
+    order = (*order, "kinematics", "cage", "flange", "drag", "rating")
     return [name for name in (*order, "operation", "fits", "temperatures", "thermal", "simulation") if name in tables]
 
 

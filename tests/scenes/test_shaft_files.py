@@ -220,11 +220,125 @@ def test_round_trip(pair, tmp_path):
     assert [one["name"] for one in written["bearing"]] == ["left", "right"]
 
 
+MIXED = """
+kind = "shaft"
+[shaft]
+speed = "1000 rpm"
+[housing]
+matrix = MATRIX
+[[set]]
+name = "front"
+picture = "<>"
+scene = ["tapered_example", "own.toml"]
+position = "10 mm"
+distance = "30 mm"
+preload = {offset = "3 um"}
+[set.bearing.2.geometry]
+pitch_diameter = "41 mm"
+"""
+
+
+@pytest.fixture
+def mixed(tmp_path):
+    """A set of a tapered roller bearing and of a ball bearing in a file beside that of the shaft."""
+    text = builtin_text("deep_groove_6205").replace('"7.938 mm"', '"7.9 mm"')
+    (tmp_path / "own.toml").write_text(text, encoding="utf-8")
+    entry = lambda i, j: (
+        '"2 N"' if i != j and (i % 5 > 2) != (j % 5 > 2) else '"5 kN*m/rad"' if i % 5 > 2 else '"1 N/um"'
+    )
+    rows = ", ".join(
+        "[" + ", ".join(entry(i, j) if i == j or j == 0 else "0" for j in range(10)) + "]" for i in range(10)
+    )
+    path = tmp_path / "mixed.toml"
+    path.write_text(MIXED.replace("MATRIX", f"[{rows}]"), encoding="utf-8")
+    return path
+
+
+def test_a_set_of_different_bearings(mixed):
+    """Found by their numbers from 1 in paths of files, of `replace` and of trees."""
+    scene = jb.load_scene(mixed, {"set.front.bearing.2.geometry.n_balls": "8"})
+    first, second = scene.sets[0].scenes
+    assert (first.kind, second.kind) == ("tapered_roller_bearing", "ball_bearing")
+    assert (second.geometry.n_balls, float(second.geometry.ball_diameter)) == (8, 7.9e-3)
+    path = "set.front.bearing.2.geometry.pitch_diameter"
+    assert float(part_at(scene, path)) == 41e-3
+    changed = scene.replace({path: 42e-3})
+    assert float(part_at(changed, path)) == 42e-3
+    assert changed.sets[0].scenes[0] is first
+    leaves, _ = jax.tree_util.tree_flatten_with_path(scene)
+    for keys, value in leaves:
+        path = path_in_file(scene, jax.tree_util.keystr(keys, simple=True, separator="."))
+        assert part_at(scene, path) is value, path
+    with pytest.raises(AttributeError, match="the set has bearings 1 to 2"):
+        scene.replace({"set.front.bearing.3.geometry.pitch_diameter": 42e-3})
+    other = jb.load_scene(mixed, {"set.front.bearing.1.scene": "deep_groove_6205"})
+    assert [one.kind for one in other.sets[0].scenes] == ["ball_bearing"] * 2
+
+
+def test_the_stiffness_of_a_housing(mixed):
+    housing = jb.load_scene(mixed).housing
+    assert housing.shape == (10, 10)
+    np.testing.assert_array_equal(np.diag(housing), [1e6, 1e6, 1e6, 5e3, 5e3] * 2)
+    assert (housing[3, 0], housing[5, 0], housing[0, 1]) == (2.0, 1e6, 0.0)
+    text = mixed.read_text(encoding="utf-8")
+    mixed.write_text(text.replace('[["1 N/um"', '[["1 N"'), encoding="utf-8")
+    assert "housing.matrix: found the text '1 N', whose unit is of another kind (axial, axial)" in refused(mixed)
+    mixed.write_text(text, encoding="utf-8")
+    found = refused(mixed, "set.front.picture=<<>", "set.front.scene=tapered_example")
+    assert re.search(r"housing: .* expected the shape|housing .*must have the shape \(15, 15\)", found), found
+
+
+def test_different_bearings_and_a_housing_are_saved(mixed, tmp_path):
+    scene = jb.load_scene(mixed)
+    jb.save_scene(scene, tmp_path / "back.toml")
+    assert_same(jb.load_scene(tmp_path / "back.toml"), scene)
+    written = tomllib.loads((tmp_path / "back.toml").read_text(encoding="utf-8"))
+    assert [one["kind"] for one in written["set"][0]["bearing"]] == ["tapered_roller_bearing", "ball_bearing"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('"own.toml"]', "3]", "set.front.scene: found the .*number 3.* expected a scene, or a list of scenes"),
+        ('"own.toml"]', '"two_disk_etm"]', "set.front.bearing.2.scene: .* expected the scene of a bearing"),
+        (
+            '"own.toml"]',
+            '"own.toml", "own.toml"]',
+            "one for each sign",
+        ),
+        ("[set.bearing.2.geometry]", "[set.geometry]", "set.front.geometry: found the unknown name"),
+        (
+            "pitch_diameter",
+            "pich_diameter",
+            "set.front.bearing.2.geometry.pich_diameter: .* Did you mean 'pitch_diameter'",
+        ),
+    ],
+)
+def test_wrong_sets_of_different_bearings(mixed, old, new, said):
+    mixed.write_text(mixed.read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
+    found = refused(mixed)
+    assert re.search(said, found), found
+
+
+def test_the_best_laws_of_a_bearing_on_a_shaft(tmp_path):
+    """They stand in the table of the bearing, or in its own file; a warning says for what."""
+    text = builtin_text("turbine_ball")
+    alone = tmp_path / "alone.toml"
+    kept = [line for line in text.splitlines() if not line.startswith(("film", "thermal", "traction", "rolling"))]
+    alone.write_text("\n".join(kept), encoding="utf-8")
+    path = tmp_path / "shaft.toml"
+    path.write_text(PAIR.replace("SCENE", "alone.toml").partition("[bearing.geometry]")[0], encoding="utf-8")
+    changes = {"bearing.right.laws": "best", "bearing.right.cage": "none", "bearing.right.drag": "none"}
+    with pytest.warns(jb.PresetUsedWarning, match=r"stands for bearing\.right\.contact\.film = 'nijenbanning'"):
+        scene = jb.load_scene(path, changes)
+    with pytest.warns(jb.PresetUsedWarning):
+        single = jb.load_scene(alone, {"laws": "best", "cage": "none", "drag": "none"})
+    assert jax.tree.structure(scene.bearings[1].scene.contact) == jax.tree.structure(single.contact)
+    assert scene.bearings[0].scene.contact is None
+
+
 def test_what_a_file_cannot_hold():
     scene = jb.load_scene("gear_shaft")
-    housing = dataclasses.replace(scene, housing=np.eye(15) * 1e9)
-    with pytest.raises(jb.SceneError, match="housing"):
-        jb.save_scene(housing, "never.toml")
     with pytest.raises(jb.SceneError, match="traced"):
         jax.jit(lambda torque: jb.save_scene(scene.replace({"force.pinion.torque": torque}), "never.toml"))(1.0)
 

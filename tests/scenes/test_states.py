@@ -57,7 +57,7 @@ def test_states_are_changes_of_the_scene(written):
 
 def test_other_readers_take_the_scene_without_them_and_say_so(written):
     path = written(STATES)
-    with pytest.warns(jb.StatesUnusedWarning, match=r"without its 3 \[\[state\]\] tables; 'jaxbearing spectrum'"):
+    with pytest.warns(jb.StatesUnusedWarning, match=r"leaves out its 3 \[\[state\]\] tables; 'jaxbearing spectrum'"):
         scene = jb.load_scene(path)
     assert scene.operation.radial_load == 1500.0
     with pytest.warns(jb.StatesUnusedWarning):

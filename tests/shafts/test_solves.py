@@ -6,7 +6,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from shaft_cases import DEEP_GROOVE, NU, RPM, P, gear_shaft, pair, steel, two_deep_grooves
+from shaft_cases import DEEP_GROOVE, NU, RPM, P, gear_shaft, pair, rollers, steel, two_deep_grooves
 
 import jaxbearing as jb
 from jaxbearing.bearings.ring import shift_matrix
@@ -20,6 +20,7 @@ from jaxbearing.shafts import (
     Section,
     Shaft,
     ShaftSystem,
+    Support,
 )
 
 PRELOAD = Preload(force=180.0)
@@ -73,6 +74,17 @@ def test_a_linear_shaft_agrees_with_the_finite_element():
     found = np.asarray(solved.shaft.displacement)
     np.testing.assert_allclose(found[[0, -1], 1], moved[[0, 2]], rtol=1e-9)
     np.testing.assert_allclose(-found[[0, -1], 3], moved[[1, 3]], rtol=1e-9)
+
+
+def test_a_load_that_bends_the_clamped_shaft_far():
+    """The search knows the shaft as clamped at x = 0, where 200 kN bend it by 18 mm at the second bearing, beyond the
+    bound of displacements. Between its bearings the shaft bends by 1 mm. Linear bearings answer in proportion."""
+    solve = jax.jit(lambda load: jb.solve(linear_shaft().replace({"force.load.radial": load}), throw=False))
+    none, light, heavy = (solve(load) for load in (0.0, 300.0, 2e5))
+    assert int(heavy.status) == jb.Status.CONVERGED
+    moved = np.asarray(heavy.shaft.displacement - none.shaft.displacement)
+    expected = 2e5 / 300.0 * np.asarray(light.shaft.displacement - none.shaft.displacement)
+    np.testing.assert_allclose(moved, expected, rtol=1e-7, atol=1e-12)
 
 
 def test_bearings_at_one_place():
@@ -162,11 +174,65 @@ def test_two_bearings_that_float():
 
 @pytest.mark.slow
 def test_hard_cases_of_the_sheet():
-    """20 N across 60 um; preload that is lost under 5 kN."""
-    light = two_deep_grooves(clearance=60e-6)
-    light = light.replace({"force.load.radial": 20.0})
-    assert bool(jb.solve(light).converged)
+    """20 N across 60 um; a shaft a million times as stiff; preload that is lost under 5 kN; supports that give way by
+    millimetres; an X pair whose pressure centres meet, under a moment."""
+    solve = jax.jit(lambda clearance, radial, modulus: jb.solve(hard(clearance, radial, modulus), throw=False))
+    for numbers in ((60e-6, 20.0, 206e9), (12e-6, 2e3, 206e15)):
+        assert bool(solve(*numbers).converged), numbers
     assert bool(jb.solve(pair(preload=PRELOAD, axial=5e3)).converged)
+    soft = Support(axial=1e4, radial=1e5, tilt=1e3)
+    far = dataclasses.replace(hard(12e-6, 500.0, 206e9), bearings=hard(12e-6, 500.0, 206e9, soft).bearings)
+    assert bool(jb.solve(far).converged)
+    meeting = 65e-3 * np.tan(np.radians(17.0))
+    crossed = jb.solve(pair("><", preload=PRELOAD, distance=meeting, moment=5.0))
+    assert bool(crossed.converged)
+    np.testing.assert_allclose(crossed.sets["set"].support_distance, 0.0, atol=1e-12)
+
+
+def hard(clearance, radial, modulus, support=None):
+    """C4a with other numbers."""
+    system = two_deep_grooves(clearance=clearance, modulus=modulus).replace({"force.load.radial": radial})
+    if support is None:
+        return system
+    bearings = tuple(dataclasses.replace(one, support=support) for one in system.bearings)
+    return dataclasses.replace(system, bearings=bearings)
+
+
+@pytest.mark.slow
+def test_a_cylindrical_bearing_with_interference_between_two_ball_bearings():
+    """C4b of the sheet with -15 um: all forces balance."""
+    ends = [MountedBearing(name, DEEP_GROOVE, at) for name, at in (("A", 0.02), ("B", 0.28))]
+    middle = MountedBearing("M", rollers(13, 46e-3, 7.5e-3, 7.5e-3, -15e-6), 0.15)
+    forces = [PointLoad("load", 0.11, axial=50.0, radial=3e3)]
+    shaft = Shaft(3000 * RPM, [Section(0.3, 0.03)], steel(206e9))
+    solved = jb.solve(ShaftSystem(shaft, bearings=[*ends, middle], forces=forces))
+    np.testing.assert_allclose(totals(solved), 0.0, atol=1e-6)
+    assert float(solved.bearings["M"].on_shaft[1]) < -2537.691  # more than without clearance
+
+
+@pytest.mark.slow
+def test_the_drive_gives_what_the_bearings_lose():
+    """Two lubricated roller bearings with sliding, cage and drag, a gear and a drive: torques times speed are the sum
+    of all losses, as exactly as each bearing closes its own balance. The forces come from dry rollers that may tilt:
+    those of the sliding ones differ by what their films, 0.4 um on each raceway, take of the play."""
+    scene = jb.load_scene("reference_roller")
+    speed = float(scene.operation.inner_speed)
+    system = ShaftSystem(
+        Shaft(speed, [Section(0.2, 0.06)], steel(206e9)),
+        bearings=[MountedBearing("A", scene, 0.02), MountedBearing("B", scene, 0.18)],
+        forces=[PointLoad("load", 0.08, radial=8e3, tangential=1e3, radius=0.05)],
+    )
+    solved = jb.solve(system)
+    torque = solved.torque
+    np.testing.assert_allclose(float(torque.forces), 50.0, rtol=1e-14)
+    np.testing.assert_allclose((torque.forces + torque.drive) * speed, torque.power_loss, rtol=1e-9)
+    for one in solved.bearings.values():
+        closed = one.solution.inner_torque * speed
+        np.testing.assert_allclose(closed, one.solution.power_loss.total, rtol=1e-9)
+        # the films take as much of the play as they are thick
+        closed = np.linalg.solve(one.stiffness[1:3, 1:3], one.sliding_difference[1:3])
+        films = 2.0 * float(np.min(one.solution.elements.film_inner))
+        assert 0.5 * films < np.linalg.norm(closed) < 2.0 * films
 
 
 def test_changes_by_names():

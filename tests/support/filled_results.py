@@ -17,6 +17,7 @@ from warm_cases import warm
 import jaxbearing as jb
 from jaxbearing.bearings.cylindrical.motion.results import RollerEnergy, RollerInstant
 from jaxbearing.bearings.motion.history import History
+from jaxbearing.bearings.ring_shape import FlexibleRing
 from jaxbearing.bearings.warming.history import WarmUpHistory
 from jaxbearing.bearings.warming.programs import instants_at
 from jaxbearing.ehl import LineContactHistory
@@ -45,6 +46,7 @@ SCENES = {
         "turbine_roller", {"contact.rolling_resistance": "ertel_grubin", **_ROUGH, **_RATING}
     ),
     "dry roller": lambda: jb.load_scene("turbine_roller", dict.fromkeys(("contact", "cage", "flange", "drag"), "none")),
+    "flexible roller": lambda: flexible_roller(),
     "misaligned roller": lambda: page_scene(),
     "tapered": lambda: jb.load_scene("tapered_example", {"contact.supply.layer": "2 um", **_ROUGH, **_RATING}),
     "one temperature": lambda: warm("roller", 1),
@@ -57,6 +59,20 @@ SCENES = {
     "line contact": lambda: jb.load_scene("satellite_contact_1"),
 }
 """Every kind of scene, with all of its optional parts (several where parts exclude each other) and with none."""
+
+
+def flexible_roller():
+    """Dry rollers in a ring on a housing and a support."""
+    ring = FlexibleRing(
+        thickness=8e-3,
+        harmonics=3,
+        housing_stiffness=1e10,
+        support_angle=[0.0],
+        support_stiffness=[1e8],
+        support_gap=[0.0],
+    )
+    return dataclasses.replace(SCENES["dry roller"](), outer_ring=ring)
+
 
 _traced: list[tuple[typing.Any, typing.Any]] = []
 

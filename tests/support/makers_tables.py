@@ -1,10 +1,11 @@
-"""Bearings of makers' tables in `tests/catalogue`: dimensions, ratings and, of spindle bearings, internal geometry."""
+"""Bearings of makers' tables in `tests/catalogue` and `docs/examples`: dimensions, ratings, and of spindle bearings the
+internal geometry."""
 
 import csv
 from pathlib import Path
 from typing import NamedTuple
 
-FOLDER = Path(__file__).parents[1] / "catalogue"
+FOLDERS = [Path(__file__).parents[1] / "catalogue", Path(__file__).parents[2] / "docs" / "examples"]
 NOT_IN_THE_TABLES = {"NU 1292", "NU 2268", "NU 2272", "NU 2276 ECMA", "NU 2292"}
 """Bearings of these tables whose dimensions the package does not have."""
 
@@ -25,7 +26,8 @@ class Printed(NamedTuple):
 
 
 def _rows(name):
-    lines = (FOLDER / name).read_text(encoding="utf-8").splitlines()
+    (file,) = (folder / name for folder in FOLDERS if (folder / name).exists())
+    lines = file.read_text(encoding="utf-8").splitlines()
     return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 

@@ -12,22 +12,23 @@ Every roller orbits at the cage speed W; per roller (source eqs. (27)-(29), (38)
 - tangential: $Q_{C1} - Q_{C2} = F_i - F_o + F_E + F_{Ec} - F_{OL} + F_P$, eliminated: the two pocket films follow from
   it in closed form (`gaps.Pocket`);
 
-and globally: ring, $\sum Q_i n = F_r$ (source eq. (37)), unknown the ring displacement d; cage moment (source
-eq. (33)), unknown W. The cage offset is eliminated too: the land must carry the sum of the pocket forces, and its
-eccentricity is the root of a monotone scalar equation (`gaps.ShortJournal.static_equilibrium`).
+The global equations are the balance of the ring, $\sum Q_i n = F_r$ (source eq. (37)), with the ring displacement d as
+unknown, and the moment balance of the cage (source eq. (33)), with W as unknown. The cage offset is eliminated too: the
+land must carry the sum of the pocket forces, and its eccentricity is the root of a monotone scalar equation
+(`gaps.ShortJournal.static_equilibrium`).
 
-Rolling resistance, where the scene models it (the source omits it): in each contact the film's pressure leans against
-the motion by $P = \ell\int h\,dp/dx\,dx$. Its shear, -P/2, brakes both surfaces; its pressure passes through both
-centres and pushes the roller on by $P R/R_R$, R the reduced radius, and the ring by what is left. So
-$F_P = P_i (R_i'/R_R - 1/2) - P_o (R_o'/R_R - 1/2)$, with $R_i', R_o'$ the reduced radii, each ring is braked by P/2 at
-its raceway, and the dissipation is P times the mean speed.
+Rolling resistance, if the scene models it (the source omits it): in each contact the film pressure opposes the motion
+with the force $P = \ell\int h\,dp/dx\,dx$. The shear of the film, -P/2, brakes both surfaces. The line of action of the
+pressure passes through both centres. The pressure pushes the roller forward by $P R/R_R$, with R the reduced radius,
+and it pushes the ring by the rest of P. The force on the roller is $F_P = P_i (R_i'/R_R - 1/2) - P_o (R_o'/R_R - 1/2)$,
+with $R_i', R_o'$ the reduced radii. Each ring is braked by P/2 at its raceway. The dissipation is P times the mean
+speed.
 
-The sign of $F_{C2} - F_{C1}$ in the cage's x balance differs from the source's eq. (31), which contradicts its own
-eq. (32) and action = reaction. Each interaction gives its force and its dissipation from one and the same speed.
+The sign of $F_{C2} - F_{C1}$ in the x balance of the cage differs from the source's eq. (31). That equation contradicts
+the source's eq. (32) and action = reaction. The force and the dissipation of an interaction use the same speed.
 """
 
-import dataclasses
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import equinox as eqx
 import jax
@@ -38,33 +39,27 @@ from ...contacts import LineContact
 from ...contacts.laws import ContactLaws, ContactState
 from ...gaps import EndForces, PocketFilm
 from ...lubricants import InletOil, Lubricant
-from ...numerics.arrow import AbstractArrowSystem, ArrowPoint
+from ...numerics.arrow import ArrowPoint, seen_by_elements
 from ...numerics.roots import monotone_root
+from ..elastic_ring import ElasticRing
 from ..inlet import AbstractOils, OilElsewhere
 from ..land import LandState, guided_land
 from ..ring import LENGTH_UNIT, InnerRing
 from .forces import CageParts, forces_without_pocket, on_cage
+from .in_plane import AbstractInPlane
 from .kinematics import RollerKinematics
 from .loads import LOG_LOAD_RANGE, approach_error, guessed_loads, per_race
 
 EASED_ENTRAINMENT = 0.3
-"""Entrainment speed that a solve which failed at once is given first, over that of rolling without slip."""
+"""Entrainment speed that the easiest system of path 0 adds, divided by that of rolling without slip."""
 EASED_PRESSURE = 1.5e9
-"""Hertz pressure of the most loaded roller, Pa, at which traction surely drives the rollers: given first after that."""
-
-
-System = TypeVar("System", bound="_InPlane")
-IN_PLANE = ("radial", "lateral")
-"""Freedoms of the inner ring in the model of rollers that carry evenly along their length."""
-
-
-def outward(azimuth: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
-    """Outward unit vector at each roller, along the load line and along azimuth 90 degrees."""
-    return jnp.stack([jnp.cos(azimuth), jnp.sin(azimuth)])
+"""Hertz pressure of the most loaded roller in the easiest system of path 1, Pa. Traction surely drives the rollers
+there."""
 
 
 class RollerState(NamedTuple):
-    """Everything that happens at every roller, for given unknowns; arrays over rollers, races first where two."""
+    """State of every roller for given unknowns. The last axis runs over the rollers. A first axis of length 2 runs over
+    the races (inner, outer), and in `cage_force` over the components."""
 
     load: Float[Array, "2 roller"]
     approach: Float[Array, "2 roller"]
@@ -84,41 +79,10 @@ class RollerState(NamedTuple):
     cage_force: Float[Array, "2 roller"] | None
 
 
-class _InPlane(AbstractArrowSystem):
-    """Base of the equations of rollers that carry evenly along their length. `directions`: outward unit vectors along
-    the unknown freedoms of the `ring`; `held`: by what displacements that are given bring it towards each roller, m,
-    `None`: none is given."""
-
-    directions: eqx.AbstractVar[Float[Array, "freedom roller"]]
-    azimuth: eqx.AbstractVar[Float[Array, " roller"]]
-    ring: eqx.AbstractVar[InnerRing]
-    held: eqx.AbstractVar[Float[Array, " roller"] | None]
-
-    @property
-    def freedoms(self) -> tuple[str, ...]:
-        """Freedoms of the ring that are unknown."""
-        return self.ring.freedoms
-
-    def load_scale(self) -> Array:
-        """Scale of the ring's balances, N."""
-        return self.ring.size()
-
-    def inward(self, shared: Float[Array, "freedom ..."]) -> Float[Array, " roller"]:
-        """Displacement of the inner ring towards each roller, m, from its unknowns."""
-        shift = jnp.sum(shared * self.directions, axis=0) * LENGTH_UNIT
-        return shift if self.held is None else shift + self.held
-
-    def in_plane(self: System) -> System:
-        """The equations with both freedoms of the ring unknown."""
-        ring, both = self.ring, outward(self.azimuth)
-        free = InnerRing(jnp.full(2, ring.size() / jnp.sqrt(2.0)), jnp.zeros(5), ring.lever, IN_PLANE)
-        held = None if ring.expansion is None else jnp.broadcast_to(ring.expansion, self.azimuth.shape)
-        return dataclasses.replace(self, directions=both, ring=free, held=held)
-
-
-class LubricatedRollerSystem(AbstractOils, _InPlane):
-    """Lubricated bearing. With `cage`: unknowns (ln Qi, speed at the outer race) per roller, (ring, cage speed).
-    Without (frictionless raceways): ln Qi per roller and the ring, kinematics of rolling without slip."""
+class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
+    """Lubricated bearing. With `cage` the unknowns are ln Qi and the speed at the outer race for each roller, the ring
+    displacement and the cage speed. Without a cage the raceways are frictionless and the rollers roll without slip; the
+    unknowns are ln Qi for each roller and the ring displacement."""
 
     kinematics: RollerKinematics
     contact: LineContact
@@ -131,9 +95,11 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
     radial_clearance: Float[Array, ""]
     roller_mass: Float[Array, ""]
     held: Float[Array, " roller"] | None = None
+    out_of_round: Float[Array, " roller"] | None = None
+    outer: ElasticRing | None = None
     cage: CageParts | None = None
     elsewhere: OilElsewhere | None = None
-    """Oil of the other interactions where it is not that of the raceways, `inlet`."""
+    """Oil of the other interactions, if it differs from `inlet`, the oil of the raceways."""
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -147,20 +113,20 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
     # -- solver contract ------------------------------------------------------------------------------------------
 
     def equation_names(self) -> tuple[str, ...]:
-        ring = self.ring.equation_names()
+        ring = self.ring_names()
         if self.cage is None:
             return ("approach of the rings at a roller", *ring)
         return ("approach of the rings at a roller", "moment balance of a roller", *ring, "moment balance of the cage")
 
     def step_caps(self) -> ArrowPoint:
-        ring = [5.0] * self.directions.shape[0]
+        ring = [5.0] * (self.directions.shape[0] + self.modes)
         if self.cage is None:
             return ArrowPoint(jnp.asarray([[3.0]]), jnp.asarray(ring))
         return ArrowPoint(jnp.asarray([[3.0], [0.2]]), jnp.asarray([*ring, 0.2]))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
         low, high = LOG_LOAD_RANGE
-        ring = [1e4] * self.directions.shape[0]
+        ring = [1e4] * (self.directions.shape[0] + self.modes)
         if self.cage is None:
             return (
                 ArrowPoint(jnp.asarray([[low]]), -jnp.asarray(ring)),
@@ -172,12 +138,15 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
         )
 
     def initial(self) -> ArrowPoint:
-        """Rolling without slip; loads from a dry elastic distribution on rings swollen by the films, plus Martin's
-        film force on the rollers outside the loaded zone, at the ring displacement that carries the load."""
+        """Starts from rolling without slip. The loads are those of a dry elastic bearing whose clearance is reduced by
+        the films, plus Martin's film force on the rollers outside the loaded zone. The ring displacement is the one
+        that carries the load."""
         motion, n = self.kinematics, self.azimuth.shape[0]
         mean_speed, _ = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))
         along = self.ring.across()
-        opening = self.radial_clearance if self.held is None else self.radial_clearance - self.held
+        opening = self.radial_clearance
+        for given in (self.held, self.out_of_round):
+            opening = opening if given is None else opening - given
         shift, log_load = guessed_loads(
             self.contact,
             self.laws,
@@ -188,7 +157,7 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
             self.centrifugal(motion.free_orbit),
             opening,
         )
-        ring = along * shift / LENGTH_UNIT
+        ring = self.begun(along * shift / LENGTH_UNIT)
         if self.cage is None:
             return ArrowPoint(log_load[None, :], ring)
         return ArrowPoint(jnp.stack([log_load, jnp.zeros(n)]), jnp.concatenate([ring, jnp.zeros(1)]))
@@ -198,26 +167,39 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
         return 0 if self.cage is None else 2
 
     def homotopy(self, parameter, path):
-        """Path 0, more entrainment in every contact: where a ring and the cage nearly turn together a film collapses,
-        and the friction of a roller falls with its slip; entrainment from outside makes it grow again. Path 1, more
-        load: it pins the rollers to rolling without slip."""
+        """Path 0 adds entrainment in every contact. Where a ring and the cage turn at nearly the same speed, a film
+        collapses, and the friction on a roller falls with its slip; added entrainment makes the friction grow with the
+        slip again. Path 1 adds load, which forces the rollers to roll without slip."""
         extra = EASED_ENTRAINMENT * jnp.abs(self.kinematics.orbit_scale) * self.kinematics.outer_radius
         offset = self.laws.entrainment_offset + jnp.where(path == 0, parameter**3 * extra, 0.0)
         contact = jax.tree.map(lambda values: per_race(values)[0], self.contact)
         per_roller = 2.0 * jnp.pi * EASED_PRESSURE**2 * contact.reduced_radius * contact.length
         heavy = per_roller / contact.reduced_modulus * self.azimuth.shape[0] / 4.0
         factor = jnp.where(path == 1, jnp.maximum(heavy / self.load_scale(), 1.0) ** parameter, 1.0)
-        where = lambda system: (system.ring.load, system.laws.entrainment_offset)
-        return eqx.tree_at(where, self, (self.ring.load * factor, offset))
+        loads = lambda system: [system.ring.load, *_outer_loads(system)]
+        where = lambda system: (*loads(system), system.laws.entrainment_offset)
+        return eqx.tree_at(where, self, (*(load * factor for load in loads(self)), offset))
 
     @property
     def extra_totals(self) -> int:
-        # moment on the cage, and two components of the force for one global
+        # the one global of the cage needs three totals: the moment on the cage and two components of its force
         return 0 if self.cage is None else 2
+
+    def local_inputs(self, globals_):
+        """With an outer ring that bends: the displacement of the rings towards each roller, and the cage speed."""
+        if self.outer is None:
+            return None
+        shift = self.approaching(globals_, self.outer)
+        return shift[None] if self.cage is None else jnp.stack([shift, jnp.broadcast_to(globals_[-1], shift.shape)])
+
+    def gathered(self, globals_, acting):
+        if self.outer is None:
+            return jnp.sum(acting, axis=1)
+        return jnp.concatenate([self.on_rings(acting[:2], self.outer), jnp.sum(acting[2:], axis=1)])
 
     def element(self, unknowns, shared):
         state = self.rollers(unknowns, shared)
-        balance = state.load[0][None, :] * self.directions
+        balance = state.load[0][None, :] * self.directions if self.outer is None else state.load
         if state.moment_error is None or state.cage_moment is None or state.cage_force is None:
             return state.approach_error[None, :], balance, state.contact.inner_residual
         local = jnp.stack([state.approach_error, state.moment_error])
@@ -225,13 +207,13 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
         return local, contributions, state.contact.inner_residual
 
     def global_residual(self, globals_, totals):
-        d = self.directions.shape[0]
-        ring = (totals[:d] - self.ring.load) / self.load_scale()
+        d = self.directions.shape[0] + self.modes
+        ring = self.ring_rows(globals_, totals)
         if self.cage is None:
             return ring, jnp.zeros(())
         land = self.land(self.orbit(globals_[d]), totals[d + 1], totals[d + 2])
         scale = self.friction_scale() * self.kinematics.pitch_radius * self.azimuth.shape[0]
-        # the moment falls with the cage speed: minus it has the positive diagonal of a stiffness
+        # the moment falls with the cage speed: with its sign changed the diagonal is positive, as for a stiffness
         return jnp.concatenate([ring, -(totals[d] + land.cage_torque)[None] / scale]), land.residual
 
     # -- physics --------------------------------------------------------------------------------------------------
@@ -241,13 +223,13 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
         return self.kinematics.free_orbit + self.kinematics.orbit_unit * scaled
 
     def at(self, point: ArrowPoint) -> RollerState:
-        shape = (point.globals.shape[0], point.elements.shape[1])
-        return self.rollers(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+        return self.rollers(point.elements, seen_by_elements(self, point))
 
-    def rollers(self, unknowns: Float[Array, "m roller"], shared: Float[Array, "g roller"]) -> RollerState:
-        motion, d = self.kinematics, self.directions.shape[0]
+    def rollers(self, unknowns: Float[Array, "m roller"], shared: Float[Array, "p roller"]) -> RollerState:
+        """**Arguments:** `shared`: the globals, or with an outer ring that bends the `local_inputs`."""
+        motion, d = self.kinematics, self.directions.shape[0] if self.outer is None else 1
         log_load = unknowns[0]
-        shift = self.inward(shared[:d])
+        shift = self.inward(shared[:d]) if self.outer is None else shared[0]
         if self.cage is None:
             orbit_change = spin_change = jnp.zeros_like(log_load)
         else:
@@ -281,11 +263,11 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
         return state if self.cage is None else self._with_cage(state, self.cage)
 
     def _with_cage(self, state: RollerState, cage: CageParts) -> RollerState:
-        """Tangential and moment balance of the rollers, and what they do to the cage."""
+        """Tangential and moment balance of the rollers, and their forces on the cage."""
         motion, spin = self.kinematics, state.spin_speed
         assert cage.pocket is not None
         forces = forces_without_pocket(motion, self.contact, state.contact, cage, state.orbital_speed, spin)
-        # tangential balance: the pocket films carry what is left; front minus rear load
+        # tangential balance: the front minus the rear load of the pocket films carries the remaining force
         pocket = cage.pocket.balance(forces.tangential, spin, self.oil_of("pocket").viscosity)
         moment = forces.moment + motion.roller_radius * (pocket.friction_front + pocket.friction_rear)
         cage_moment, cage_force = on_cage(
@@ -328,9 +310,16 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
         return self.land(self.orbit(point.globals[-1]), force[0], force[1])
 
 
-class DryRollerSystem(_InPlane):
-    """Dry frictionless bearing: the loads follow from the ring displacement in closed form but for one well
-    conditioned scalar root per roller, so only the ring displacement is an unknown."""
+def _outer_loads(system: LubricatedRollerSystem) -> list[Array]:
+    """Given forces on the outer ring, which balance those on the inner one if nothing else holds it."""
+    if system.outer is None or system.outer.ring.loads is None:
+        return []
+    return [system.outer.ring.loads.radial, system.outer.ring.loads.tangential]
+
+
+class DryRollerSystem(AbstractInPlane):
+    """Dry frictionless bearing. Only the ring displacement is an unknown: the loads follow from it, with one well
+    conditioned scalar root for each roller."""
 
     kinematics: RollerKinematics
     contact: LineContact
@@ -340,34 +329,40 @@ class DryRollerSystem(_InPlane):
     radial_clearance: Float[Array, ""]
     roller_mass: Float[Array, ""]
     held: Float[Array, " roller"] | None = None
+    out_of_round: Float[Array, " roller"] | None = None
+    outer: ElasticRing | None = None
 
     def equation_names(self) -> tuple[str, ...]:
-        return self.ring.equation_names()
+        return self.ring_names()
 
     def step_caps(self) -> ArrowPoint:
         # a dry distribution is convex in the displacement: no cap is needed
-        return ArrowPoint(jnp.zeros((0, 1)), jnp.full(self.directions.shape[0], 1e4))
+        return ArrowPoint(jnp.zeros((0, 1)), jnp.full(self.directions.shape[0] + self.modes, 1e4))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        edge = jnp.full(self.directions.shape[0], 1e5)
+        edge = jnp.full(self.directions.shape[0] + self.modes, 1e5)
         return ArrowPoint(jnp.zeros((0, 1)), -edge), ArrowPoint(jnp.zeros((0, 1)), edge)
 
     def centrifugal(self) -> Array:
         return self.roller_mass * self.kinematics.pitch_radius * jnp.square(self.kinematics.free_orbit)
 
     def initial(self) -> ArrowPoint:
-        """The whole load on one roller: never outside contact, and the root is approached from above."""
+        """Starts with the whole load on one roller. The bearing is then in contact, and the root is approached from
+        above."""
         stiff = jnp.sum(self.contact.palmgren_compliance)
         shift = self.radial_clearance + stiff * (self.load_scale() + self.centrifugal()) ** 0.9
         shift = jnp.maximum(shift, 0.1 * LENGTH_UNIT)
-        ring = self.ring.across() * shift / LENGTH_UNIT
+        if self.out_of_round is not None:
+            shift = shift + jnp.max(jnp.abs(self.out_of_round))
+        ring = self.begun(self.ring.across() * shift / LENGTH_UNIT)
         return ArrowPoint(jnp.zeros((0, self.azimuth.shape[0])), ring)
 
     def loads(self, shift: Array) -> tuple[Float[Array, "2 roller"], Array]:
         r"""Loads on both races from the inward displacement of the inner ring at each roller, and the root's residual.
 
-        $k_i Q^{0.9} + k_o (Q + F_c)^{0.9} = d\cdot n - J_d/2$ with Q = 0 until the outer approach of the centrifugal
-        force is taken up; solved in $t = Q^{0.9}$, where it is nearly linear: Q is C1 at take-off, with slope 0.
+        $k_i Q^{0.9} + k_o (Q + F_c)^{0.9} = d\cdot n - J_d/2$. Q is 0 until the displacement exceeds the approach that
+        the centrifugal force causes at the outer race. The equation is solved for $t = Q^{0.9}$, in which it is nearly
+        linear. Where contact begins, Q is continuously differentiable with slope 0.
         """
         kappa = per_race(self.contact.palmgren_compliance)
         fc = self.centrifugal()
@@ -388,12 +383,23 @@ class DryRollerSystem(_InPlane):
         return jnp.stack([inner, inner + fc]), jnp.max(root.residual / x)
 
     def inward_shift(self, point: ArrowPoint) -> Array:
-        """Displacement of the inner ring towards each roller, m."""
-        return self.inward(point.globals[:, None])
+        """Displacement of the rings towards each other at each roller, m."""
+        outer = self.outer
+        return self.inward(point.globals[:, None]) if outer is None else self.approaching(point.globals, outer)
+
+    def local_inputs(self, globals_):
+        """With an outer ring that bends: the displacement of the rings towards each roller."""
+        return None if self.outer is None else self.approaching(globals_, self.outer)[None]
+
+    def gathered(self, globals_, acting):
+        return jnp.sum(acting, axis=1) if self.outer is None else self.on_rings(acting, self.outer)
 
     def element(self, unknowns, shared):
+        if self.outer is not None:
+            load, inner = self.loads(shared[0])
+            return unknowns, load, inner
         load, inner = self.loads(self.inward(shared))
         return unknowns, load[0][None, :] * self.directions, inner
 
     def global_residual(self, globals_, totals):
-        return (totals - self.ring.load) / self.load_scale(), jnp.zeros(())
+        return self.ring_rows(globals_, totals), jnp.zeros(())

@@ -85,7 +85,10 @@ def guessed_loads(
 
 
 class RaceLoads(AbstractArrowSystem):
-    """Loads of rollers whose places and speeds are given: unknowns ln Qi per roller and the ring displacement."""
+    """Loads of rollers whose places and speeds are given: unknowns ln Qi per roller and the ring displacement.
+
+    `radial_clearance`: half the clearance, m, or the opening at each roller between rings that are not round.
+    """
 
     contact: LineContact
     laws: ContactLaws
@@ -96,7 +99,7 @@ class RaceLoads(AbstractArrowSystem):
     sliding_speed: Float[Array, "2 roller"]
     centrifugal: Float[Array, " roller"]
     ring_load: Float[Array, " freedom"]
-    radial_clearance: Float[Array, ""]
+    radial_clearance: Float[Array, "*roller"]
 
     def load_scale(self) -> Array:
         """Size of the load, N; not less than a typical centrifugal force, so that no load at all has a scale."""

@@ -19,6 +19,7 @@ from ...contacts import LineContact, RigidRollingResistance
 from ...lubricants import Lubricant, NoPressureViscosity
 from ...materials import reduced_modulus
 from ...mounting import Fits, PartTemperatures
+from ...numerics.checks import demand
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
 from ...thermal.settings import Thermal
@@ -36,6 +37,7 @@ from ..profile import RollerProfile
 from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
+from ..ring_shape import UNBALANCED, FlexibleRing, InnerRoundness, OuterRoundness
 from ..row import AbstractRow
 from ..solution import RING_FREEDOMS, Solution
 from ..supplied import supply_problems
@@ -67,6 +69,9 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae; with a
       `contact` without traction: films and what rolling costs, for rolling without sliding.
     - `geometry.flange_stiffness`: the ring's axial freedom, which nothing else depends on.
+    - `outer_ring`: an outer ring that bends in its housing; `None`: it is rigid. `inner_roundness`,
+      `outer_roundness`: raceways that are not round, standing still relative to the load. All three hold for rollers
+      that carry evenly along their length; a run in time has rigid rings.
     - `simulation`: what a run in time does beyond the operating point, a `WarmUpSimulation` with `thermal`; a steady
       solve does not look at it.
 
@@ -91,6 +96,9 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     temperatures: PartTemperatures | None = None
     thermal: Thermal | None = None
     oil_temperatures: OilTemperatures | None = None
+    outer_ring: FlexibleRing | None = None
+    inner_roundness: InnerRoundness | None = None
+    outer_roundness: OuterRoundness | None = None
 
     def __check_init__(self):
         refuse_all(self._problems())
@@ -101,6 +109,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         yield from thermal_problems(self)
         yield from supply_problems(self)
         moves = isinstance(self.simulation, Simulation) and self.thermal is None
+        yield from self._shape_problems(moves)
         if moves:
             yield from refusals_of(check_run, self.operation)
         if self.contact is None:
@@ -138,6 +147,42 @@ class CylindricalRollerBearing(AbstractMovingBearing):
                         "for an isoviscous one; film = 'moes' and rolling_resistance = 'full_range' do"
                     )
 
+    def _shape_problems(self, moves: bool) -> Iterator[str | ValueError]:
+        """What rings that bend or are not round cannot be combined with."""
+        for name in self._shaped:
+            if self.tilts:
+                yield f"{name}: rollers that tilt or have a profile run between rigid, round rings in this version"
+            if moves and name == "outer_ring":
+                yield f"{name}: a run in time has rigid rings in this version; leave out the simulation"
+        ring, load = self.outer_ring, self.operation.radial_load
+        if ring is None or not ring.harmonics or ring.held:
+            return
+        if ring.load_angle is None or load is None:
+            yield (
+                "outer_ring: nothing holds the ring; expected a housing_stiffness, supports, or loads from outside and "
+                "an operation.radial_load that balance each other"
+            )
+            return
+        lateral = self.operation.load("lateral")
+        across = jnp.zeros(()) if lateral is None else jnp.asarray(lateral)
+        unbalanced = ring.unbalanced(jnp.stack([jnp.asarray(load), across]))
+        yield from refusals_of(
+            demand,
+            "outer_ring: the loads on a ring without housing and supports must balance operation.radial_load",
+            unbalanced <= UNBALANCED,
+            lambda: (
+                "outer_ring: the loads on a ring without housing and supports must balance operation.radial_load, got "
+                f"a resultant of {float(unbalanced):.3g} times the load"
+            ),
+        )
+
+    @property
+    def _shaped(self) -> tuple[str, ...]:
+        """Names of the parts that make a ring not rigid or not round."""
+        return tuple(
+            name for name in ("outer_ring", "inner_roundness", "outer_roundness") if getattr(self, name) is not None
+        )
+
     def solve_ring(
         self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
     ) -> Solution:
@@ -152,6 +197,9 @@ class CylindricalRollerBearing(AbstractMovingBearing):
             evenly = self.slips
         elif self.contact is None and not self.unknown_freedoms:
             evenly = False
+        if self._shaped:
+            # rings that bend or are not round are modelled for rollers that carry evenly only
+            evenly = True
         if evenly:
             from .steady import solve_steady
 
@@ -179,6 +227,10 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         return dataclasses.replace(self, geometry=running_geometry(self.geometry, growth))
 
     def row(self, expansion: Array) -> AbstractRow:
+        if self._shaped:
+            from .in_plane_row import InPlaneRow
+
+            return InPlaneRow(self, expansion)
         from .row import TiltingRow
 
         return TiltingRow(self, expansion)
@@ -218,8 +270,8 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
     @property
     def may_tilt(self) -> bool:
-        """False where rollers slide, which carry evenly along their length."""
-        return not self.slips
+        """False where rollers slide or a ring is not rigid or round: they carry evenly along their length."""
+        return not (self.slips or self._shaped)
 
     @property
     def skewed(self) -> bool:
@@ -281,6 +333,11 @@ class CylindricalRollerBearing(AbstractMovingBearing):
             said.append("geometry.contact_length is not given: the whole roller length carries load")
         if self.slips and self.cage is not None:
             said += self.cage.assumptions()
+        if self.outer_ring is not None and self.outer_ring.harmonics:
+            said.append(
+                "outer_ring: a thin ring that bends in its plane; the stiffness of a housing is uncertain by a factor "
+                "of 2 to 10, which moves the largest load by up to some 20 %"
+            )
         if self.slips and self.flange is not None and self.flange.height is None:
             said.append(f"flange.height is not given: assumed {ASSUMED_FLANGE_HEIGHT:.3f} of the roller diameter")
         return tuple(said)

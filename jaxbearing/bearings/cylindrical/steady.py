@@ -10,6 +10,7 @@ from ...numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results, assemble
 from ..computed import computed_results
+from ..elastic_ring import ElasticRing
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..interactions import Costs, Interaction, costs, of_land
@@ -18,15 +19,20 @@ from ..mixed import boundary_power, mixed_results
 from ..parts import azimuths, drag_density
 from ..profile import pressed_load
 from ..ring import LENGTH_UNIT, InnerRing, Port
+from ..ring_shape import out_of_round
 from ..solution import CageState, Solution
-from .equations import IN_PLANE, DryRollerSystem, LubricatedRollerSystem, RollerState, outward
+from .equations import DryRollerSystem, LubricatedRollerSystem, RollerState
 from .forces import CageParts, friction_on_rings, rolling_alone
 from .geometry import RollerCage, RollerGeometry
+from .in_plane import IN_PLANE, outward
 from .kinematics import RollerKinematics, roller_kinematics
 from .loads import LEAST_LOAD
 from .ring import roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults, SolvedRollers
+
+NOTHING_UNKNOWN = ("no unknown: given displacements are the whole state",)
+"""In place of the names of equations."""
 
 
 def build_system(
@@ -52,12 +58,14 @@ def build_system(
         reduced_modulus=jnp.asarray(reduced_modulus(scene.materials.rings, scene.materials.rollers)),
     )
     clearance, held = jnp.asarray(geometry.diametral_clearance) / 2.0, None
+    form = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth)
     if ring.asks:
         held = jnp.einsum("f,fn->n", ring.held[1:3], cosines)
         if ring.expansion is not None:
             held = held + ring.expansion
         stiffness = palmgren_stiffness(contact.length, contact.reduced_modulus)
-        asked = pressed_load(stiffness, contact.length, held - clearance, jnp.zeros(()))
+        pressed = held - clearance if form is None else held + form - clearance
+        asked = pressed_load(stiffness, contact.length, pressed, jnp.zeros(()))
         ring = ring.asking(jnp.sum(asked) + LEAST_LOAD)
     common = {
         "kinematics": motion,
@@ -66,6 +74,8 @@ def build_system(
         "azimuth": azimuth,
         "ring": ring,
         "held": held,
+        "out_of_round": form,
+        "outer": _elastic_ring(scene, azimuth),
         "radial_clearance": clearance,
         "roller_mass": scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length,
     }
@@ -80,6 +90,16 @@ def build_system(
         elsewhere=oil_elsewhere(scene),
         cage=_cage_parts(scene, motion) if scene.slips else None,
     )
+
+
+def _elastic_ring(scene: CylindricalRollerBearing, azimuth: Float[Array, " roller"]) -> ElasticRing | None:
+    """The outer ring of a scene, if it bends."""
+    part, geometry = scene.outer_ring, scene.geometry
+    if part is None or not part.harmonics:
+        return None
+    width = geometry.roller_length if geometry.width is None else geometry.width
+    ring = part.bent_ring(scene.materials.rings, geometry.outer_radius, width)
+    return ElasticRing(ring, ring.shapes(azimuth))
 
 
 def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> CageParts:
@@ -157,19 +177,21 @@ def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions, ring: 
         )
     system, result = newton_solve(build_system(scene, ring), options)
     results = _dry_results(system, result) if isinstance(system, DryRollerSystem) else _lubricated(system, result)
+    if system.outer is not None:
+        results = results._replace(outer_ring=system.outer.shape(system.amplitudes(result.point.globals)))
     return assemble(
         scene,
         result,
         results,
         system.ring.displacement(result.point.globals),
-        _port(system, result, results.elements.load_inner),
+        port_of(system, result, results.elements.load_inner),
         ring_freedom=scene.shown_freedoms if ring is None else IN_PLANE,
         stiffness_freedom=IN_PLANE if system.ring.asks else None,
-        equation_names=system.equation_names(),
+        equation_names=system.equation_names() or NOTHING_UNKNOWN,
     )
 
 
-def _port(
+def port_of(
     system: DryRollerSystem | LubricatedRollerSystem, result: NewtonResult, load: Float[Array, " roller"]
 ) -> Port:
     """The reaction and the stiffness of the ring, everything else in equilibrium; `load`: on the inner race, N.

@@ -73,9 +73,9 @@ def _polar(panel: Polar) -> Any:
                 theta=np.append(degrees, degrees[0] + 360.0).tolist(),
                 r=np.append(one.y, one.y[0]).tolist(),
                 name=one.name,
-                mode="lines+markers",
-                line={"color": one.colour, "width": 1.6},
-                marker={"symbol": one.marker, "size": 6},
+                mode="lines+markers" if one.marker else "lines",
+                line={"color": one.colour, "width": 1.6} | ({} if one.dash == "solid" else {"dash": one.dash}),
+                marker={"symbol": one.marker, "size": 6} if one.marker else None,
                 hovertemplate=f"{one.name} at %{{theta:.1f}}°: %{{r:.4g}} {panel.unit}<extra></extra>",
             )
         )

@@ -16,6 +16,7 @@ from .facts import facts, not_modelled
 from .life_facts import TITLES
 from .operation import operating_point, unused_operation
 from .panels import bearing_diagrams, bearing_panels, power_losses
+from .ring_panels import rigid_counterpart
 
 _SOLVER = ("status", "iterations", "residual_norm", "inner_residual", "worst_equation", "worst_element", "unknowns")
 _ARROWS = (
@@ -48,7 +49,7 @@ def page_content(scene: Any, solution: Solution) -> Content:
         facts=[fact for fact in facts(solution) if fact[0] not in TITLES],
         life=[row for row in results if row.path.startswith("life.")],
         not_modelled=not_modelled(solution) if solution.not_modelled else "",
-        charts=bearing_panels(solution),
+        charts=bearing_panels(solution, rigid_counterpart(scene, solution)),
         diagrams=bearing_diagrams(solution),
         convergence=list(_convergence(solution, total if losses else None)),
         checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],

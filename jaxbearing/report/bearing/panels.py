@@ -14,6 +14,7 @@ from ..panels import Axis, Bars, Curves, Numbers, Panel, Polar, Series, constant
 from .azimuth import signed_degrees
 from .network import network_diagram
 from .operation import load_angle
+from .ring_panels import ring_panels
 
 SIDES = (
     ("outer", OUTER, "square", "outer race"),
@@ -33,10 +34,13 @@ ROUND = {
 """Results of raceways or rib: title, vertical axis ("zero": it begins at 0, "log": it may be logarithmic), caption."""
 
 
-def bearing_panels(solution: Solution) -> list[Panel]:
-    """The charts of a solution, of what its scene models: losses, loads, and results over the azimuth."""
+def bearing_panels(solution: Solution, rigid: Solution | None = None) -> list[Panel]:
+    """The charts of a solution, of what its scene models: losses, loads, and results over the azimuth.
+
+    **Arguments:** `rigid`: the solution with a rigid outer ring, to compare with.
+    """
     losses = loss_panel(solution)
-    return [*([losses] if losses is not None else []), *contact_panels(solution)]
+    return [*([losses] if losses is not None else []), *contact_panels(solution), *ring_panels(solution, rigid)]
 
 
 def contact_panels(solution: Solution) -> list[Panel]:

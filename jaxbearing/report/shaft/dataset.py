@@ -23,6 +23,7 @@ _VECTORS = {
     "on_shaft": ("freedom",),
     "outer": ("freedom",),
     "stiffness": ("freedom", "freedom_displaced"),
+    "sliding_difference": ("freedom",),
 }
 """Results of a bearing with several numbers -> their dimensions."""
 _OWN = ("ring_", "force", "stiffness", "operation_", "life_", "freedom")

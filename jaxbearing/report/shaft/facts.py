@@ -126,6 +126,11 @@ def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     yield "Tilt of rings", ", ".join(f"{name} {1e3 * tilt:.3g} mrad" for name, tilt in named)
     axial = ", ".join(f"{name} {with_unit(float(one.ring.axial), 'm', 3)}" for name, one in solution.bearings.items())
     yield "Axial", f"inner ring against outer ring: {axial}"
+    apart = {name: one.sliding_difference for name, one in solution.bearings.items()}
+    sizes = {name: float(np.linalg.norm(np.asarray(one)[:3])) for name, one in apart.items() if one is not None}
+    if sizes:
+        said = ", ".join(f"{name} {with_unit(size, 'N', 3)}" for name, size in sizes.items())
+        yield "Rollers that slide", f"force of their own model at the same displacement differs by: {said}"
     torque = solution.torque
     parts = [f"forces {with_unit(float(torque.forces), 'N m')}", f"drive {with_unit(float(torque.drive), 'N m')}"]
     if number(torque.bearings):

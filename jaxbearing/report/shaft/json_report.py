@@ -55,6 +55,7 @@ def _bearing(one: BearingOnShaft, converged: bool) -> dict[str, Any]:
         "closure": plain(one.closure),
         "expansion": plain(one.expansion),
         "largest_load": plain(one.largest_load),
+        "sliding_difference": None if one.sliding_difference is None else plain_array(one.sliding_difference),
         "pressure_centre": plain(one.pressure_centre),
         "life": None if one.life is None else plain(one.life),
     }

@@ -16,7 +16,8 @@ from ..part_writer import Rows, all_rows, given, law_name, rows, same, shown, un
 from ..table import Table
 
 _ORDER = (
-    *("geometry", "profile", "materials", "oil", "contact", "kinematics", "cage", "flange", "drag", "rating"),
+    *("geometry", "outer_ring", "inner_roundness", "outer_roundness", "profile", "materials", "oil", "contact"),
+    *("kinematics", "cage", "flange", "drag", "rating"),
     *("operation", "fits", "temperatures", "thermal", "simulation"),
 )
 """Tables of the built-in files; a table of another part comes after them."""

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 from ...bearings.cylindrical.geometry import RollerCage, RollerFlange, RollerGeometry
 from ...bearings.operation import Operation
 from ...bearings.parts import ContactLaws, Drag
+from ...bearings.ring_shape import FlexibleRing, InnerRoundness, OuterRoundness
 from ..bearing.profile import ProfileTable
 from ..bearing.schema import (
     CageBase,
@@ -106,6 +107,18 @@ class OperationTable(operation_table(Operation)):
     needs: ClassVar[tuple[str, ...]] = ("radial_load",)
 
 
+class OuterRingTable(table_of(FlexibleRing)):
+    """See `bearings.ring_shape.FlexibleRing`."""
+
+
+class InnerRoundnessTable(table_of(InnerRoundness)):
+    """See `bearings.ring_shape.AbstractRoundness`."""
+
+
+class OuterRoundnessTable(table_of(OuterRoundness)):
+    """See `bearings.ring_shape.AbstractRoundness`."""
+
+
 class CylindricalRollerTable(Table):
     """The whole file. A table that is left out is not modelled."""
 
@@ -129,6 +142,9 @@ class CylindricalRollerTable(Table):
     temperatures: TemperaturesTable | None = None
     thermal: ThermalTable | None = None
     profile: ProfileTable | None = None
+    outer_ring: OuterRingTable | None = None
+    inner_roundness: InnerRoundnessTable | None = None
+    outer_roundness: OuterRoundnessTable | None = None
 
     def moves(self) -> bool:
         """True if a run in time moves the rollers."""

@@ -21,6 +21,7 @@ from ..errors import SceneError
 from ..materials import material
 from ..tapered.build import tapered_roller_bearing
 from .files import LINEAR
+from .members import MEMBERS
 from .schema import ShaftTable
 from .tables import SupportTable
 
@@ -37,6 +38,7 @@ def shaft(table: ShaftTable, states: tuple[ShaftState, ...] = ()) -> ShaftSystem
 
     **Raises:** `ValueError` for combinations that the classes refuse.
     """
+    housing = None if table.housing is None else np.asarray(table.housing.matrix)
     made: dict[str, Any] = {}
     problems: list[ValueError] = []
     rated = table.life is not None
@@ -53,7 +55,7 @@ def shaft(table: ShaftTable, states: tuple[ShaftState, ...] = ()) -> ShaftSystem
         except ValueError as error:
             problems.append(error)
     refuse_all(problems)
-    return ShaftSystem(**made, states=states)
+    return ShaftSystem(**made, housing=housing, states=states)
 
 
 def _each(table: ShaftTable, word: str, make: Callable[[str, Any], Any]) -> tuple[Any, ...]:
@@ -111,6 +113,21 @@ def _bearing(table: Any, rated: bool) -> Any:
     return dataclasses.replace(scene, rating=Rating()) if rated and scene.rating is None else scene
 
 
+def _bearings_of_set(table: Any, rated: bool) -> Any:
+    """The bearing of a set, or one for each sign of its picture. **Raises:** `ValueError` of all of them."""
+    if MEMBERS not in type(table).model_fields:
+        return _bearing(table, rated)
+    each = getattr(table, MEMBERS)
+    made, problems = [], []
+    for number in type(each).model_fields:
+        try:
+            made.append(_bearing(getattr(each, number), rated))
+        except ValueError as error:
+            problems += _within(error, MEMBERS, number)
+    refuse_all(problems)
+    return tuple(made)
+
+
 def _set(name: str, table: Any, rated: bool) -> MatchedSet:
     distance = table.distance[0] if len(table.distance) == 1 else table.distance
     mismatch = table.mismatch
@@ -119,7 +136,7 @@ def _set(name: str, table: Any, rated: bool) -> MatchedSet:
     return MatchedSet(
         name=name,
         picture=table.picture,
-        scene=_bearing(table, rated),
+        scene=_bearings_of_set(table, rated),
         position=table.position,
         distance=distance,
         preload=None if table.preload is None else Preload(**table.preload.model_dump()),

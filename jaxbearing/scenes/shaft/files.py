@@ -18,6 +18,7 @@ from ..fields import plain_table_at
 from ..kinds import kind_named
 from ..table import Table
 from ..units import describe
+from .members import MEMBERS, at, changed, numbered, put
 
 LISTS = {"bearing": "rear", "set": "front", "force": "pinion"}
 """Tables of a shaft's file that are lists by name -> an example of a name."""
@@ -56,6 +57,11 @@ def named(mapping: Mapping[str, Any], label: str) -> dict[str, Any]:
                 found[table] = _by_name(found[table], table, example, label)
             except SceneError as error:
                 problems += error.problems
+    for name, entry in found["set"].items() if isinstance(found.get("set"), dict) else ():
+        try:
+            found["set"] = {**found["set"], name: numbered(entry, f"set.{name}", label)}
+        except SceneError as error:
+            problems += error.problems
     shaft = found.get("shaft")
     if isinstance(shaft, Mapping) and isinstance(shaft.get(SECTIONS), list):
         found["shaft"] = {**shaft, SECTIONS: {str(i + 1): one for i, one in enumerate(shaft[SECTIONS])}}
@@ -118,12 +124,7 @@ def _twice(found: Mapping[str, Any], label: str) -> Iterator[SceneError]:
 
 def beside(mapping: dict[str, Any], folder: Path) -> dict[str, Any]:
     """The tables of a shaft's file in this folder, by name, with the paths of bearing scenes as seen from here."""
-    found = dict(mapping)
-    for table in ("bearing", "set"):
-        entries = found.get(table)
-        if isinstance(entries, Mapping):
-            found[table] = {name: _moved(one, folder) for name, one in entries.items()}
-    return found
+    return changed(mapping, lambda _, entry: _moved(entry, folder))
 
 
 def _moved(entry: Mapping[str, Any], folder: Path) -> dict[str, Any]:
@@ -141,23 +142,13 @@ def read_scenes(mapping: Mapping[str, Any], label: str, read: Read) -> dict[str,
 
     **Raises:** `SceneError` for a file that cannot be read, and for one that is no bearing.
     """
-    found, problems = dict(mapping), []
-    for table in ("bearing", "set"):
-        entries = found.get(table)
-        if not isinstance(entries, Mapping):
-            continue
-        found[table] = dict(entries)
-        for name, entry in entries.items():
-            if isinstance(entry, Mapping) and isinstance(entry.get(SCENE), str):
-                try:
-                    scene = bearing_scene(entry[SCENE], f"{table}.{name}.{SCENE}", label, read)
-                except SceneError as error:
-                    problems += error.problems
-                else:
-                    found[table][name] = {**entry, SCENE: scene}
-    if problems:
-        raise SceneError.of_all(problems)
-    return found
+
+    def with_tables(keys: tuple[str, ...], entry: Any) -> Any:
+        if not isinstance(entry, Mapping) or not isinstance(entry.get(SCENE), str):
+            return entry
+        return {**entry, SCENE: bearing_scene(entry[SCENE], ".".join((*keys, SCENE)), label, read)}
+
+    return changed(mapping, with_tables)
 
 
 def bearing_scene(source: str, path: str, label: str, read: Read) -> dict[str, Any]:
@@ -191,17 +182,23 @@ def with_scenes(
         if path == f"shaft.{SECTIONS}" and isinstance(found.get("shaft"), Mapping) and text != REMOVE:
             found = named({**found, "shaft": {**found["shaft"], SECTIONS: parse_value(text)}}, label)
             continue
-        word, _, rest = path.partition(".")
-        name = rest.removesuffix(f".{SCENE}")
-        entries = found.get(word) if word in ("bearing", "set") and name != rest else None
-        if isinstance(entries, Mapping) and isinstance(entries.get(name), Mapping) and text != REMOVE:
-            entry = entries[name]
+        keys = tuple(path.split("."))
+        entry = at(found, keys[:-1]) if _names_a_scene(keys) and text != REMOVE else None
+        if isinstance(entry, Mapping):
             # another bearing takes the place of one whose tables stand in the entry itself
             kept = entry if SCENE in entry else {key: value for key, value in entry.items() if key in OF_MOUNT}
-            found[word] = {**entries, name: {**kept, SCENE: text}}
+            given = parse_value(text)
+            other = {**kept, SCENE: given if isinstance(given, list) else text}
+            found = put(found, keys[:-1], numbered(other, ".".join(keys[:-1]), label) if keys[0] == "set" else other)
         else:
             left[path] = text
     return read_scenes(found, label, tables_of_file), left
+
+
+def _names_a_scene(keys: tuple[str, ...]) -> bool:
+    """True for the path of the scene of a bearing, of a set, or of one bearing of a set."""
+    member = len(keys) == 5 and keys[0] == "set" and keys[2] == MEMBERS
+    return keys[-1] == SCENE and (member or (len(keys) == 3 and keys[0] in ("bearing", "set")))
 
 
 REMOVE = "none"

@@ -28,17 +28,25 @@ from .files import (
     with_scenes,
     without_loads,
 )
+from .members import MEMBERS, changed, differ
 from .tables import (
     FAMILIES,
     FORCE_TABLES,
     BearingEntry,
+    HousingTable,
     LifeTable,
+    MemberEntry,
     SectionTable,
     SetEntry,
+    SetMountTable,
     ShaftPart,
     StateTable,
+    member_table,
     mounted_table,
 )
+
+Kind = str | tuple[str, ...]
+"""Kind of the bearings of a set, or of each of them."""
 
 
 def _kind_of_force(entry: Mapping[str, Any], path: str, file: str) -> str:
@@ -56,7 +64,7 @@ def with_kind(entry: Any, kind: str | None) -> dict[str, Any]:
     return own if kind is None else {**own, "kind": kind}
 
 
-def _with_scene(entry: Any, word: str, name: str, file: str) -> Any:
+def _with_scene(entry: Any, keys: tuple[str, ...], file: str) -> Any:
     """An entry with the tables of its scene. **Raises:** `SceneError` for a kind beside the scene."""
     if not isinstance(entry, Mapping) or not isinstance(entry.get(SCENE), Mapping):
         return entry
@@ -64,9 +72,25 @@ def _with_scene(entry: Any, word: str, name: str, file: str) -> Any:
     kind = kind_named(scene.get("kind"))
     if "kind" in own and kind_named(own["kind"]) != kind:
         expected = f"none beside the scene, whose kind is '{kind}'"
-        raise SceneError(file, f"{word}.{name}.kind", units.describe(own["kind"]), expected)
+        raise SceneError(file, ".".join((*keys, "kind")), units.describe(own["kind"]), expected)
     scene = without_loads({**scene, "kind": kind})
-    return merged(scene, own, mounted_table(kind, word == "set") if kind in FAMILIES else None)
+    if kind not in FAMILIES:
+        return merged(scene, own, None)
+    of_set = keys[0] == "set"
+    return merged(scene, own, member_table(kind) if len(keys) > 2 else mounted_table(kind, of_set))
+
+
+def _kinds_of_set(entry: Any, path: str, file: str) -> Kind:
+    """**Raises:** `SceneError` for a bearing without a known kind, and for one that is no rolling bearing."""
+    if not differ(entry):
+        each: tuple[tuple[str, Any], ...] = ((path, entry),)
+    else:
+        each = tuple((f"{path}.{MEMBERS}.{number}", one) for number, one in entry[MEMBERS].items())
+    kinds = tuple(kind_of(one, at, file) for at, one in each)
+    for (at, _), kind in zip(each, kinds, strict=True):
+        if kind == LINEAR:
+            raise SceneError(file, f"{at}.kind", f"'{LINEAR}'", one_of(BEARINGS))
+    return kinds if differ(entry) else kinds[0]
 
 
 ANY_NAME, NUMBER = "NAME", "NUMBER"
@@ -79,6 +103,7 @@ class ShaftTable(Table):
 
     kind: Annotated[Literal["shaft"], KIND]
     shaft: ShaftPart
+    housing: HousingTable | None = None
     life: LifeTable | None = None
 
     @classmethod
@@ -86,7 +111,7 @@ class ShaftTable(Table):
         fields: dict[str, Any] = {
             "shaft": (_with_sections((NUMBER,)), ...),
             "bearing": (_by_name("bearing", {ANY_NAME: BearingEntry}) | None, None),
-            "set": (_by_name("set", {ANY_NAME: SetEntry}) | None, None),
+            "set": (_by_name("set", {ANY_NAME: _any_set()}) | None, None),
             "force": (_by_name("force", {ANY_NAME: _ANY_FORCE}) | None, None),
             "state": (StateTable | None, None),
         }
@@ -96,8 +121,8 @@ class ShaftTable(Table):
     @classmethod
     def of_file(cls, tables: Mapping[str, Any], overrides: Mapping[str, str], file: str) -> type[Table]:
         known, left = with_scenes(tables, overrides, file)
-        kinds: dict[str, tuple[tuple[str, str], ...]] = {}
-        for word, kind_in in (("bearing", kind_of), ("set", kind_of), ("force", _kind_of_force)):
+        kinds: dict[str, Any] = {}
+        for word, kind_in in (("bearing", kind_of), ("set", _kinds_of_set), ("force", _kind_of_force)):
             entries = known.get(word)
             there = {
                 name: with_kind(entry, left.get(f"{word}.{name}.kind"))
@@ -105,9 +130,6 @@ class ShaftTable(Table):
                 if left.get(f"{word}.{name}") != REMOVE
             }
             kinds[word] = tuple((name, kind_in(entry, f"{word}.{name}", file)) for name, entry in there.items())
-        for name, kind in kinds["set"]:
-            if kind == LINEAR:
-                raise SceneError(file, f"set.{name}.kind", f"'{LINEAR}'", one_of(BEARINGS))
         sections = known["shaft"].get(SECTIONS) if isinstance(known.get("shaft"), Mapping) else None
         removed = left.get(f"shaft.{SECTIONS}") == REMOVE
         numbers = tuple(sections) if isinstance(sections, Mapping) and not removed else ()
@@ -119,11 +141,7 @@ class ShaftTable(Table):
         cls, tables: dict[str, Any], overrides: Mapping[str, str], file: str
     ) -> tuple[dict[str, Any], Mapping[str, str]]:
         found, left = with_scenes(tables, overrides, file)
-        for word in ("bearing", "set"):
-            entries = found.get(word)
-            if isinstance(entries, Mapping):
-                found[word] = {name: _with_scene(entry, word, name, file) for name, entry in entries.items()}
-        return found, left
+        return changed(found, lambda keys, entry: _with_scene(entry, keys, file)), left
 
     def entries(self, table: str) -> dict[str, Any]:
         """The tables of the bearings, sets or forces, or the sections, by name."""
@@ -145,6 +163,12 @@ def _by_name(word: str, tables: Mapping[str, Any]) -> Any:
     return create_model(f"{word.capitalize()}Tables", __base__=Table, __module__=__name__, __doc__=doc, **fields)
 
 
+def _any_set() -> type[Table]:
+    """The table of a set of no file in particular."""
+    fields: dict[str, Any] = {MEMBERS: (_by_name("members", {NUMBER: MemberEntry}) | None, None)}
+    return create_model("SetEntry", __base__=SetEntry, __module__=__name__, __doc__=SetEntry.__doc__, **fields)
+
+
 def _with_sections(names: tuple[str, ...]) -> Any:
     parts = _by_name(SECTIONS, dict.fromkeys(names, SectionTable))
     fields: Any = {SECTIONS: (parts | None, None)}
@@ -154,14 +178,14 @@ def _with_sections(names: tuple[str, ...]) -> Any:
 @functools.lru_cache(64)
 def shaft_model(
     bearings: tuple[tuple[str, str], ...],
-    sets: tuple[tuple[str, str], ...],
+    sets: tuple[tuple[str, Kind], ...],
     forces: tuple[tuple[str, str], ...],
     sections: tuple[str, ...],
 ) -> type[ShaftTable]:
     """The schema of a file with these names of bearings, sets and forces, each with its kind, and these sections."""
     tables: dict[str, dict[str, type[Table]]] = {
         "bearing": {name: mounted_table(kind, False) for name, kind in bearings},
-        "set": {name: mounted_table(kind, True) for name, kind in sets},
+        "set": {name: mounted_table(kind, True) if isinstance(kind, str) else _mixed_set(kind) for name, kind in sets},
         "force": {name: FORCE_TABLES[kind] for name, kind in forces},
     }
     fields: dict[str, Any] = {word: (_by_name(word, named) | None, None) for word, named in tables.items()}
@@ -171,9 +195,19 @@ def shaft_model(
     return made
 
 
+@functools.lru_cache(64)
+def _mixed_set(kinds: tuple[str, ...]) -> type[Table]:
+    """The table of a set whose bearings differ."""
+    numbers = {str(place + 1): member_table(kind) for place, kind in enumerate(kinds)}
+    fields: Any = {MEMBERS: (_by_name("members", numbers), ...)}
+    doc = "A set of different bearings."
+    return create_model("MixedSetTable", __base__=SetMountTable, __module__=__name__, __doc__=doc, **fields)
+
+
 def model_of_scene(scene: Any) -> type[ShaftTable]:
     """The schema of the file of a shaft."""
     bearings = tuple((one.name, one.scene.kind) for one in scene.bearings)
-    sets = tuple((one.name, one.scenes[0].kind) for one in scene.sets)
+    kinds = lambda one: tuple(each.kind for each in one.scene) if isinstance(one.scene, tuple) else one.scene.kind
+    sets = tuple((one.name, kinds(one)) for one in scene.sets)
     forces = tuple((one.name, one.kind) for one in scene.forces)
     return shaft_model(bearings, sets, forces, tuple(str(i + 1) for i in range(len(scene.shaft.sections))))

@@ -2,7 +2,7 @@
 classes that they build."""
 
 import functools
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, create_model
@@ -31,17 +31,28 @@ _ISO = "iso"
 _WAYS = ("force", "class_force", "offset", "spring_force")
 
 
+_FREEDOMS = ", ".join(RING_FREEDOMS)
+
+
 def _matrix(value: Any) -> tuple[tuple[float, ...], ...]:
     """Five rows of five stiffnesses, each with its unit; zeros need none."""
-    wanted = f"5 rows of 5 stiffnesses with units, of {', '.join(RING_FREEDOMS)}; a 0 needs no unit"
-    if (
-        not isinstance(value, list)
-        or len(value) != 5
-        or any(not isinstance(row, list) or len(row) != 5 for row in value)
-    ):
+    wanted = f"5 rows of 5 stiffnesses with units, of {_FREEDOMS}; a 0 needs no unit"
+    return _square(value, wanted, lambda count: count == 5)
+
+
+def _matrix_of_all(value: Any) -> tuple[tuple[float, ...], ...]:
+    """Five rows and columns for each bearing."""
+    wanted = f"5 n rows of 5 n stiffnesses with units, of {_FREEDOMS} for each of n bearings; a 0 needs no unit"
+    return _square(value, wanted, lambda count: count > 0 and count % 5 == 0)
+
+
+def _square(value: Any, wanted: str, fits: Callable[[int], bool]) -> tuple[tuple[float, ...], ...]:
+    """A square matrix of stiffnesses. **Arguments:** `fits`: whether it may have so many rows."""
+    square = isinstance(value, list) and all(isinstance(row, list) and len(row) == len(value) for row in value)
+    if not square or not fits(len(value)):
         raise units.refusal(wanted, units.describe(value))
     return tuple(
-        tuple(_entry(one, row, column) for column, one in enumerate(values)) for row, values in enumerate(value)
+        tuple(_entry(one, row % 5, column % 5) for column, one in enumerate(values)) for row, values in enumerate(value)
     )
 
 
@@ -66,12 +77,20 @@ def _units_of_matrix() -> tuple[tuple[str, ...], ...]:
 MATRIX_UNITS = _units_of_matrix()
 """Units of the entries of a stiffness matrix in files: N/m, N and N m/rad."""
 Matrix = Annotated[tuple[tuple[float, ...], ...], BeforeValidator(_matrix)]
+MatrixOfAll = Annotated[tuple[tuple[float, ...], ...], BeforeValidator(_matrix_of_all)]
 
 
 def _picture(value: Any) -> str:
     if not isinstance(value, str) or len(value) < 2 or set(value) - {"<", ">"}:
         raise units.refusal(_PICTURE, units.describe(value))
     return value
+
+
+def _scenes(value: Any) -> tuple[str, ...]:
+    names = value if isinstance(value, list) else [value]
+    if not names or not all(isinstance(name, str) for name in names):
+        raise units.refusal("a text, e.g. '7207.toml', or a list of such texts", units.describe(value))
+    return tuple(names)
 
 
 def _weibull(value: Any) -> float | None:
@@ -118,6 +137,15 @@ class SupportTable(table_of(Support)):
 
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"matrix": ("axial", "radial", "tilt")}
     matrix: Matrix | None = None
+
+
+class HousingTable(Table):
+    """A housing that holds all outer rings, in the place of a support of each.
+
+    - `matrix`: its stiffness in the frame of the shaft: 5 rows and columns for each bearing, those of the sets first
+    """
+
+    matrix: MatrixOfAll
 
 
 class PreloadTable(table_of(Preload)):
@@ -211,7 +239,8 @@ class _OnShaft(Table):
 
 def _mounted(name: str, bearing: type[Table], mount: type[Table], operation: type[Table], doc: str) -> type[Table]:
     given: Any = {"operation": (operation, Field(default_factory=operation))}
-    made: Any = create_model(name, __base__=(mount, _OnShaft, bearing), __module__=__name__, __doc__=doc, **given)
+    base = (_OnShaft, bearing) if mount is Table else (mount, _OnShaft, bearing)
+    made: Any = create_model(name, __base__=base, __module__=__name__, __doc__=doc, **given)
     return made
 
 
@@ -238,6 +267,13 @@ class LinearTable(MountTable):
     builds: ClassVar[type | None] = LinearBearing
     kind: Literal["linear"]
     stiffness: Matrix
+
+
+@functools.cache
+def member_table(kind: str) -> type[Table]:
+    """The table of one bearing of a set whose bearings differ."""
+    doc = "One of the different bearings of a set."
+    return _mounted(f"MemberOf{FAMILIES[kind].__name__}", FAMILIES[kind], Table, OPERATIONS[kind], doc)
 
 
 @functools.cache
@@ -278,8 +314,8 @@ class BearingEntry(MountTable):
     stiffness: Matrix | None = None
 
 
-class SetEntry(SetMountTable):
-    """A matched set, in a table [[set]]; its bearings are called `name.1`, `name.2` ...
+class MemberEntry(Table):
+    """One of the different bearings of a set, in a table [[set.bearing]].
 
     - `scene`: of the bearing, a file or a built-in scene, whose loads and speeds do not count
     - `kind`: of the bearing, in the place of a scene: then the tables of its own scene file, such as geometry, are
@@ -287,4 +323,19 @@ class SetEntry(SetMountTable):
     """
 
     scene: units.Text | None = None
+    kind: Literal["ball_bearing", "cylindrical_roller_bearing", "tapered_roller_bearing"] | None = None
+
+
+class SetEntry(SetMountTable):
+    """A matched set, in a table [[set]]; its bearings are called `name.1`, `name.2` ...
+
+    - `scene`: of the bearing, a file or a built-in scene, whose loads and speeds do not count; or a list of scenes, one
+      for each sign of the picture
+    - `kind`: of the bearing, in the place of a scene: then the tables of its own scene file, such as geometry, are
+      here; beside a scene they change it
+    - `bearing`: different bearings, in tables [[set.bearing]], one for each sign of the picture, each with a scene or
+      with a kind and its tables; paths number them from 1
+    """
+
+    scene: Annotated[tuple[str, ...], BeforeValidator(_scenes)] | None = None
     kind: Literal["ball_bearing", "cylindrical_roller_bearing", "tapered_roller_bearing"] | None = None

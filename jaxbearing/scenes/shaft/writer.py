@@ -14,6 +14,7 @@ from ...shafts.shaft import STEEL, Shaft
 from ..errors import SceneError
 from ..part_writer import Rows, given, number, rows, same, unwritable, written
 from .files import LINEAR, OF_SHAFT
+from .members import MEMBERS
 from .tables import (
     FORCE_TABLES,
     MATRIX_UNITS,
@@ -29,9 +30,8 @@ from .tables import (
 
 def shaft_tables(scene: ShaftSystem) -> Rows:
     """The tables that describe a scene. **Raises:** `SceneError` for what a file cannot hold."""
-    if scene.housing is not None:
-        raise unwritable("housing", "a stiffness matrix", "None: files have a support of each outer ring")
     tables: Rows = {"kind": scene.kind, "shaft": _shaft(scene.shaft)}
+    tables["housing"] = None if scene.housing is None else {"matrix": _matrix(scene.housing)}
     tables["set"] = [_set(one) for one in scene.sets]
     tables["bearing"] = [_mounted(one) for one in scene.bearings]
     tables["force"] = [{"name": one.name, "kind": one.kind} | rows(FORCE_TABLES[one.kind], one) for one in scene.forces]
@@ -83,10 +83,11 @@ def _set(one: MatchedSet) -> Rows:
     found["preload"] = None if one.preload is None else rows(PreloadTable, one.preload)
     found["support"] = _support(one.support)
     scene = _standing_set(one)
-    if isinstance(scene, tuple):
-        path = f"set.{one.name}.scene"
-        raise unwritable(path, "different bearings", "one bearing for all: files give a set one")
-    return given(found) | _bearing(scene, f"set.{one.name}")
+    if not isinstance(scene, tuple):
+        return given(found) | _bearing(scene, f"set.{one.name}")
+    path = f"set.{one.name}.{MEMBERS}"
+    each = [_bearing(bearing, f"{path}.{place + 1}") for place, bearing in enumerate(scene)]
+    return given(found) | {MEMBERS: each}
 
 
 def _bearing(scene: Any, path: str) -> Rows:
@@ -114,9 +115,9 @@ def _support(part: Support | None) -> Rows | None:
 
 
 def _matrix(values: Any) -> list[list[Any]]:
-    """Five rows of texts with units; a 0 has none."""
+    """Rows of texts with units, five for each bearing; a 0 has none."""
     return [
-        [0 if one == 0.0 else number(one, MATRIX_UNITS[i][j]) for j, one in enumerate(row)]
+        [0 if one == 0.0 else number(one, MATRIX_UNITS[i % 5][j % 5]) for j, one in enumerate(row)]
         for i, row in enumerate(np.asarray(values, dtype=np.float64))
     ]
 

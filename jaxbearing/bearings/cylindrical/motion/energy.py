@@ -22,7 +22,9 @@ $$F\cdot\dot d = \frac{dE_{race}}{dt} - \Omega - \sum Q_i\frac{d(h_i + h_o)}{dt}
 $E_{race} = \sum\frac{0.9}{1.9}(k_iQ_i^{1.9} + k_oQ_o^{1.9})$: the work of the load on the ring is stored by the
 raceways but for the work on the films, that of the centrifugal force, and $\Omega = \sum Q_i\,(d\cdot t)\,W_j$:
 rollers roll into the wedge between displaced rings, and the model neglects the tangential force $Q_i\,(d\cdot t)/R_m$
-that would pay for it. The identities hold to round-off at every state, and `tests` check them so.
+that would pay for it. On raceways that are not round $\Omega$ has the further part $\sum Q_ip'(\psi_j)\,W_j$ with p the
+closing of the rings by their deviations, and is neglected for the same reason. The identities hold to round-off at
+every state, and `tests` check them so.
 """
 
 from typing import TYPE_CHECKING

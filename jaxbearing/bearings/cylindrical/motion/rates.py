@@ -30,6 +30,7 @@ from ....time_laws import AbstractTimeFactor, RotatingLoad, Steady
 from ...motion.family import AbstractDynamics
 from ...motion.history import Energy, Instant, PocketPeaks
 from ...mounted import running_play
+from ...ring_shape import InnerRoundness, OuterRoundness, out_of_round
 from ..equations import LubricatedRollerSystem
 from ..forces import RollerForces, forces_without_pocket, on_cage
 from ..kinematics import RollerKinematics
@@ -107,6 +108,8 @@ class RollerDynamics(AbstractDynamics):
     - `rotating_load`: a further, turning load; it needs a ring that is free in both directions.
     - `land_speed`: cage speed at which the lands' turbulence is evaluated, rad/s; `None`: the current one.
     - `seats`: the scene on the drawing of a bearing whose clearance follows the current speed; `None`: it stays.
+    - `inner_roundness`, `outer_roundness`: raceways that are not round and stand still relative to the load; `None`:
+      they are round.
     """
 
     works: ClassVar[tuple[str, ...]] = WORKS
@@ -123,6 +126,8 @@ class RollerDynamics(AbstractDynamics):
     rotating_load: RotatingLoad | None = None
     land_speed: Float[Array, ""] | None = None
     seats: "CylindricalRollerBearing | None" = None
+    inner_roundness: InnerRoundness | None = None
+    outer_roundness: OuterRoundness | None = None
 
     def __check_init__(self):
         if self.rotating_load is not None and "lateral" not in self.system.freedoms:
@@ -188,8 +193,14 @@ class RollerDynamics(AbstractDynamics):
             sliding_speed=sliding,
             centrifugal=system.centrifugal(orbit),
             ring_load=self.ring_load(time),
-            radial_clearance=self._radial_clearance(motion),
+            radial_clearance=self._opening(motion, azimuth),
         )
+
+    def _opening(self, motion: RollerKinematics, azimuth: Float[Array, " roller"]) -> Float[Array, "*roller"]:
+        """Half the clearance, m, at each roller where a raceway is not round."""
+        clearance = self._radial_clearance(motion)
+        form = out_of_round(self.inner_roundness, self.outer_roundness, azimuth)
+        return clearance if form is None else clearance - form
 
     def _radial_clearance(self, motion: RollerKinematics) -> Float[Array, ""]:
         """Half the clearance at the current speed, which rings and seats follow without delay, m. Other sizes are those

@@ -103,6 +103,8 @@ def build_dynamics(
         load=simulation.load,
         rotating_load=simulation.rotating_load,
         seats=seats,
+        inner_roundness=scene.inner_roundness,
+        outer_roundness=scene.outer_roundness,
     )
 
 

@@ -80,8 +80,10 @@ def _polar(axes: Any, panel: Polar) -> None:
     for one in panel.series:
         closed, values = np.append(one.x, one.x[0] + 2.0 * math.pi), np.append(one.y, one.y[0])
         marker = _POINTS[one.marker]
-        axes.plot(closed, values, color=one.colour, marker=marker, markersize=3.2, linewidth=1.2, label=one.name)
-        axes.fill(closed, values, color=one.colour, alpha=0.12, linewidth=0)
+        style = {"color": one.colour, "linestyle": _LINES[one.dash], "linewidth": 1.2, "label": one.name}
+        axes.plot(closed, values, marker=marker, markersize=3.2, **style)
+        if not one.faint:
+            axes.fill(closed, values, color=one.colour, alpha=0.12, linewidth=0)
     top = round_up(max(float(np.max(one.y)) for one in panel.series))
     axes.set_ylim(0.0, top)
     axes.set_yticks([top / 2.0, top], [])

@@ -1,0 +1,75 @@
+"""A flexible outer ring in the equations of a bearing: its amplitudes are global unknowns, which the rolling elements
+feel only as an opening of their own."""
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from ..mounting.bent_ring import BentRing
+from .ring import LENGTH_UNIT
+from .ring_deflection import RingDeflection
+
+PLACES = 361
+"""Azimuths at which results have the deflection of the ring."""
+LEANS = 0.1
+"""Least cosine of the angle between the load and a support that counts in the first guess."""
+
+
+class ElasticRing(eqx.Module):
+    """A ring in the equations; unknowns are its amplitudes in units of `LENGTH_UNIT`.
+
+    **Arguments:** `ring`; `shapes`: outward deflections at the rolling elements over the amplitudes, dimensionless.
+    """
+
+    ring: BentRing
+    shapes: Float[Array, "mode element"]
+
+    @property
+    def modes(self) -> int:
+        return self.ring.modes
+
+    def deflection(self, amplitudes: Float[Array, " mode"]) -> Float[Array, " element"]:
+        """Outward deflection at the rolling elements, m."""
+        return LENGTH_UNIT * (amplitudes @ self.shapes)
+
+    def pressed(self, load: Float[Array, " element"]) -> Float[Array, " mode"]:
+        """Generalised loads of the rolling elements, N, from their radial forces on the ring."""
+        return self.shapes @ load
+
+    def balance(self, amplitudes: Float[Array, " mode"], pressed: Float[Array, " mode"]) -> Float[Array, " mode"]:
+        """Forces on the amplitudes that do not balance, N."""
+        return self.ring.balance(LENGTH_UNIT * amplitudes, pressed)
+
+    def start(self, load: Float[Array, "2"]) -> Float[Array, " mode"]:
+        """First guess: the ring displaced as a rigid body to where housing and supports bear the load on the bearing,
+        along and across the load line, N. A free ring begins round."""
+        ring, orders = self.ring, self.ring.orders
+        amplitudes = jnp.zeros(ring.modes)
+        if 1 not in orders:
+            return amplitudes
+        square = jnp.sum(jnp.square(load))
+        size = jnp.sqrt(jnp.where(square > 0, square, 1.0))
+        along = load / size
+        stiffness, gap = ring.stiffness()[orders.index(1)], jnp.zeros(())
+        if ring.supports is not None:
+            lean = jnp.cos(ring.supports.angle) * along[0] + jnp.sin(ring.supports.angle) * along[1]
+            lean = jnp.where(lean > LEANS, lean, 0.0)
+            stiffness = stiffness + jnp.sum(ring.supports.stiffness * jnp.square(lean))
+            gap = jnp.max(jnp.where(lean > 0, ring.supports.gap / jnp.where(lean > 0, lean, 1.0), 0.0))
+        leaning = stiffness > 0
+        shift = gap + jnp.where(leaning, size / jnp.where(leaning, stiffness, 1.0), 0.0)
+        # order 1 is the first that has a sine
+        cosine, sine = orders.index(1), len(orders)
+        return amplitudes.at[np.asarray([cosine, sine])].set(along * shift / LENGTH_UNIT)
+
+    def shape(self, amplitudes: Float[Array, " mode"]) -> RingDeflection:
+        """The result."""
+        scaled, ring = LENGTH_UNIT * amplitudes, self.ring
+        azimuth = jnp.linspace(0.0, 2.0 * jnp.pi, PLACES)
+        count = len(ring.orders)
+        sines = scaled[count:] if ring.orders[0] > 0 else jnp.concatenate([jnp.zeros(1), scaled[count:]])
+        orders = jnp.asarray(ring.orders, dtype=float)
+        forces = None if ring.supports is None else ring.reactions(scaled)
+        radius = jnp.asarray(ring.section.radius)
+        return RingDeflection(azimuth, ring.deflection(scaled, azimuth), scaled[:count], sines, radius, orders, forces)

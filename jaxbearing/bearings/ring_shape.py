@@ -1,0 +1,227 @@
+"""Parts of a scene for rings that are not rigid or not round: a flexible outer ring, and the roundness of raceways."""
+
+from collections.abc import Iterator
+from typing import Any, ClassVar
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax.core import Tracer
+from jaxtyping import Array, Float
+
+from .._scene import label, number, optional_number
+from .._types import Scalar
+from ..materials import Material
+from ..mounting.bending import Foundation, rectangular_section
+from ..mounting.bent_ring import BentRing, RimLoads, Supports
+from ..numerics.checks import RANGES, Checked, array_module, demand
+from ..numerics.precision import as_float
+from ..numerics.refusals import refusals_of, refuse_all
+from ..numerics.safe import safe_norm
+from ..numerics.structure import count, switch
+
+HARMONICS = 12
+"""Highest order of the deflection, where a scene does not say: 4e-4 to 4e-3 of the largest load are left out. A ring on
+two narrow supports needs 20."""
+MOST_HARMONICS = 60
+"""Highest order that a scene may ask for."""
+UNBALANCED = 1e-6
+"""Part of the loads on a free ring that need not balance each other, for rounded input."""
+
+Several = Float[Array | np.ndarray, "_"]
+"""Lists of one part may have different lengths; `_Lists` compares those that belong together."""
+
+
+def _values(given: Any) -> Any:
+    """A one-dimensional array of float64; what is not a number passes through for the type checker to judge."""
+    if isinstance(given, list | tuple):
+        traced = any(isinstance(value, jax.Array) for value in given)
+        given = jnp.stack(given) if traced else np.asarray(given, dtype=np.float64)
+    given = as_float(given)
+    return given.reshape(1) if getattr(given, "ndim", None) == 0 else given
+
+
+def _several(unit: str, bound: str = "finite") -> Any:
+    """Field of a number or a list of numbers, each within the bound; `None` where a scene does not say."""
+    said = {**label(unit, ""), "each": bound}
+    return eqx.field(converter=lambda v: None if v is None else _values(v), metadata=said, default=None)
+
+
+class _Lists(Checked):
+    """A part with lists: the members of each group are given together and are of one length."""
+
+    groups: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    """Names of fields that belong together; the first one says how many entries there are."""
+    bounds: ClassVar[dict[str, str]] = {}
+    """Bounds of the entries, by field."""
+
+    def __check_init__(self):
+        super().__check_init__()
+        refuse_all(self._list_problems())
+
+    def _list_problems(self) -> Iterator[str | ValueError]:
+        for group in self.groups:
+            sizes = {name: np.size(getattr(self, name)) for name in group if getattr(self, name) is not None}
+            if sizes and (set(sizes) != set(group) or len(set(sizes.values())) > 1 or 0 in sizes.values()):
+                missing = [name for name in group if name not in sizes]
+                found = f"nothing for {' and '.join(missing)}" if missing else f"lists of lengths {sizes}"
+                yield f"{self.part}.{group[0]}: expected lists of one length for {', '.join(group)}, found {found}"
+        for name, bound in self.bounds.items():
+            values = getattr(self, name)
+            if values is not None:
+                inside = RANGES[bound].holds(values)
+                yield from refusals_of(
+                    demand,
+                    f"{self.part}.{name} must be {bound}",
+                    array_module(values).all(inside),
+                    lambda name=name, bound=bound: f"{self.part}.{name} must be {bound} in every entry",
+                )
+
+
+class FlexibleRing(_Lists):
+    """An outer ring that bends in its plane, with what surrounds it.
+
+    Without a housing and supports nothing holds the ring: the loads from outside must then balance those of the rolling
+    elements, as on a planet gear, whose rim is the ring.
+
+    **Arguments:**
+    - `thickness`: radial height of the section, m, > 0, from the raceway outwards.
+    - `width`: along the axis, m, > 0; not given: the width of the bearing, otherwise the length of a roller.
+    - `harmonics`: highest order of the deflection, 0 for a rigid ring (structure: another number recompiles).
+    - `housing_stiffness`: of a housing all around the ring, radial force per area of the seat's developed line (length
+      of circumference) and deflection, N/m^2, > 0; not given: nothing surrounds it. About 5e10 for a massive
+      steel housing, 1e9 to 1e10 for thin or light ones: the largest uncertainty of the model.
+    - `housing_shear_stiffness`: the same along the circumference, of a ring that is glued or tightly fitted, N/m^2.
+    - `shear`: whether shear strain of the section is modelled; it changes the largest load by less than 0.4 %.
+    - `support_angle`, `support_stiffness`, `support_gap`: places that the ring leans on, as in a cut housing: angles
+      from the load line, rad, stiffnesses, N/m, > 0, and outward deflections at which the ring touches, m.
+    - `load_angle`, `load_radial`, `load_tangential`, `load_radius`: forces on the ring from outside: angles, rad; N
+      outwards; N counter-clockwise; radii at which they act, m, > 0.
+    """
+
+    part: ClassVar[str] = "outer_ring"
+    groups: ClassVar[tuple[tuple[str, ...], ...]] = (
+        ("support_angle", "support_stiffness", "support_gap"),
+        ("load_angle", "load_radial", "load_tangential", "load_radius"),
+    )
+    bounds: ClassVar[dict[str, str]] = {
+        **{"support_angle": "finite", "support_stiffness": "> 0", "support_gap": "finite", "load_angle": "finite"},
+        **{"load_radial": "finite", "load_tangential": "finite", "load_radius": "> 0"},
+    }
+
+    thickness: Scalar = number(bound="> 0", unit="m")
+    width: Scalar | None = optional_number(bound="> 0", unit="m")
+    harmonics: int = count("outer_ring.harmonics", HARMONICS, least=0, most=MOST_HARMONICS)
+    housing_stiffness: Scalar | None = optional_number(bound="> 0", unit="N/m^2")
+    housing_shear_stiffness: Scalar = number(0.0, bound=">= 0", unit="N/m^2")
+    shear: bool = switch("outer_ring.shear", False)
+    support_angle: Several | None = _several("rad")
+    support_stiffness: Several | None = _several("N/m", "> 0")
+    support_gap: Several | None = _several("m")
+    load_angle: Several | None = _several("rad")
+    load_radial: Several | None = _several("N")
+    load_tangential: Several | None = _several("N")
+    load_radius: Several | None = _several("m", "> 0")
+
+    @property
+    def held(self) -> bool:
+        """True if a housing or supports hold the ring in place."""
+        return self.housing_stiffness is not None or self.support_angle is not None
+
+    def bent_ring(self, material: Material, raceway_radius: Scalar, width: Scalar) -> BentRing:
+        """The ring for the equations. **Arguments:** `width` where the scene does not give it, m."""
+        width = width if self.width is None else self.width
+        radius = raceway_radius + 0.5 * self.thickness
+        poisson = material.poisson_ratio if self.shear else None
+        section = rectangular_section(material.youngs_modulus, width, self.thickness, radius, poisson)
+        orders = tuple(n for n in range(self.harmonics + 1) if self.held or n != 1)
+        arrays = lambda *names: (jnp.asarray(getattr(self, name)) for name in names)
+        foundation = supports = loads = None
+        if self.housing_stiffness is not None:
+            foundation = Foundation(jnp.asarray(self.housing_stiffness), jnp.asarray(self.housing_shear_stiffness))
+        if self.support_angle is not None:
+            supports = Supports(*arrays("support_angle", "support_stiffness", "support_gap"))
+        if self.load_angle is not None:
+            loads = RimLoads(*arrays("load_angle", "load_radial", "load_tangential", "load_radius"))
+        return BentRing(section, orders, foundation, supports, loads)
+
+    def unbalanced(self, load: Float[Array, "2"]) -> Float[Array, ""]:
+        """Force on a free ring that nothing balances, over the load: beyond `UNBALANCED` it has no equilibrium.
+
+        **Arguments:** `load` on the inner ring along and across the load line, N, which the elements pass on.
+        """
+        assert self.load_angle is not None
+        arrays = (jnp.asarray(getattr(self, name)) for name in self.groups[1])
+        rest = RimLoads(*arrays).resultant() + load
+        return safe_norm(rest[0], rest[1]) / safe_norm(load[0], load[1])
+
+
+class AbstractRoundness(_Lists):
+    """Deviation of a raceway's radius from that of a round ring, which stands still relative to the load.
+
+    $p(\\psi) = \\sum_n p_n\\cos n(\\psi - \\varphi_n)$ plus a table, linear between its angles. A lobe of order 0
+    changes the clearance, one of order 1 is a displacement of the raceway.
+
+    **Arguments:**
+    - `lobe_order`, `lobe_height`, `lobe_angle`: n, whole numbers >= 0; $p_n$, m; $\\varphi_n$, rad, where the lobe is
+      highest.
+    - `table_angle`, `table_deviation`: measured deviations at angles, rad and m.
+    """
+
+    groups: ClassVar[tuple[tuple[str, ...], ...]] = (
+        ("lobe_order", "lobe_height", "lobe_angle"),
+        ("table_angle", "table_deviation"),
+    )
+    bounds: ClassVar[dict[str, str]] = {
+        **{"lobe_order": ">= 0", "lobe_height": "finite", "lobe_angle": "finite"},
+        **{"table_angle": "finite", "table_deviation": "finite"},
+    }
+
+    lobe_order: Several | None = _several("1", ">= 0")
+    lobe_height: Several | None = _several("m")
+    lobe_angle: Several | None = _several("rad")
+    table_angle: Several | None = _several("rad")
+    table_deviation: Several | None = _several("m")
+
+    def __check_init__(self):
+        if self.lobe_order is None and self.table_angle is None:
+            raise ValueError(f"{self.part}: expected lobes or a table, found nothing")
+        if self.lobe_order is not None and not isinstance(self.lobe_order, Tracer):
+            orders = np.asarray(self.lobe_order)
+            if np.any(orders != np.round(orders)):
+                raise ValueError(f"{self.part}.lobe_order must be whole numbers, got {orders.tolist()}")
+
+    def deviation(self, azimuth: Float[Array, " place"]) -> Float[Array, " place"]:
+        """By how much the raceway's radius is larger at the azimuths, rad; m."""
+        found = jnp.zeros_like(azimuth)
+        if self.lobe_order is not None:
+            order, height, angle = (jnp.asarray(getattr(self, name))[:, None] for name in self.groups[0])
+            found = found + jnp.sum(height * jnp.cos(order * (azimuth[None, :] - angle)), axis=0)
+        if self.table_angle is not None:
+            angle, deviation = (jnp.asarray(getattr(self, name)) for name in self.groups[1])
+            found = found + jnp.interp(azimuth, angle, deviation, period=2.0 * jnp.pi)
+        return found
+
+
+class InnerRoundness(AbstractRoundness):
+    """Roundness of the inner raceway; see `AbstractRoundness`."""
+
+    part: ClassVar[str] = "inner_roundness"
+
+
+class OuterRoundness(AbstractRoundness):
+    """Roundness of the outer raceway; see `AbstractRoundness`."""
+
+    part: ClassVar[str] = "outer_roundness"
+
+
+def out_of_round(
+    inner: InnerRoundness | None, outer: OuterRoundness | None, azimuth: Float[Array, " element"]
+) -> Float[Array, " element"] | None:
+    """By how much races that are not round come towards each rolling element, m; `None` if both are round."""
+    if inner is None and outer is None:
+        return None
+    nothing = jnp.zeros_like(azimuth)
+    closing = nothing if inner is None else inner.deviation(azimuth)
+    return closing if outer is None else closing - outer.deviation(azimuth)

@@ -1,0 +1,181 @@
+r"""A ring of `bending` under loads, on a housing all around it or on single supports.
+
+Its energy in the amplitudes $x = (a_n, b_n)$ of the deflection is convex:
+
+$$U = \tfrac12\sum_n K_nx_n^2 + \sum_m\tfrac12k_m\langle w(\varphi_m) - g_m\rangle_+^2 - \sum_n G_nx_n$$
+
+with the stiffness $K_n$ of ring and housing, supports of stiffness $k_m$ at the angles $\varphi_m$ behind gaps $g_m$,
+which push only, and generalised loads $G_n$. A load at the angle $\varphi$ on the centroid circle contributes to the
+cosine and the sine amplitude of order n
+
+- a radial force P, outwards: $P\cos n\varphi$, $P\sin n\varphi$;
+- a tangential force T, counter-clockwise: $-\frac{T}{n}f_T\sin n\varphi$, $\frac{T}{n}f_T\cos n\varphi$;
+- a couple M, counter-clockwise: $\frac{n^2-1}{nR}Mf_M\sin n\varphi$, $-\frac{n^2-1}{nR}Mf_M\cos n\varphi$,
+
+where $f_T = (1 + n^2(i+s))/(1+i+n^2s)$ and $f_M = 1/(1+i+n^2s)$ are exact for Timoshenko's ring, on a springy housing
+too. Rolling elements press with P = Q.
+"""
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float, Int
+
+from .._types import Scalar
+from .bending import Foundation, RingSection, stiffness_of_orders
+
+
+class RimLoads(eqx.Module):
+    """Forces on a ring from outside, one entry for each: the teeth of a planet gear, for example.
+
+    **Arguments:**
+    - `angle`: where they act, rad.
+    - `radial`: outwards, N.
+    - `tangential`: counter-clockwise, N.
+    - `radius`: at which they act, m: a tangential force beside the centroid circle is a couple too.
+    """
+
+    angle: Float[Array, " load"]
+    radial: Float[Array, " load"]
+    tangential: Float[Array, " load"]
+    radius: Float[Array, " load"]
+
+    def resultant(self) -> Float[Array, "2"]:
+        """Sum of the forces along the angles 0 and 90 degrees, N."""
+        sine, cosine = jnp.sin(self.angle), jnp.cos(self.angle)
+        along = self.radial * cosine - self.tangential * sine
+        across = self.radial * sine + self.tangential * cosine
+        return jnp.stack([jnp.sum(along), jnp.sum(across)])
+
+
+class Supports(eqx.Module):
+    """Places that a ring may lean on from inside, as the feet of a cut housing; they push and never pull.
+
+    **Arguments:**
+    - `angle`: where they stand, rad.
+    - `stiffness`: N/m, > 0.
+    - `gap`: outward deflection at which the ring touches, m; negative: it is pressed already.
+    """
+
+    angle: Float[Array, " support"]
+    stiffness: Float[Array, " support"]
+    gap: Float[Array, " support"]
+
+    def forces(self, deflection: Float[Array, " support"]) -> Float[Array, " support"]:
+        """Inward forces on the ring, N, from its outward deflection there, m."""
+        return self.stiffness * jnp.maximum(deflection - self.gap, 0.0)
+
+    def energy(self, deflection: Float[Array, " support"]) -> Float[Array, ""]:
+        """Elastic energy, J."""
+        return 0.5 * jnp.sum(self.stiffness * jnp.square(jnp.maximum(deflection - self.gap, 0.0)))
+
+
+class BentRing(eqx.Module):
+    """A ring, what holds it and what loads it beside rolling elements. See the module.
+
+    **Arguments:**
+    - `section`: of the ring.
+    - `orders`: of the harmonics. Leave out 1 for a ring whose loads balance each other and that nothing holds: it has
+      no place of its own.
+    - `foundation`: a housing around it; `None`: there is none.
+    - `supports`, `loads`: `None`: there are none.
+
+    **Raises:** `ValueError` for orders that are not whole, not rising or negative; for order 1 of a ring that neither
+    a foundation nor supports hold.
+    """
+
+    section: RingSection
+    orders: tuple[int, ...] = eqx.field(static=True)
+    foundation: Foundation | None = None
+    supports: Supports | None = None
+    loads: RimLoads | None = None
+
+    def __check_init__(self):
+        orders = np.asarray(self.orders, dtype=int)
+        if orders.size == 0 or orders[0] < 0 or np.any(np.diff(orders) <= 0):
+            raise ValueError(f"orders must be rising whole numbers from 0 on, got {self.orders}")
+        if 1 in self.orders and self.foundation is None and self.supports is None:
+            raise ValueError("orders: nothing holds the ring in place, leave out order 1")
+
+    @property
+    def modes(self) -> int:
+        """Number of amplitudes: cosines of all orders, then sines of those above 0."""
+        return int(self._of_modes.size)
+
+    @property
+    def _of_modes(self) -> Int[np.ndarray, " mode"]:
+        """Order of each amplitude."""
+        orders = np.asarray(self.orders, dtype=int)
+        return np.concatenate([orders, orders[orders > 0]])
+
+    @property
+    def _sine(self) -> np.ndarray:
+        """True for the amplitudes of sines."""
+        return np.arange(self.modes) >= len(self.orders)
+
+    def shapes(self, angle: Float[Array, " place"]) -> Float[Array, "mode place"]:
+        """Deflection at the angles, rad, for a unit of each amplitude."""
+        turned = self._of_modes.astype(float)[:, None] * angle[None, :]
+        return jnp.where(self._sine[:, None], jnp.sin(turned), jnp.cos(turned))
+
+    def deflection(self, amplitudes: Float[Array, " mode"], angle: Float[Array, " place"]) -> Float[Array, " place"]:
+        """Outward deflection at the angles, rad; m."""
+        return amplitudes @ self.shapes(angle)
+
+    def stiffness(self) -> Float[Array, " mode"]:
+        """Generalised load over amplitude, of ring and foundation, N/m."""
+        orders = np.asarray(self.orders, dtype=int)
+        place = np.arange(orders.size)
+        of_order = stiffness_of_orders(self.section, self.foundation, orders)
+        return of_order[np.concatenate([place, place[orders > 0]])]
+
+    def given_loads(self) -> Float[Array, " mode"]:
+        """Generalised loads of `loads`, N."""
+        loads = self.loads
+        if loads is None:
+            return jnp.zeros(self.modes)
+        order, section = self._of_modes, self.section
+        shapes = self.shapes(loads.angle)
+        # derivatives of the shapes by the angle, over the order; 0 for order 0, which no tangential load excites
+        at = order.astype(float)[:, None] * loads.angle[None, :]
+        turned = jnp.where(self._sine[:, None], jnp.cos(at), -jnp.sin(at))
+        over = np.where(order > 0, 1.0 / np.maximum(order, 1), 0.0)
+        tangential = over * section.of_tangential_load(order)
+        couple = over * (np.square(order) - 1.0) * section.of_moment(order) / section.radius
+        moment = loads.tangential * (loads.radius - section.radius)
+        return shapes @ loads.radial + tangential * (turned @ loads.tangential) - couple * (turned @ moment)
+
+    def balance(self, amplitudes: Float[Array, " mode"], pressed: Float[Array, " mode"]) -> Float[Array, " mode"]:
+        """Derivatives of the energy by the amplitudes, N, less the generalised loads `pressed` of rolling elements."""
+        rows = self.stiffness() * amplitudes - pressed - self.given_loads()
+        if self.supports is None:
+            return rows
+        shapes = self.shapes(self.supports.angle)
+        return rows + shapes @ self.supports.forces(amplitudes @ shapes)
+
+    def energy(self, amplitudes: Float[Array, " mode"]) -> Float[Array, ""]:
+        """Energy less the work of `loads`, J; `balance` with no element is its gradient."""
+        energy = 0.5 * jnp.sum(self.stiffness() * jnp.square(amplitudes)) - self.given_loads() @ amplitudes
+        if self.supports is None:
+            return energy
+        return energy + self.supports.energy(self.deflection(amplitudes, self.supports.angle))
+
+    def reactions(self, amplitudes: Float[Array, " mode"]) -> Float[Array, " support"]:
+        """Inward forces of the supports, N; none without supports."""
+        if self.supports is None:
+            return jnp.zeros(0)
+        return self.supports.forces(self.deflection(amplitudes, self.supports.angle))
+
+    def amplitudes(self, pressed: Float[Array, " mode"]) -> Float[Array, " mode"]:
+        """Amplitudes under generalised loads `pressed`, N, beside those of `loads`, m; without supports only.
+
+        **Raises:** `ValueError` for a ring on supports, whose contacts open and close.
+        """
+        if self.supports is not None:
+            raise ValueError("a ring on supports has no closed form: solve `balance`")
+        return (pressed + self.given_loads()) / self.stiffness()
+
+
+def point_load(ring: BentRing, angle: Scalar, force: Scalar) -> Float[Array, " mode"]:
+    """Generalised loads of a radial force, N, outwards, at an angle, rad."""
+    return ring.shapes(jnp.asarray(angle)[None])[:, 0] * force

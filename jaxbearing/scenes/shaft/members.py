@@ -1,0 +1,99 @@
+"""Sets whose bearings differ: in a file a list of scenes, or tables [[set.bearing]], one for each sign of the picture.
+
+Inside, the bearings are tables by number, from 1, under `bearing`.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+from ..errors import SceneError
+from ..units import describe
+
+MEMBERS = "bearing"
+"""Table of a set that holds its bearings by number."""
+_SCENE = "scene"
+_LIST = "[[set.bearing]] tables in double brackets, one for each sign of the picture, each with a scene or a kind"
+
+
+def numbered(entry: Any, path: str, label: str) -> Any:
+    """The entry of a set with its different bearings as tables by number; other entries as they are.
+
+    **Arguments:** `path`: of the entry; `label`: name of the file, for messages.
+
+    **Raises:** `SceneError` for what is no list of scenes, or of tables.
+    """
+    if not isinstance(entry, Mapping):
+        return entry
+    scenes, given = entry.get(_SCENE), entry.get(MEMBERS)
+    if isinstance(scenes, list):
+        wrong = next((one for one in scenes if not isinstance(one, str)), None)
+        if wrong is not None or not scenes:
+            found = describe(wrong) if scenes else "an empty list"
+            raise SceneError(label, f"{path}.{_SCENE}", found, "a scene, or a list of scenes, one for each sign")
+        if not isinstance(given, Mapping | None):
+            raise SceneError(
+                label, f"{path}.{MEMBERS}", "a list beside a list of scenes", "tables by number: [set.bearing.2]"
+            )
+        entry = {name: value for name, value in entry.items() if name != _SCENE}
+        by_number = {str(place + 1): {_SCENE: one} for place, one in enumerate(scenes)}
+        own = {number: one for number, one in (given or {}).items() if isinstance(one, Mapping)}
+        members = {number: {**own.get(number, {}), **one} for number, one in by_number.items()}
+        given = members | {number: one for number, one in (given or {}).items() if number not in members}
+        entry = {**entry, MEMBERS: given}
+    if isinstance(given, list):
+        if not given or not all(isinstance(one, Mapping) for one in given):
+            raise SceneError(label, f"{path}.{MEMBERS}", describe(given), _LIST)
+        return {**entry, MEMBERS: {str(place + 1): dict(one) for place, one in enumerate(given)}}
+    tables = isinstance(given, Mapping) and all(isinstance(one, Mapping) for one in given.values())
+    if given is not None and not tables:
+        raise SceneError(label, f"{path}.{MEMBERS}", describe(given), _LIST)
+    return entry
+
+
+def differ(entry: Any) -> bool:
+    """True for the entry of a set that has bearings of its own for each sign."""
+    return isinstance(entry, Mapping) and isinstance(entry.get(MEMBERS), Mapping)
+
+
+def each_bearing(tables: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+    """The keys of all tables of bearings of a shaft, which has them by name."""
+    for word in ("bearing", "set"):
+        entries = tables.get(word)
+        for name, entry in entries.items() if isinstance(entries, Mapping) else ():
+            if word == "set" and differ(entry):
+                yield from ((word, name, MEMBERS, number) for number in entry[MEMBERS])
+            elif isinstance(entry, Mapping):
+                yield word, name
+
+
+def at(tables: Mapping[str, Any], keys: tuple[str, ...]) -> Any:
+    """The table at these keys; `None` where there is none."""
+    found: Any = tables
+    for key in keys:
+        found = found.get(key) if isinstance(found, Mapping) else None
+    return found
+
+
+def put(tables: Mapping[str, Any], keys: tuple[str, ...], value: Any) -> dict[str, Any]:
+    """A copy of the tables with another one at these keys."""
+    if len(keys) == 1:
+        return {**tables, keys[0]: value}
+    return {**tables, keys[0]: put(tables[keys[0]], keys[1:], value)}
+
+
+def changed(tables: Mapping[str, Any], change: Callable[[tuple[str, ...], Any], Any]) -> dict[str, Any]:
+    """A copy of the tables of a shaft with another table of each bearing.
+
+    **Arguments:** `change`: (keys of the bearing's table, the table) -> another one.
+
+    **Raises:** `SceneError` with all that `change` raises.
+    """
+    found, problems = dict(tables), []
+    for keys in each_bearing(tables):
+        try:
+            found = put(found, keys, change(keys, at(tables, keys)))
+        except SceneError as error:
+            problems += error.problems
+    if problems:
+        raise SceneError.of_all(problems)
+    return found

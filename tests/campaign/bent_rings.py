@@ -1,0 +1,141 @@
+"""Random cylindrical roller bearings whose outer ring bends or is not round."""
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+from campaign.bearings import CRAWL, MIRROR, YIELDING, scaled
+from campaign.draws import Numbers, Range, even, log
+from campaign.rollers import DRY, LUBRICATED, MEAN, roller_balances, roller_numbers, structure
+from campaign.structure import Results, Structure
+
+RIM: dict[str, Range] = {"rim": log(0.3, 2.0), "wide": even(1.0, 2.0)}
+"""Thickness over the roller diameter, width over the roller length."""
+HOUSING: dict[str, Range] = {"housing": log(1e9, 1e13), "glued": log(1e7, 1e12, zero=0.5)}
+"""N/m^2, all round and along the circumference."""
+OVAL: dict[str, Range] = {"lobe": even(-2e-3, 2e-3, zero=0.1)}
+"""Height over the roller diameter."""
+SUPPORTS: dict[str, Range] = {
+    "support": log(1e8, 1e10),
+    "spread": even(0.25, 1.2),
+    "gap": even(0.0, 1e-3, zero=0.3),
+}
+"""Stiffness, N/m; angle off the load line, rad; gap over the roller diameter."""
+LENGTHS = (
+    *("outer_ring.thickness", "outer_ring.width", "outer_ring.support_gap", "outer_roundness.lobe_height"),
+    # of a support, N/m: as a length, with the modulus held
+    "outer_ring.support_stiffness",
+)
+ELASTIC = (MIRROR, YIELDING, CRAWL, scaled(LENGTHS))
+TABLES: dict[str, Any] = {"outer_ring.thickness": "8 mm", "outer_ring.width": "20 mm", "outer_ring.harmonics": "6"}
+
+
+def ring_numbers(v: Numbers, scene: Any) -> Numbers:
+    """Numbers of the ring and of the lobe, as far as the scene has them."""
+    numbers = roller_numbers(v, scene)
+    diameter = v["diameter"]
+    column = lambda values: np.asarray(values)[:, None]
+    numbers |= {
+        "outer_ring.thickness": v["rim"] * diameter,
+        "outer_ring.width": v["wide"] * numbers["geometry.roller_length"],
+    }
+    if scene.outer_ring.housing_stiffness is not None:
+        numbers |= {"outer_ring.housing_stiffness": v["housing"], "outer_ring.housing_shear_stiffness": v["glued"]}
+    if scene.outer_ring.support_angle is not None:
+        numbers |= {
+            "outer_ring.support_angle": column(v["spread"]) * np.array([-1.0, 1.0]),
+            "outer_ring.support_stiffness": column(v["support"]) * np.ones(2),
+            "outer_ring.support_gap": column(v["gap"] * diameter) * np.ones(2),
+        }
+    if scene.outer_roundness is not None:
+        numbers["outer_roundness.lobe_height"] = column(v["lobe"] * diameter)
+    return numbers
+
+
+def _shapes(order: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Cosines and sines of all orders at the angles of each case."""
+    turned = order[:, None] * angle[:, None, :]
+    return np.cos(turned), np.sin(turned)
+
+
+def ring_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:
+    """The amplitudes balance what bends the ring, written again from the printed loads; rings and rollers fit."""
+    order, azimuth = r["outer_ring.order"][0], r["elements.azimuth"]
+    cosines, sines = r["outer_ring.cosines"], r["outer_ring.sines"]
+    at = lambda angle: np.einsum("fcn,fcnj->cj", np.stack([cosines, sines]), np.stack(_shapes(order, angle)))
+    opening = at(azimuth)
+    if scene.outer_roundness is not None:
+        opening = opening + n["outer_roundness.lobe_height"] * np.cos(2.0 * azimuth)
+    rigid = roller_balances(scene, n, r, opening)
+    height, width = n["outer_ring.thickness"], n["outer_ring.width"]
+    radius = 0.5 * (n["geometry.pitch_diameter"] + n["geometry.roller_diameter"] + height)
+    modulus = n["materials.rings.youngs_modulus"]
+    bending, axial = modulus * width * height**3 / 12.0, modulus * width * height
+    share = bending / (axial * radius**2)
+    each = (bending / radius**4 / (1.0 + share))[:, None] * (order**2 - 1.0) ** 2
+    each = np.where(order == 0, (axial / radius**2)[:, None], each)
+    if scene.outer_ring.housing_stiffness is not None:
+        along = np.where(order > 0, 1.0 / np.maximum(order, 1.0) ** 2, 0.0)
+        each = each + n["outer_ring.housing_stiffness"][:, None]
+        each = each + n["outer_ring.housing_shear_stiffness"][:, None] * along
+    stiffness = np.pi * radius[:, None] * each * np.where(order == 0, 2.0, 1.0)
+    load = r["elements.load_outer"]
+    found = {}
+    worst = np.zeros(len(load))
+    held = [np.zeros_like(cosines), np.zeros_like(sines)]
+    if scene.outer_ring.support_angle is not None:
+        angle = n["outer_ring.support_angle"]
+        forces = n["outer_ring.support_stiffness"] * np.maximum(at(angle) - n["outer_ring.support_gap"], 0.0)
+        off = np.max(np.abs(forces - r["outer_ring.support_forces"]), axis=1)
+        found["forces of the supports"] = (off / np.sum(load, axis=1), 1e-6)
+        held = [np.einsum("cnm,cm->cn", shape, r["outer_ring.support_forces"]) for shape in _shapes(order, angle)]
+    for part, shape, also in zip((cosines, sines), _shapes(order, azimuth), held, strict=True):
+        row = stiffness * part + also - np.einsum("cnj,cj->cn", shape, load)
+        worst = np.maximum(worst, np.max(np.abs(row), axis=1))
+    found["the ring is in balance"] = (worst / np.sum(load, axis=1), 1e-8)
+    return rigid | found
+
+
+def bent(name: str, count: int, changes: dict[str, Any], ranges: dict[str, Range], **kwargs: Any) -> Structure:
+    base = structure(name, count, {**TABLES, **changes}, {**RIM, **ranges}, **kwargs)
+    return dataclasses.replace(
+        base,
+        numbers=lambda v: ring_numbers(v, base.scene),
+        balances=lambda n, r: ring_balances(base.scene, n, r),
+    )
+
+
+LOBE = {
+    "outer_roundness.lobe_order": "2",
+    "outer_roundness.lobe_height": "1 um",
+    "outer_roundness.lobe_angle": "0 deg",
+}
+STRUCTURES = [
+    bent(
+        "flexible outer ring, housing, oval race",
+        12,
+        {"outer_ring.housing_stiffness": "1e10 N/m^2", **LOBE},
+        {**HOUSING, **OVAL},
+        without=DRY,
+        twins=ELASTIC,
+        small=True,
+    ),
+    bent(
+        "flexible outer ring, two supports",
+        14,
+        {
+            "outer_ring.support_angle": '["-30 deg", "30 deg"]',
+            "outer_ring.support_stiffness": '["100 N/um", "100 N/um"]',
+            "outer_ring.support_gap": '["0 um", "0 um"]',
+        },
+        SUPPORTS,
+        without=DRY,
+        twins=ELASTIC,
+    ),
+    bent(
+        "skidding, flexible outer ring, housing",
+        10,
+        {**MEAN, "outer_ring.housing_stiffness": "1e10 N/m^2"},
+        {**LUBRICATED, **HOUSING},
+    ),
+]
