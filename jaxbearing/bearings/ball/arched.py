@@ -64,7 +64,8 @@ class ArchedBallSystem(AbstractBallEquations):
 
     @property
     def own_unknowns(self) -> tuple[str, ...]:
-        return ("axial spin", "radial spin", "orbit" if self.cage is None else "outward")
+        names = ("axial spin", "radial spin", "orbit" if self.cage is None else "outward")
+        return (*names, "transverse") if self.resolved else names
 
     # -- solver contract ------------------------------------------------------------------------------------------
 
@@ -94,8 +95,8 @@ class ArchedBallSystem(AbstractBallEquations):
         races = self.races_of(motion, angle)
         contact = self.geometry.contacts_on(jnp.cos(angle), self.arcs.races, self.reduced_modulus).shaped()
         load, film, missed = self._loads(contact, touch.apart, races)
-        friction = self.couple_friction(motion, load)
-        push = self.push(touch, load, friction)
+        friction = self._taken(motion, load) if self.resolved else self.couple_friction(motion, load)
+        push = self.push(touch, load, None if self.resolved else friction)
         outward, on_ring = self.centrifugal(orbit), push.on_ring
         pocket = self.friction_scale() * own["outward"] if "outward" in own else None
         if pocket is not None and self.cage is not None:
@@ -123,6 +124,25 @@ class ArchedBallSystem(AbstractBallEquations):
             on_ring=on_ring,
             cage_moment=None,
             cage_force=None,
+        )
+
+    def _taken(self, motion: BallMotion, load: Float[Array, "contact ball"]) -> Float[Array, "contact ball"]:
+        """What the contacts have to carry together of a resolved couple, N, as if the first one did."""
+        taken = 2.0 * self.couple(motion) / self.kinematics.ball_diameter
+        return jnp.zeros_like(load).at[0].set(taken)
+
+    def balls(self, unknowns: Float[Array, "m ball"], shared: Float[Array, "g ball"]) -> BallsState:
+        state = super().balls(unknowns, shared)
+        if not self.resolved:
+            return state
+        # the transverse traction of each contact is known only now: it acts on the ball and on the inner ring
+        assert state.traction is not None
+        touch = self.touch(shared[: len(self.freedoms)], state.centre)
+        carried = jnp.asarray(self.arcs.senses * state.traction.transverse)
+        push, bare = self.push(touch, state.load, carried), self.push(touch, state.load, None)
+        more = jnp.stack([push.axial - bare.axial, push.outward - bare.outward]) / self.ball_scale()
+        return state._replace(
+            friction=carried, fit=state.fit + more, on_ring=state.on_ring + (push.on_ring - bare.on_ring)
         )
 
     def free_rolling(self, state: BallsState) -> Float[Array, " ball"]:

@@ -164,7 +164,7 @@ def _rows(
     if system.resolved:
         assert state.friction is not None
         sideways = state.friction - system.arcs.senses * shear.transverse
-        rows["transverse"], rows["carried"] = (sideways[0] + sideways[1]) / scale, sideways[0] / scale
+        rows["transverse"], rows["carried"] = added(system.arcs.by_race(sideways)) / scale, sideways[0] / scale
     if system.attitude == "min_power":
         rows["attitude"] = state.motion.attitude - _least_power(system, state)
     return tuple(rows[name] for name in system.own_unknowns)

@@ -221,11 +221,6 @@ class BallBearing(AbstractBearing):
                 f"kinematics.attitude: found '{self.kinematics.attitude}', expected '{expected}' with geometry.{name} "
                 f"and {traction} traction (contact.traction): race control is for balls with two contacts"
             )
-        if isinstance(self.kinematics.gyroscopic, ResolvedCouple):
-            yield (
-                f"kinematics.gyroscopic: found 'resolved' beside geometry.{name}, expected another law or none: the "
-                "transverse traction of balls with more than two contacts is not modelled"
-            )
         if self.contact is not None and self.kinematics.orbit == "common":
             yield (
                 f"kinematics.orbit: found 'common' beside geometry.{name} and [contact], expected 'own': such balls "
