@@ -9,9 +9,10 @@ from jaxbearing.lubricants import ExponentialRheology
 
 from .parameters import NAMES, natural, values_of
 from .posterior import Posterior, Sampling, Target, sampled
+from .predictive import PREDICTED, Predictive, chosen_samples, measured_again
 from .result import FitResult
 from .search import Search
-from .traction import predicted_coefficients
+from .traction import coefficients, predicted_coefficients
 
 
 def posterior_of(result: FitResult, sampling: Sampling | None = None) -> Posterior:
@@ -69,3 +70,22 @@ def posterior_of(result: FitResult, sampling: Sampling | None = None) -> Posteri
         values=values,
     )
     return sampled(target, Sampling() if sampling is None else sampling, result.level)
+
+
+def predictive(result: FitResult, posterior: Posterior, count: int = PREDICTED, seed: int = 0) -> Predictive:
+    """Predicts by the posterior which traction coefficients would be measured at the points of the data.
+
+    **Arguments:** `result`: the fit of the posterior; `count`: samples whose predictions are computed.
+
+    **Raises:** `ValueError` where a sample has no solution.
+    """
+    search, place = Search(result.measurements, result.scene, result.options), chosen_samples(posterior, count)
+    rheology = result.oil.rheology
+    assert isinstance(rheology, ExponentialRheology)
+    whole = np.tile(natural(rheology), (len(place), 1))
+    told = [NAMES.index(name) for name in posterior.parameters]
+    whole[:, told] = posterior.coordinates.reshape(-1, len(told))[place]
+    values = np.stack([coefficients(search.scene, search.state, rheology, jnp.asarray(one)) for one in whole])
+    measured, deviation = np.asarray(search.coefficient), np.asarray(result.deviation)
+    names = ("traction_coefficient",) * len(measured)
+    return measured_again(posterior, place, values, measured, deviation, names, seed)

@@ -92,6 +92,7 @@ if TYPE_CHECKING:
     from .distribution import Distribution as Distribution
     from .distribution import MeanUsedWarning as MeanUsedWarning
     from .ehl import EHLLineContact as EHLLineContact
+    from .joint import JointDistribution as JointDistribution
     from .machines import TwoDisk as TwoDisk
     from .makers import Catalogue as Catalogue
     from .materials import Material as Material
@@ -142,6 +143,7 @@ _LAZY = {
     "Fits": ".mounting",
     "HeldDisplacement": ".bearings.operation",
     "History": ".bearings.motion.history",
+    "JointDistribution": ".joint",
     "Material": ".materials",
     "Materials": ".bearings.parts",
     "MeanUsedWarning": ".distribution",

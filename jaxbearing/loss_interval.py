@@ -97,6 +97,22 @@ def power_interval(
     return PowerInterval(value, low, high, widest.path, widest.assumed, tuple(parts))
 
 
+def numbers_among(scene: AbstractScene, given: Mapping[str, Distribution]) -> dict[str, Distribution]:
+    """Those distributions whose path leads to one number of the scene."""
+    return {path: one for path, one in given.items() if _is_number(_value_at(scene, path))}
+
+
+def _value_at(scene: Any, path: str) -> Any:
+    for name in path.split("."):
+        scene = getattr(scene, name, None)
+    return scene
+
+
+def _is_number(value: Any) -> bool:
+    number = isinstance(value, int | float) or hasattr(value, "dtype")
+    return number and not isinstance(value, bool) and np.ndim(value) == 0
+
+
 def _uncertain(scene: Any, given: Mapping[str, Distribution], drag_prior: bool) -> list[_Uncertain]:
     """The inputs that have a distribution."""
     assumed = {

@@ -20,6 +20,7 @@ RANK = {
     "_identity": 2,
     "time_laws": 2,
     "distribution": 2,
+    "joint": 2,
     "designations": 2,
     "numerics": 1,
     "programs": 2,

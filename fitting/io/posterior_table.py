@@ -8,12 +8,14 @@ from rich.table import Table
 from jaxbearing.report.backends.screen import print_line, print_rule, print_warnings
 
 from ..posterior import Posterior
+from ..predictive import Predictive
 from ..result import Parameter
 from .words import SYMBOL, parameter_text
 
 
-def print_posterior(found: Posterior, console: Console) -> None:
-    """Median, interval, R-hat and effective samples of each parameter, and how the samples were drawn."""
+def print_posterior(found: Posterior, console: Console, again: Predictive | None = None) -> None:
+    """Median, interval, R-hat and effective samples of each parameter, how the samples were drawn, and what they
+    predict to be measured again."""
     print_rule(f"Posterior, {100.0 * found.level:g} % intervals", console)
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
     table.add_column("Symbol", no_wrap=True)
@@ -25,4 +27,6 @@ def print_posterior(found: Posterior, console: Console) -> None:
         table.add_row(SYMBOL[name], text.value, text.unit, text.error, text.interval, *quality)
     console.print(Padding(table, (0, 1)))
     print_line("sampler", found.in_words(), console)
+    if again is not None:
+        print_line("predictive", again.in_words(), console)
     print_warnings(list(found.warnings), console)

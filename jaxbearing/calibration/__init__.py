@@ -6,6 +6,7 @@ from .next_point import next_points as next_points
 from .posterior import posterior_of as posterior_of
 from .posterior import predictive as predictive
 from .prediction import distributions_of as distributions_of
+from .prediction import joint_of as joint_of
 from .prediction import predict as predict
 from .repetitions import repeated as repeated
 from .result import Calibration as Calibration

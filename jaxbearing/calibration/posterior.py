@@ -1,29 +1,14 @@
 """The posterior of calibrated fields, and what it predicts."""
 
-from dataclasses import dataclass
-
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array
 
 from fitting.posterior import Posterior, Sampling, Target, sampled
+from fitting.predictive import PREDICTED, Predictive, chosen_samples, measured_again
 
 from .evaluation import at_points
 from .result import Calibration
-
-PREDICTED = 200
-"""Samples of the posterior whose predictions are computed."""
-
-
-@dataclass(frozen=True)
-class Predictive:
-    """Values as the posterior predicts them to be measured again, SI: median and ends of the interval of each measured
-    value, and the share of the measured values inside."""
-
-    median: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
-    inside: float
 
 
 def posterior_of(found: Calibration, sampling: Sampling | None = None) -> Posterior:
@@ -95,18 +80,13 @@ def _evaluate(found: Calibration):
 def predictive(found: Calibration, posterior: Posterior, count: int = PREDICTED, seed: int = 0) -> Predictive:
     """Predicts by the posterior what would be measured at the operating points of the data, with new errors.
 
-    **Arguments:** `count`: samples whose predictions are computed.
+    **Arguments:** `found`: the calibration of the posterior; `count`: samples whose predictions are computed.
+
+    **Raises:** `ValueError` where a sample has no solution.
     """
-    search = found.search
-    flat = posterior.coordinates.reshape(-1, posterior.coordinates.shape[-1])
-    chosen = np.linspace(0, len(flat) - 1, min(count, len(flat))).astype(int)
-    whole = np.tile(np.asarray(found.settled.problem.natural(found.settled.u)), (len(chosen), 1))
-    whole[:, found.settled.held.free] = flat[chosen]
+    search, place = found.search, chosen_samples(posterior, count)
+    whole = np.tile(np.asarray(found.settled.problem.natural(found.settled.u)), (len(place), 1))
+    whole[:, found.settled.held.free] = posterior.coordinates.reshape(-1, posterior.coordinates.shape[-1])[place]
     values, _ = search.predicted(whole)
-    errors = np.random.default_rng(seed).normal(size=values.shape)
-    scale = posterior.scale.reshape(-1)[chosen]
-    again = values + errors * scale[:, None] * search.observed.deviation
-    tail = 0.5 - 0.5 * found.options.level
-    lower, median, upper = np.nanquantile(again, (tail, 0.5, 1.0 - tail), axis=0)
-    measured = search.observed.value
-    return Predictive(median, lower, upper, float(np.mean((lower <= measured) & (measured <= upper))))
+    one = search.observed
+    return measured_again(posterior, place, values, one.value, one.deviation, tuple(map(str, one.name)), seed)

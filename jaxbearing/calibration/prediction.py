@@ -1,13 +1,17 @@
 """Predictions of a calibrated scene: results of another operating point, or of another bearing with the same fields,
 with the interval that the calibration leaves."""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from fitting.posterior import Posterior
+from fitting.predictive import PREDICTED, chosen_samples
+
 from .._scene import AbstractScene
 from ..distribution import Distribution
+from ..joint import JointDistribution
 from ..numerics.newton import NewtonOptions
 from .evaluation import Evaluator
 from .labels import labels_in
@@ -15,10 +19,11 @@ from .parameters import scenes_with
 from .result import Calibration
 
 
-@dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True)
 class Predicted:
     """One result, SI: its value with the calibrated fields, standard deviation and ends of the interval that these
-    leave, and the same with what was known before, the priors; `None` where a field has no prior."""
+    leave, and the same with what was known before, the priors; `None` where a field has no prior. `samples`: of a
+    posterior whose median, deviation and quantiles these are; 0: by the delta method."""
 
     value: float
     deviation: float
@@ -26,19 +31,24 @@ class Predicted:
     upper: float
     unit: str
     before: "Predicted | None" = None
+    samples: int = 0
 
 
 def predict(
-    found: Calibration, scene: AbstractScene, results: Sequence[str], newton: NewtonOptions | None = None
+    found: Calibration,
+    scene: AbstractScene,
+    results: Sequence[str],
+    newton: NewtonOptions | None = None,
+    posterior: Posterior | None = None,
 ) -> dict[str, Predicted]:
-    """Results of a scene with the calibrated fields, by the delta method with the covariance of all fields: what they
-    share is counted as it is. The interval is that of the mean, without an error of measurement.
+    """Results of a scene with the calibrated fields, by the delta method with the covariance of all fields, or by
+    samples of their posterior: what they share is counted as it is. The interval has no error of measurement.
 
     **Arguments:** `found`: a calibration that converged; `scene`: any that has one or more of its fields; `results`: as
-    those of `jaxbearing.tolerances`.
+    those of `jaxbearing.tolerances`; `posterior`: of the calibration, of which 200 samples are solved.
 
     **Raises:** `ValueError` for a calibration without a result, for a scene without any of the fields, for a name that
-    is no result, and where the solve fails.
+    is no result, and where a solve fails.
     """
     if not found.converged:
         raise ValueError(found.failure())
@@ -56,7 +66,10 @@ def predict(
     quantile = found.search.quantile(
         found.search.spread(found.settled.problem, found.settled.u, found.settled.held.free)
     )
-    after = _at(found, evaluator, order, coordinates, covariance, quantile)
+    if posterior is None:
+        after = _at(found, evaluator, order, coordinates, covariance, quantile)
+    else:
+        after = _by_samples(found, evaluator, order, coordinates, posterior)
     known = found.search.prior_deviation
     own = [order.index(path) for path in evaluator.paths]
     if not np.all(np.isfinite(known[own])):
@@ -66,10 +79,7 @@ def predict(
     normal = float(stats.norm.ppf(0.5 + 0.5 * found.options.level))
     prior = np.diag(np.square(np.where(np.isfinite(known), known, 0.0)))
     before = _at(found, evaluator, order, found.search.prior_mean, prior, normal)
-    return {
-        name: Predicted(one.value, one.deviation, one.lower, one.upper, one.unit, before[name])
-        for name, one in after.items()
-    }
+    return {name: dataclasses.replace(one, before=before[name]) for name, one in after.items()}
 
 
 def _at(
@@ -96,9 +106,42 @@ def _at(
     return predicted
 
 
+def _by_samples(
+    found: Calibration, evaluator: Evaluator, order: list[str], coordinates: np.ndarray, posterior: Posterior
+) -> dict[str, Predicted]:
+    """Median, deviation and quantiles of the results of samples of the posterior; fields without samples keep their
+    values."""
+    place = chosen_samples(posterior, PREDICTED)
+    told = list(posterior.parameters)
+    drawn = posterior.values.reshape(-1, len(told))[place]
+    columns = []
+    for path in evaluator.paths:
+        i = order.index(path)
+        own = drawn[:, told.index(path)] if path in told else np.full(len(place), found.fields[i].value(coordinates[i]))
+        columns.append(own)
+    results, _ = evaluator({}, np.stack(columns, axis=1), np.ones(len(place), dtype=bool))
+    failed = int(np.sum(~np.all(np.isfinite(results), axis=1)))
+    if failed:
+        raise ValueError(f"scene: found no solution with {failed} of {len(place)} samples of the posterior")
+    tail = 0.5 - 0.5 * posterior.level
+    lower, median, upper = np.quantile(results, (tail, 0.5, 1.0 - tail), axis=0)
+    deviation = np.std(results, axis=0)
+    return {
+        name: Predicted(
+            value=float(median[i]),
+            deviation=float(deviation[i]),
+            lower=float(lower[i]),
+            upper=float(upper[i]),
+            unit=label.unit,
+            samples=len(place),
+        )
+        for i, (name, label) in enumerate(evaluator.labels.items())
+    }
+
+
 def distributions_of(found: Calibration) -> Mapping[str, Distribution]:
     """The told fields as distributions, for `jaxbearing.tolerances`: lognormal ones of positive fields, normal ones of
-    others. They are independent there, while `predict` counts what the fields share."""
+    others. They are independent there, while `predict` and `joint_of` count what the fields share."""
     coordinates = np.asarray(found.settled.problem.natural(found.settled.u))
     made = {}
     for i, field in enumerate(found.fields):
@@ -111,3 +154,29 @@ def distributions_of(found: Calibration) -> Mapping[str, Distribution]:
         else:
             made[field.path] = Distribution(value, deviation * field.scale)
     return made
+
+
+def joint_of(found: Calibration, posterior: Posterior | None = None) -> JointDistribution:
+    """The told fields as one distribution, with what they share, for `jaxbearing.tolerances`.
+
+    **Arguments:** `found`: a calibration that converged; `posterior`: of it, whose samples are taken; `None`: normal in
+    coordinates, with the covariance of least squares.
+
+    **Raises:** `ValueError` for a calibration without a result, and where no field was told.
+    """
+    if not found.converged:
+        raise ValueError(found.failure())
+    if not found.fitted:
+        raise ValueError("the measurements tell none of the fields")
+    place = [i for i, field in enumerate(found.fields) if field.path in found.fitted]
+    fields = [found.fields[i] for i in place]
+    positive = np.array([field.positive for field in fields])
+    if posterior is not None:
+        order = [list(posterior.parameters).index(field.path) for field in fields]
+        values = posterior.values.reshape(-1, posterior.values.shape[-1])[:, order]
+        return JointDistribution.of_samples([field.path for field in fields], values, positive)
+    coordinates = np.asarray(found.settled.problem.natural(found.settled.u))
+    centre = np.array([float(field.value(coordinates[i])) for i, field in zip(place, fields, strict=True)])
+    scale = np.array([1.0 if field.positive else field.scale for field in fields])
+    covariance = found.covariance[np.ix_(place, place)] * np.outer(scale, scale)
+    return JointDistribution(tuple(field.path for field in fields), centre, positive, covariance)

@@ -11,6 +11,8 @@ from rich.console import Console
 from rich.padding import Padding
 from rich.table import Table
 
+from fitting.predictive import Predictive
+
 from ..report.backends.json import finite
 from ..report.backends.screen import counted, headline, print_failure, print_line, print_rule, print_warnings
 from ..report.display import digits, displayed, with_unit
@@ -34,11 +36,12 @@ def print_calibration(
     posterior: Any,
     predicted: Mapping[str, Predicted],
     console: Console,
+    again: Predictive | None = None,
 ) -> None:
     """Print a calibration; where it failed, why and no result.
 
     **Arguments:** `label`: names of scenes and files; `notes`: of these; `ranked`: candidates; `posterior`: samples, or
-    `None`; `predicted`: results of other scenes.
+    `None`; `predicted`: results of other scenes; `again`: what the posterior predicts to be measured again.
     """
     if not found.converged:
         print_failure(label, "not converged", found.failure(), console)
@@ -60,6 +63,8 @@ def print_calibration(
         print_rule("Posterior", console)
         console.print(Padding(_posterior(found, posterior), (0, 1)))
         print_line("sampler", posterior.in_words(), console)
+    if again is not None:
+        print_line("predictive", again.in_words(), console)
     if predicted:
         print_rule("Predictions with these fields", console)
         console.print(Padding(_predictions(predicted), (0, 1)))
@@ -155,8 +160,9 @@ def calibration_to_dict(
     ranked: Sequence[Candidate] = (),
     posterior: Any = None,
     predicted: Mapping[str, Predicted] = {},
+    again: Predictive | None = None,
 ) -> dict[str, Any]:
-    """All numbers in SI units; those that are not finite are `None`."""
+    """All numbers in SI units; those that are not finite are `None`. **Arguments:** as those of `print_calibration`."""
     parameters = {path: one._asdict() for path, one in found.parameters.items()}
     for field in found.fields:
         parameters[field.path] |= {"unit": field.unit, "start": field.start}
@@ -184,6 +190,7 @@ def calibration_to_dict(
         "predictions": {name: asdict(one) for name, one in predicted.items()},
         "next": [one.__dict__ for one in ranked],
         "posterior": None if posterior is None else posterior.to_dict(),
+        "predictive": None if again is None else again.to_dict(),
         "warnings": [*found.notes, *([] if posterior is None else posterior.warnings), *notes],
     }
     if found.held_back is not None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ..numerics.arguments import require_count, require_numbers
 from .designation import Designation, parse
 from .duty import Duty
-from .estimate import Estimate, Geometry, estimate
+from .estimate import Estimate, Geometry, estimate, is_usual
 from .proportions import Normal, proportions_of
 from .scene_text import scene_text
 
@@ -44,6 +44,20 @@ class Bearing(NamedTuple):
     def tables(self) -> dict[str, Any]:
         """The tables of the scene file."""
         return tomllib.loads(self.text())
+
+    @property
+    def is_usual(self) -> bool:
+        """True if the scene can be built for sure: no number of its inside is given, loads and speed are positive, and
+        the estimate has usual proportions. Other scenes may be refused when they are built."""
+        duty, ratings = self.duty, {"dynamic_capacity", "static_capacity"}
+        if set(self.given) - ratings or duty.oil is not None:
+            return False
+        if duty.axial_load is not None and self.designation.kind == "cylindrical":
+            return False
+        operation = (duty.radial_load, duty.axial_load, duty.inner_speed)
+        if any(value is not None and value <= 0.0 for value in operation):
+            return False
+        return is_usual(self.designation, self.geometry, _angle(self.designation, None), FAR)
 
     def scene(self) -> "AbstractScene":
         """The scene: with the laws of `laws = "best"` where an oil is given, dry otherwise; loads and a speed that are

@@ -170,7 +170,8 @@ def _said(kind: str, what: str, text: str, clearance: str) -> tuple[str, str]:
             return clearance, f"{text}: clearance class without a table here; set geometry.diametral_clearance"
         return text, ""
     if what == "set":
-        return clearance, f"{text}: of bearings for sets; the scene has one bearing, without preload"
+        of_pairs = "a scene of the kind shaft ('jaxbearing fields shaft') makes a pair of it"
+        return clearance, f"{text}: of bearings for sets; the scene has one bearing, without preload: {of_pairs}"
     if what == "tolerance":
         return clearance, f"{text}: tolerance class, not modelled; [fits] takes the normal class"
     if what == "seal":

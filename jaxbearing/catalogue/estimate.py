@@ -96,6 +96,20 @@ def estimate(bearing: Designation, given: Mapping[str, float], angle: Normal) ->
     return _chosen({name: np.asarray(value) for name, value in out.items()}, mask, counts, given, angle, standard)
 
 
+def is_usual(bearing: Designation, geometry: Geometry, angle: Normal, reach: float) -> bool:
+    """True if each number of a geometry is as usual proportions have it, within so many of their deviations.
+
+    **Arguments:** as those of `estimate`; `geometry`: its answer; `reach`: number of deviations.
+    """
+    terms = _terms(bearing, {}, angle)
+    size = lambda one: math.log(1e3 * one.value)
+    groove = lambda one: math.log(one.value - 0.5)
+    unknowns = [size(geometry.diameter), size(geometry.pitch_diameter), size(geometry.length)]
+    unknowns += [groove(geometry.conformity_inner), groove(geometry.conformity_outer), geometry.contact_angle.value]
+    far = np.abs(np.array(unknowns) - terms["mean"]) * terms["weight"]
+    return bool(np.all(far <= reach))
+
+
 def _terms(bearing: Designation, given: Mapping[str, float], angle: Normal) -> dict[str, Any]:
     """Numbers of the least-squares problem: means and weights (1/deviation) of its terms, and the boundary sizes."""
     usual = proportions_of(bearing.kind, bearing.series)

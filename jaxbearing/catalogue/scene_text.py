@@ -46,7 +46,7 @@ def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, flo
             "",
         ]
     elements = "balls" if kind == "ball_bearing" else "rollers"
-    parts += _table("materials", [Line("rings", '"52100"', ""), Line(elements, '"52100"', "")])
+    parts += _table("materials", [Line("rings", '"52100"', "assumed"), Line(elements, '"52100"', "assumed")])
     if dry and kind == "ball_bearing":
         parts += _table("kinematics", [Line("attitude", '"outer"', 'of a dry scene: take it out with laws = "best"')])
     if not dry:

@@ -20,6 +20,7 @@ from .terminal import console
 
 if TYPE_CHECKING:
     from fitting.posterior import Posterior
+    from fitting.predictive import Predictive
 
     from ..calibration import Calibration
     from ..calibration.next_point import Candidate
@@ -85,13 +86,19 @@ PredictOption = Annotated[
     ),
 ]
 OutOption = Annotated[
-    Path | None,
-    typer.Option("--out", metavar="FILE.toml", help="Write the first scene with the calibrated values."),
+    list[Path] | None,
+    typer.Option(
+        "--out",
+        metavar="FILE",
+        help="FILE.toml: the first scene with the calibrated values; FILE.nc: the fields with what they share, and the "
+        "samples of --posterior, for jaxbearing tolerances --posterior. Repeatable.",
+    ),
 ]
 PlotOption = Annotated[
     Path | None,
     typer.Option("--plot", metavar="FILE", help="Draw measured and calculated values; .png, .svg or .pdf."),
 ]
+OUT = ".toml", ".nc"
 
 
 def calibrate(
@@ -142,7 +149,7 @@ def calibrate(
         others = [_prediction(text) for text in predictions or []]
         sampling = sampling_of(posterior, samples, plot_posterior)
         pictures = ("--plot", plot, PICTURES), ("--plot-posterior", plot_posterior, PICTURES)
-        check_files((*pictures, ("--out", out, (".toml",))))
+        check_files((*pictures, *(("--out", file, OUT) for file in out or [])))
 
     from .cache import enable_compilation_cache
     from .quiet import without_false_alarms
@@ -151,14 +158,14 @@ def calibrate(
     enable_compilation_cache()
     with without_false_alarms():
         found, ranked = _calibrated(given, options, folds, wanted, label, as_json)
-        drawn, predicted = _sampled(found, sampling), _predicted(found, others)
-        wrote = "" if as_json else f"wrote {out}: the scene with the calibrated values"
+        drawn, again = _sampled(found, sampling)
+        predicted = _predicted(found, others, drawn)
         outputs = (
-            Output(out, lambda path: _write_scene(found, path), wrote),
+            *(_output(found, drawn, label, file, as_json) for file in out or []),
             Output(plot, lambda path: _write_plot(found, label, path), long=True),
-            Output(plot_posterior, lambda path: _write_posterior(found, drawn, label, path), long=True),
+            Output(plot_posterior, lambda path: _write_posterior(found, drawn, again, label, path), long=True),
         )
-        show = lambda: _print(found, label, given.notes, ranked, drawn, predicted, as_json)
+        show = lambda: _print(found, label, given.notes, ranked, drawn, again, predicted, as_json)
         deliver(show, outputs if found.converged else ())
     if not found.converged:
         if as_json:
@@ -210,14 +217,16 @@ def _calibrated(
     return found, ranked
 
 
-def _sampled(found: "Calibration", sampling: Any) -> "Posterior | None":
-    """The posterior that is asked for, of a calibration that converged; ends the command where it cannot be."""
-    from ..calibration.posterior import posterior_of
+def _sampled(found: "Calibration", sampling: Any) -> "tuple[Posterior | None, Predictive | None]":
+    """The posterior that is asked for, of a calibration that converged, and what it predicts to be measured again; ends
+    the command where they cannot be."""
+    from ..calibration.posterior import posterior_of, predictive
 
     if sampling is None or not found.converged:
-        return None
+        return None, None
     try:
-        return posterior_of(found, sampling)
+        drawn = posterior_of(found, sampling)
+        return drawn, predictive(found, drawn)
     except ValueError as error:
         refuse(f"--{error}")
 
@@ -232,7 +241,7 @@ def _prediction(text: str) -> tuple[str, Any, str]:
     return text, load_scene(scene.strip()), result.strip()
 
 
-def _predicted(found: "Calibration", others: list[tuple[str, Any, str]]) -> "dict[str, Predicted]":
+def _predicted(found: "Calibration", others: list[tuple[str, Any, str]], drawn: Any) -> "dict[str, Predicted]":
     """Results of other scenes, of a calibration that converged; ends the command where there are none."""
     from ..calibration.prediction import predict
 
@@ -241,14 +250,31 @@ def _predicted(found: "Calibration", others: list[tuple[str, Any, str]]) -> "dic
     predicted = {}
     for text, scene, result in others:
         try:
-            (predicted[text],) = predict(found, scene, [result]).values()
+            (predicted[text],) = predict(found, scene, [result], posterior=drawn).values()
         except ValueError as error:
             refuse(f"--predict: {text}: {error}")
     return predicted
 
 
-def _write_posterior(found: "Calibration", drawn: Any, label: str, path: Path) -> None:
-    write_posterior(drawn, {field.path: field.unit for field in found.fields}, label, path)
+def _write_posterior(found: "Calibration", drawn: Any, again: Any, label: str, path: Path) -> None:
+    write_posterior(drawn, again, {field.path: field.unit for field in found.fields}, label, path)
+
+
+def _output(found: "Calibration", drawn: Any, label: str, file: Path, as_json: bool) -> Output:
+    """A file of `--out`: by its suffix the scene, or the fields with what they share."""
+    if file.suffix.lower() == OUT[0]:
+        said = "" if as_json else f"wrote {file}: the scene with the calibrated values"
+        return Output(file, lambda path: _write_scene(found, path), said)
+    said = "" if as_json else f"wrote {file}: the fields with what they share; jaxbearing tolerances --posterior {file}"
+    return Output(file, lambda path: _write_joint(found, drawn, label, path), said)
+
+
+def _write_joint(found: "Calibration", drawn: Any, label: str, out: Path) -> None:
+    from ..calibration.prediction import joint_of
+    from ..report.joint_file import write_joint
+
+    units = {field.path: field.unit for field in found.fields}
+    write_joint(joint_of(found, drawn), units, out, f"Calibration of {label}")
 
 
 def _write_scene(found: "Calibration", out: Path) -> None:
@@ -270,15 +296,16 @@ def _print(
     notes: list[str],
     ranked: "tuple[Candidate, ...]",
     drawn: "Posterior | None",
+    again: "Predictive | None",
     predicted: "dict[str, Predicted]",
     as_json: bool,
 ) -> None:
     from ..calibration.report import calibration_to_dict, print_calibration
 
     if as_json:
-        typer.echo(json.dumps(calibration_to_dict(found, notes, ranked, drawn, predicted), allow_nan=False))
+        typer.echo(json.dumps(calibration_to_dict(found, notes, ranked, drawn, predicted, again), allow_nan=False))
     else:
-        print_calibration(found, label, notes, ranked, drawn, predicted, console())
+        print_calibration(found, label, notes, ranked, drawn, predicted, console(), again)
 
 
 def _print_failure(failure: str, status: str, label: str, as_json: bool) -> None:

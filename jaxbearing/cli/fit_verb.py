@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from fitting.measurements import Measurements
     from fitting.options import FitOptions
     from fitting.posterior import Posterior, Sampling
+    from fitting.predictive import Predictive
     from fitting.result import FitResult
 
     from ..machines import TwoDisk
@@ -158,14 +159,14 @@ def fit(
     enable_compilation_cache()
     with without_false_alarms():
         result, rows = _fitted(measurements, machine, models, options, _silent if as_json else _tell)
-        drawn = _sampled(result, sampling)
+        drawn, again = _sampled(result, sampling)
         wrote = "" if as_json else f"wrote {out}: use it with [oil] file = ... or --set oil.file={out}"
         outputs = (
             Output(out, lambda path: _write_oil(result, path, data, scene, changes), wrote),
             Output(plot, lambda path: _write_plot(result, path, data, label, notes), long=True),
-            Output(plot_posterior, lambda path: _write_posterior(drawn, data, path), long=True),
+            Output(plot_posterior, lambda path: _write_posterior(drawn, again, data, path), long=True),
         )
-        show = lambda: _print(result, rows, data, label, notes, out, as_json, drawn)
+        show = lambda: _print(result, rows, data, label, notes, out, as_json, drawn, again)
         deliver(show, outputs if result.converged else ())
     if not result.converged:
         left_out = [str(path) for path in (plot, plot_posterior, out) if path is not None]
@@ -247,22 +248,24 @@ def _fitted(
     return results[rows[0].model], rows
 
 
-def _sampled(result: "FitResult", sampling: "Sampling | None") -> "Posterior | None":
-    """The posterior that is asked for, of a fit that converged; ends the command where it cannot be."""
-    from fitting.oil_posterior import posterior_of
+def _sampled(result: "FitResult", sampling: "Sampling | None") -> "tuple[Posterior | None, Predictive | None]":
+    """The posterior that is asked for, of a fit that converged, and what it predicts to be measured again; ends the
+    command where they cannot be."""
+    from fitting.oil_posterior import posterior_of, predictive
 
     if sampling is None or not result.converged:
-        return None
+        return None, None
     try:
-        return posterior_of(result, sampling)
+        drawn = posterior_of(result, sampling)
+        return drawn, predictive(result, drawn)
     except ValueError as error:
         refuse(f"--{error}")
 
 
-def _write_posterior(drawn: Any, data: Path, path: Path) -> None:
+def _write_posterior(drawn: Any, again: Any, data: Path, path: Path) -> None:
     from fitting.parameters import NAMES, UNITS
 
-    write_posterior(drawn, dict(zip(NAMES, UNITS, strict=True)), str(data), path)
+    write_posterior(drawn, again, dict(zip(NAMES, UNITS, strict=True)), str(data), path)
 
 
 def _tell(text: str) -> None:
@@ -303,6 +306,7 @@ def _print(
     out: Path | None,
     as_json: bool,
     drawn: "Posterior | None",
+    again: "Predictive | None",
 ) -> None:
     if as_json:
         from fitting.io.json_report import fit_to_dict
@@ -311,6 +315,8 @@ def _print(
         found = fit_to_dict(result, str(data), label, notes, oil, rows)
         if drawn is not None:
             found["posterior"] = drawn.to_dict()
+        if again is not None:
+            found["predictive"] = again.to_dict()
         typer.echo(json.dumps(found, allow_nan=False))
         return
     from fitting.io.summary import print_comparison, print_fit
@@ -322,4 +328,4 @@ def _print(
     if drawn is not None:
         from fitting.io.posterior_table import print_posterior
 
-        print_posterior(drawn, screen)
+        print_posterior(drawn, screen, again)

@@ -105,8 +105,8 @@ def new(
                 raise
             refuse(f"new {name}: {error}")
         text = found.text()
-        if given or any(one is not None for one in (balls, oil, base)):
-            # a scene that cannot be built is said before anything is written; that of a designation alone can
+        if not found.is_usual:
+            # a scene that cannot be built is said before anything is written
             found.scene()
     _write(target, text)
     if as_json:

@@ -10,6 +10,7 @@ from .messages import refuse
 
 if TYPE_CHECKING:
     from fitting.posterior import Posterior, Sampling
+    from fitting.predictive import Predictive
 
 PosteriorOption = Annotated[
     bool, typer.Option("--posterior", help="Sample the distribution of what is fitted (No-U-Turn sampler).")
@@ -17,7 +18,9 @@ PosteriorOption = Annotated[
 SamplesOption = Annotated[int, typer.Option("--samples", metavar="COUNT", help="Samples of each of four chains.")]
 PlotPosteriorOption = Annotated[
     Path | None,
-    typer.Option("--plot-posterior", metavar="FILE", help="Draw the samples; .png, .svg or .pdf."),
+    typer.Option(
+        "--plot-posterior", metavar="FILE", help="Draw the samples and what they predict; .png, .svg or .pdf."
+    ),
 ]
 
 
@@ -39,9 +42,11 @@ def sampling_of(wanted: bool, samples: int, plot: Path | None) -> "Sampling | No
     return sampling
 
 
-def write_posterior(found: "Posterior", units: Mapping[str, str], label: str, path: Path) -> None:
-    """Draws the samples into a file."""
+def write_posterior(
+    found: "Posterior", again: "Predictive | None", units: Mapping[str, str], label: str, path: Path
+) -> None:
+    """Draws the samples and what they predict into a file."""
     from ..plots import posterior as draw
     from ..report.plots import save_plot
 
-    save_plot(draw(found, units, title=label), path)
+    save_plot(draw(found, units, title=label, predictive=again), path)

@@ -2,18 +2,20 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from .messages import NOT_CONVERGED, bad_input, refuse
-from .options import JsonOption, SceneArgument, SetOption, labelled
+from .options import DragPriorOption, JsonOption, SceneArgument, SetOption, labelled
 from .output_files import Output, check_files, deliver
 from .terminal import console
 
 if TYPE_CHECKING:
     from .._scene import AbstractScene, AbstractSolution
+    from ..loss_interval import PowerInterval
     from ..makers import Catalogue
     from ..report.page_content import Listing
     from ..scenes.inputs import SceneInput
@@ -26,9 +28,16 @@ OutOption = Annotated[
 SUFFIXES = (".html", ".htm")
 
 
-def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = None, as_json: JsonOption = False) -> None:
+def report(
+    scene: SceneArgument,
+    changes: SetOption = None,
+    out: OutOption = None,
+    as_json: JsonOption = False,
+    drag_prior: DragPriorOption = True,
+) -> None:
     """One HTML page of a steady solve that needs no network: drawing with the loads, tables, interactive charts,
-    convergence and validity. With `--json` the object that `solve` prints, and the page's name on stderr."""
+    convergence and validity. The power loss has an interval where inputs are known by a distribution only. With
+    `--json` the object that `solve` prints, and the page's name on stderr."""
     target = out if out is not None else Path(f"{Path(scene).stem}_report.html")
     with bad_input():
         from ..scenes.bearing.catalogue import load_catalogue
@@ -60,9 +69,10 @@ def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = Non
         converged = bool(solution.converged)
         title = labelled(Path(scene).name, changes)
         listings = [_spectrum(states)] if states and converged else []
+        interval = _interval(model, solution, scene, overrides, drag_prior) if converged else None
         page = Output(
             target,
-            lambda path: _write(model, solution, title, inputs, (catalogue, listings), path),
+            lambda path: _write(model, solution, title, inputs, (catalogue, listings, interval), path),
             f"wrote {target}: open it in a browser",
         )
         try:
@@ -70,7 +80,7 @@ def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = Non
         except typer.Exit:
             if not as_json:
                 # the results are not lost with the page
-                _print_summary(solution, label)
+                _print_summary(solution, label, interval)
             raise
     if not converged:
         typer.echo(f"not written: {target}", err=True)
@@ -85,6 +95,21 @@ def _spectrum(states: "Sequence[FileState]") -> "Listing":
     return spectrum_listing(solve_states({one.name: one.scene for one in states}, [one.share for one in states]))
 
 
+def _interval(
+    model: "AbstractScene", solution: "AbstractSolution", source: str, changes: dict[str, str], drag_prior: bool
+) -> "PowerInterval | None":
+    """The interval of the power loss, by the assumed distributions and those that the file and its oil have."""
+    from ..loss_interval import numbers_among, power_interval
+    from ..scenes.errors import SceneError
+    from ..scenes.reader import load_distributions
+    from ..solve import solve_once
+
+    given: dict[str, Any] = {}
+    with suppress(SceneError):  # a pipe cannot be read twice
+        given |= load_distributions(source, changes)
+    return power_interval(model, solution, solve_once, numbers_among(model, given), drag_prior)
+
+
 def _show(solution: "AbstractSolution", label: str, as_json: bool) -> None:
     """The object; of a solve that failed what `solve` prints: the page, which has it otherwise, is not written then."""
     if as_json:
@@ -95,10 +120,13 @@ def _show(solution: "AbstractSolution", label: str, as_json: bool) -> None:
         _print_summary(solution, label)
 
 
-def _print_summary(solution: "AbstractSolution", label: str) -> None:
+def _print_summary(solution: "AbstractSolution", label: str, interval: "PowerInterval | None" = None) -> None:
+    from ..report.interval_listing import interval_lines
     from ..report.summary import print_summary
 
     print_summary(solution, label, console())
+    for line in () if interval is None else interval_lines(interval):
+        console().print(f"  {line}", markup=False, highlight=False)
 
 
 def _write(
@@ -106,10 +134,10 @@ def _write(
     solution: "AbstractSolution",
     title: str,
     inputs: "Mapping[str, Sequence[SceneInput]]",
-    beside: "tuple[Catalogue | None, Sequence[Listing]]",
+    beside: "tuple[Catalogue | None, Sequence[Listing], PowerInterval | None]",
     target: Path,
 ) -> None:
-    """**Arguments:** `beside`: the bearing in a catalogue, and further tables."""
+    """**Arguments:** `beside`: the bearing in a catalogue, further tables, and the interval of the power loss."""
     from datetime import UTC, datetime
 
     from ..report.files import write_whole

@@ -2,7 +2,7 @@
 
 import json
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -12,24 +12,40 @@ from .output_files import deliver
 from .terminal import console
 
 if TYPE_CHECKING:
+    from ..scenes.states import FileState
     from ..spectrum import Spectrum
+    from ..sweeps.fields import Field
+
+OverOption = Annotated[
+    str | None,
+    typer.Option(
+        "--over",
+        metavar="NAME=START:STOP:COUNT[:log]",
+        help="A field and its values, e.g. geometry.diametral_clearance='0 um:30 um:7': the life at each of them.",
+    ),
+]
 
 
-def spectrum(scene: SceneArgument, changes: SetOption = None, as_json: JsonOption = False) -> None:
+def spectrum(
+    scene: SceneArgument, changes: SetOption = None, over: OverOption = None, as_json: JsonOption = False
+) -> None:
     """Life under the load spectrum of a scene file: its [[state]] tables, each with a name, a share of the time and
     changes of the scene, solved with one program. The damages of all states are added (Palmgren and Miner). Prints
     share, life, loss, pressure and static safety by state, then the life, the equivalent load and the state that
-    governs."""
+    governs; with --over the life at each value of a field."""
     begin = time.monotonic()
     with bad_input():
         from ..scenes.overrides import split_assignments
         from ..scenes.states import load_states
         from ..spectrum.states import require_rated
 
-        states = load_states(scene, split_assignments(changes or []))
-        scenes = {one.name: one.scene for one in states}
+        overrides = split_assignments(changes or [])
+        varied = None if over is None else _values(scene, over, overrides)
+        texts = [{}] if varied is None else [{varied[0].path: varied[0].text(value)} for value in varied[1]]
+        cases = [load_states(scene, {**overrides, **text}) for text in texts]
         try:
-            require_rated(scenes)
+            for states in cases:
+                require_rated(_scenes(states))
         except (TypeError, ValueError) as error:
             refuse(f"{scene}: {error}")
 
@@ -39,18 +55,44 @@ def spectrum(scene: SceneArgument, changes: SetOption = None, as_json: JsonOptio
     label = labelled(scene, changes)
     enable_compilation_cache()
     with without_false_alarms():
-        from ..spectrum.verb import solve_states
+        from ..spectrum.verb import solve_cases
 
-        found = solve_states(scenes, [one.share for one in states])
-        texts = {one.name: one.changes for one in states}
+        found = solve_cases([_scenes(states) for states in cases], [one.share for one in cases[0]])
         seconds = time.monotonic() - begin
-        deliver(lambda: _print(found, texts, label, seconds, as_json))
-    failures = found.failures
-    if failures:
-        if as_json:
-            said = "; ".join(f"state '{name}': {text}" for name, text in failures.items())
-            typer.echo(f"not converged: {label}: {said}", err=True)
-        raise typer.Exit(NOT_CONVERGED)
+        if varied is None:
+            typed = {one.name: one.changes for one in cases[0]}
+            deliver(lambda: _print(found[0], typed, label, seconds, as_json))
+        else:
+            deliver(lambda: _print_over(*varied, found, label, seconds, as_json))
+    _end_if_failed(found, label, as_json)
+
+
+def _scenes(states: "tuple[FileState, ...]") -> dict[str, Any]:
+    return {one.name: one.scene for one in states}
+
+
+def _values(scene: str, over: str, overrides: dict[str, str]) -> "tuple[Field, list[float]]":
+    """The field of `--over` and its values in SI."""
+    from ..scenes.reader import read_tables
+    from ..sweeps.fields import SceneSource, grid_of, parse_over
+
+    # the states are solved: no warning says that they are left out
+    fields, ranges = parse_over([over], SceneSource(*read_tables(scene), overrides), counted=True)
+    try:
+        cases = grid_of(ranges)
+    except ValueError as error:
+        refuse(f"--over: {error}")
+    return next(iter(fields.values())), [float(value) for value in cases.values[0]]
+
+
+def _end_if_failed(found: "list[Spectrum]", label: str, as_json: bool) -> None:
+    failures = [(name, text) for one in found for name, text in one.failures.items()]
+    if not failures:
+        return
+    if as_json:
+        said = "; ".join(f"state '{name}': {text}" for name, text in failures)
+        typer.echo(f"not converged: {label}: {said}", err=True)
+    raise typer.Exit(NOT_CONVERGED)
 
 
 def _print(found: "Spectrum", changes: dict[str, dict[str, str]], label: str, seconds: float, as_json: bool) -> None:
@@ -60,3 +102,15 @@ def _print(found: "Spectrum", changes: dict[str, dict[str, str]], label: str, se
         typer.echo(json.dumps(spectrum_to_dict(found, changes), allow_nan=False))
     else:
         print_spectrum(found, changes, label, seconds, console())
+
+
+def _print_over(
+    field: "Field", values: list[float], found: "list[Spectrum]", label: str, seconds: float, as_json: bool
+) -> None:
+    from ..spectrum.over import over_to_dict, print_over
+
+    unit = "" if field.dimension is None else field.dimension.si
+    if as_json:
+        typer.echo(json.dumps(over_to_dict(field.path, unit, values, found), allow_nan=False))
+    else:
+        print_over(field.path, unit, values, found, label, seconds, console())

@@ -52,6 +52,15 @@ PlotOption = Annotated[
     Path | None,
     typer.Option("--plot", metavar="FILE", help="Draw distributions and the share of each field; .png, .svg or .pdf."),
 ]
+PosteriorOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--posterior",
+        metavar="FILE.nc",
+        help="Fields that scatter together, as a calibration leaves them: the file of jaxbearing calibrate --out "
+        "FILE.nc.",
+    ),
+]
 
 
 def tolerances(
@@ -69,6 +78,7 @@ def tolerances(
     workers: WorkersOption = None,
     scheduler: SchedulerOption = None,
     drag_prior: DragPriorOption = True,
+    posterior: PosteriorOption = None,
 ) -> None:
     """Mean, standard deviation and limits of clearance, contact angle, power loss, life from the tolerances of seats
     and of fields that are given as {mean, deviation}, {low, high} or {median, log_deviation}, and which of them
@@ -79,13 +89,17 @@ def tolerances(
         from ..numerics.newton import NewtonOptions
         from ..scenes.overrides import split_assignments
         from ..tolerance.scatter import scatter_of_source
-        from ..tolerance.verb import Analysis
+        from ..tolerance.verb import Analysis, posterior_of
 
         wanted = _names(results)
         if samples == 1:
             refuse("--samples: found 1; expected 0, or 2 or more")
         try:
-            label, scatter = scatter_of_source(scene, split_assignments(changes or []), drag_prior)
+            joint = posterior_of(posterior)
+        except ValueError as error:
+            refuse(f"--posterior: {error}")
+        try:
+            label, scatter = scatter_of_source(scene, split_assignments(changes or []), drag_prior, joint)
         except ValueError as error:
             refuse(str(error) if type(error) is not ValueError else f"{scene}: {error}")
         check_files((("--plot", plot, PICTURES), ("--out", out, (".nc",))))

@@ -9,7 +9,6 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar
-from ..contacts import LineContact, PointContact
 from ..materials import BALL_PRESSURE, ROLLER_PRESSURE, Material, reduced_modulus
 from ..numerics.arguments import require_choice, require_count, require_numbers
 from .capacity import CONFORMITIES, ball_size_ratio
@@ -47,6 +46,9 @@ def ball_static_capacity(
     require_numbers("> 0", modulus=modulus)
     require_numbers(CONFORMITIES, conformity_inner=conformity_inner)
     gamma = ball_size_ratio(ball_diameter, pitch_diameter, contact_angle)
+    # a rating that is computed by a program kept from before needs no contact: its import is not waited for
+    from ..contacts import PointContact
+
     rolling = 0.5 * ball_diameter * (1.0 - gamma)
     transverse = conformity_inner * ball_diameter / (2.0 * conformity_inner - 1.0)
     load = PointContact(rolling, transverse, modulus).load_at_pressure(BALL_PRESSURE)
@@ -69,6 +71,8 @@ def roller_static_capacity(
     require_count("n_rollers", n_rollers)
     require_numbers("> 0", roller_diameter=roller_diameter, length=length, modulus=modulus)
     gamma = ball_size_ratio(roller_diameter, pitch_diameter, contact_angle)
+    from ..contacts import LineContact
+
     radius = 0.5 * jnp.asarray(roller_diameter) * (1.0 - gamma)
     load = LineContact(radius, length, modulus).load_at_pressure(ROLLER_PRESSURE)
     return n_rollers * jnp.cos(contact_angle) / MOST_LOADED * load

@@ -21,20 +21,25 @@ _LETTERS = 100
 """Letters of a line of the title."""
 
 
-def posterior(found: Any, units: Mapping[str, str], title: str = "") -> "matplotlib.figure.Figure":
-    """Histograms of the samples on the diagonal, with median and interval, and the samples of each pair below it.
+def posterior(
+    found: Any, units: Mapping[str, str], title: str = "", predictive: Any = None
+) -> "matplotlib.figure.Figure":
+    """Histograms of the samples on the diagonal, with median and interval, the samples of each pair below it, and at
+    the foot the measured values beside what the samples predict to be measured again.
 
-    **Arguments:** `found`: a `fitting.posterior.Posterior`; `units`: SI unit of each parameter; `title`: at the head.
+    **Arguments:** `found`: a `fitting.posterior.Posterior`; `units`: SI unit of each parameter; `title`: at the head;
+    `predictive`: a `fitting.predictive.Predictive`; `None`: no row at the foot.
     """
     from ..report.backends.matplotlib.page import Page
 
     names = list(found.parameters)
-    figure = Page(max(_SIDE * len(names), 5.0), _SIDE * len(names) + 0.9)
-    write_below(figure, f"{found.in_words()}. Dashed: median and {100.0 * found.level:g} % interval.")
+    rows = len(names) + (0 if predictive is None else 1)
+    figure = Page(max(_SIDE * len(names), 6.5), _SIDE * rows + 0.9)
+    write_below(figure, _caption(found, predictive))
     figure.suptitle("\n".join(textwrap.wrap(title, _LETTERS)), fontsize=10, parse_math=False)
     flat = found.values.reshape(-1, len(names))
     axes = [axis_for(units[name], flat[:, i]) for i, name in enumerate(names)]
-    grid = figure.add_gridspec(len(names), len(names))
+    grid = figure.add_gridspec(rows, len(names))
     for row in range(len(names)):
         for column in range(row + 1):
             panel = figure.add_subplot(grid[row, column])
@@ -49,7 +54,33 @@ def posterior(found: Any, units: Mapping[str, str], title: str = "") -> "matplot
             if column == 0 and row > 0:
                 panel.set_ylabel(axes[row].named(names[row].rpartition(".")[2]), fontsize=9)
             grid_lines(panel)
+    if predictive is not None:
+        _measured_again(figure.add_subplot(grid[len(names), :]), predictive)
     return figure
+
+
+def _caption(found: Any, predictive: Any) -> str:
+    text = f"{found.in_words()}. Dashed: median and {100.0 * found.level:g} % interval."
+    if predictive is None:
+        return text
+    return (
+        f"{text} At the foot: measured values, less the median that {predictive.samples} samples predict, in standard "
+        f"deviations of a measurement; bars: {100.0 * predictive.level:g} % of new measurements."
+    )
+
+
+def _measured_again(panel: Any, one: Any) -> None:
+    """Draws each measured value from its predicted median, with the interval of a new measurement."""
+    place = np.arange(1, len(one.measured) + 1)
+    of = lambda values: (values - one.median) / one.deviation
+    panel.vlines(place, of(one.lower), of(one.upper), color=CURVES[0], alpha=0.3, linewidth=4.0)
+    inside = (one.lower <= one.measured) & (one.measured <= one.upper)
+    panel.plot(place[inside], of(one.measured)[inside], "o", color=CURVES[0], ms=3.5)
+    panel.plot(place[~inside], of(one.measured)[~inside], "x", color=CURVES[1], ms=6.0)
+    panel.axhline(0.0, color=FAINT, linewidth=0.9, zorder=0)
+    panel.set_xlabel("measured value", fontsize=9)
+    panel.set_ylabel("from the median, deviations", fontsize=9)
+    grid_lines(panel)
 
 
 def _histogram(panel: Any, one: Any, axis: Axis, values: np.ndarray) -> None:

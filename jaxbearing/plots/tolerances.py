@@ -94,7 +94,8 @@ def _tornado(axes: Any, spread: Any) -> None:
     if rest:
         named.append((f"{len(rest)} others", sum(share for _, share in rest)))
     axis = axis_for(spread.unit, [spread.deviation])
-    widths = [_scale(axis) * spread.deviation * np.sqrt(share) for _, share in named]
+    # the share of a field of a posterior may be negative: its number says so, and it has no bar
+    widths = [_scale(axis) * spread.deviation * np.sqrt(max(share, 0.0)) for _, share in named]
     places = np.arange(len(named))[::-1]
     axes.barh(places, 2.0 * np.asarray(widths), left=-np.asarray(widths), color=COLOURS[0], height=0.62)
     axes.axvline(0.0, color=INK, linewidth=0.8)

@@ -5,9 +5,11 @@ from collections.abc import Mapping, Sequence
 from datetime import datetime
 from typing import Any
 
+from ..loss_interval import PowerInterval
 from ..makers import Catalogue, compared
 from ..scenes.inputs import SceneInput
 from .backends.html import page
+from .interval_listing import interval_headline, interval_listing
 from .json_report import solution_to_dict
 from .makers_table import comparison_listing
 from .page_content import Listing
@@ -22,6 +24,7 @@ def html_report(
     when: datetime,
     catalogue: Catalogue | None = None,
     listings: Sequence[Listing] = (),
+    interval: PowerInterval | None = None,
 ) -> str:
     """The page of one solve, with all results as JSON in it.
 
@@ -32,6 +35,7 @@ def html_report(
     - `when`: the date that the page bears.
     - `catalogue`: of a bearing, with which makers' formulas stand beside its losses; not given: they do not.
     - `listings`: further tables, which come before the makers' formulas.
+    - `interval`: of the power loss, by the inputs that are known by a distribution only; `None`: it is not shown.
 
     **Raises:** `ValueError` for a solution that did not converge: it has no results; `TypeError` for another kind of
     solution.
@@ -39,6 +43,13 @@ def html_report(
     content = output(solution, "page_content", "report")
     check_converged(solution)
     shown = content(scene, solution)
+    if interval is not None:
+        first, *others = shown.headlines
+        shown = dataclasses.replace(
+            shown,
+            headlines=[first, interval_headline(interval), *others],
+            listings=(*shown.listings, interval_listing(interval)),
+        )
     shown = dataclasses.replace(shown, listings=(*shown.listings, *listings))
     if catalogue is not None:
         beside = comparison_listing(compared(scene, solution, catalogue))

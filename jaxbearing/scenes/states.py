@@ -121,7 +121,7 @@ def state_of(one: Mapping[str, Any], mapping: Mapping[str, Any], texts: dict[str
     changes = dict(_flat({key: value for key, value in one.items() if key not in (NAME, SHARE)}))
     for path in changes:
         if path in texts:
-            raise SceneError(origin, path, "a field that --set gives too", "one of the two")
+            raise SceneError(origin, path, "a field that --set or --over gives too", "one of the two")
         if path == "kind":
             raise SceneError(origin, path, "another kind of scene", "changes of one bearing")
     base, problems = applied(mapping, texts, scene_model(mapping, texts, label), label)

@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Mapping, Sequence
+from itertools import islice
 from typing import Any
 
 import jax
@@ -97,12 +98,25 @@ def solve_states(
     **Raises:** `ValueError` for scenes without a rating and for different reliabilities; `TypeError` for what is no
     bearing.
     """
-    require_rated(scenes)
-    solutions = _solved([jax.tree.map(as_float, scene) for scene in scenes.values()], chosen_options(options))
+    return solve_cases([scenes], shares, options)[0]
+
+
+def solve_cases(
+    cases: Sequence[Mapping[str, AbstractScene]], shares: Sequence[Any], options: NewtonOptions | None = None
+) -> list[Spectrum]:
+    """The spectrum of each case, all of them solved together; arguments and errors as those of `solve_states`, whose
+    scenes each case has."""
+    for scenes in cases:
+        require_rated(scenes)
+    every = [jax.tree.map(as_float, scene) for scenes in cases for scene in scenes.values()]
+    solutions = iter(_solved(every, chosen_options(options)))
     parts = jnp.stack([jnp.asarray(as_float(share)) for share in shares])
+    return [_spectrum(tuple(scenes), parts, tuple(islice(solutions, len(scenes)))) for scenes in cases]
+
+
+def _spectrum(names: tuple[str, ...], shares: Array, solutions: tuple[Any, ...]) -> Spectrum:
     speeds = jnp.stack([_speed(one) for one in solutions])
-    life = spectrum_life([one.life for one in solutions], parts, speeds)
-    return Spectrum(tuple(scenes), parts, tuple(solutions), life)
+    return Spectrum(names, shares, solutions, spectrum_life([one.life for one in solutions], shares, speeds))
 
 
 def _speed(solution: Any) -> Array:

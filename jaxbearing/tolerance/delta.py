@@ -7,7 +7,8 @@ $$\sigma_y^2 = \sum_k \Big(d_k + \sum_s g_s\beta_s a_{sk}\Big)^2\sigma_k^2
 $d_k$ is the derivative of the result by field $k$ while the seats press as they do at the mean, $g_s$ that by what
 presses the rings at seat $s$ (`seats`), $a_{sk}$ that of the interference in operation, $\beta_s$ the gain. Without a
 seat that may come loose this is $\sigma_y^2 = \sum_k (\partial y/\partial x_k)^2\sigma_k^2$. All fields are independent
-of each other.
+of each other, but for those of a posterior: these add $\partial y/\partial x_k\,\partial y/\partial x_j\,C_{kj}$ for
+each two of them, and are followed along the principal axes of their distribution, which are independent.
 """
 
 from collections.abc import Callable, Mapping
@@ -16,7 +17,7 @@ from statistics import NormalDist
 
 import numpy as np
 
-from ..distribution import Distribution
+from ..distribution import SIGMAS, Distribution
 from ..loss_interval import SHARES, at_shares
 from .derivatives import Slopes
 from .outcome import Spread
@@ -82,7 +83,7 @@ def spreads_of(
     cases = [found, *(one for one in solved if one is not None and _good(one))]
     labels = labels_of(found.solution, names)
     gains = {seat: one.slope for seat, one in seats.items()}
-    curves = _curves(scatter, evaluated)
+    curves, along = _curves(scatter, evaluated), _along_axes(scatter, evaluated)
     spreads = {}
     for name, own in lines.items():
         shift, shares = _moments(own, scatter, seats)
@@ -100,6 +101,7 @@ def spreads_of(
                 shift,
                 variance,
                 {path: np.array([float(case.values[name]) for case in solved]) for path, solved in curves.items()},
+                [None if cases is None else np.array([float(case.values[name]) for case in cases]) for cases in along],
             ),
             worst_low=min(ends),
             worst_high=max(ends),
@@ -121,12 +123,10 @@ def _seats(scatter: Scatter, found: Slopes) -> dict[str, Seat]:
     seats = {}
     for name in scatter.seats:
         running = found.slopes[_OF_SEAT[name]]
-        of_fields = [
-            (1.0 if path == name_of(name) else float(running[path])) * one.deviation
-            for path, one in scatter.fields.items()
-        ]
+        slopes = {path: 1.0 if path == name_of(name) else float(running[path]) for path in scatter.fields}
         interference, now = scatter.means[name_of(name)], float(found.values[_OF_SEAT[name]])
-        seat = seat_of(scatter.fits, name, interference, now, float(np.sqrt(np.sum(np.square(of_fields)))))
+        deviation = float(np.sqrt(max(sum(_parts(slopes, scatter).values()), 0.0)))
+        seat = seat_of(scatter.fits, name, interference, now, deviation)
         if seat.bends_within:
             seats[name] = seat
     return seats
@@ -149,19 +149,26 @@ def _lines(name: str, scatter: Scatter, seats: Mapping[str, Seat], found: Slopes
     return _Lines(slopes, pressed, running)
 
 
+def _parts(slopes: Mapping[str, float], scatter: Scatter) -> dict[str, float]:
+    """Part of each field in the variance of a linear result. Two fields that scatter together part their covariance."""
+    parts = {path: (slopes[path] * one.deviation) ** 2 for path, one in scatter.fields.items()}
+    for (path, other), covariance in scatter.covariances.items():
+        parts[path] += slopes[path] * slopes[other] * covariance
+    return parts
+
+
 def _moments(lines: _Lines, scatter: Scatter, seats: Mapping[str, Seat]) -> tuple[float, dict[str, float]]:
     """Shift of the mean, and the part of each field in the variance."""
     gains = {seat: one.gain for seat, one in seats.items()}
-    shares = {path: (lines.by(path, gains) * one.deviation) ** 2 for path, one in scatter.fields.items()}
+    shares = _parts({path: lines.by(path, gains) for path in scatter.fields}, scatter)
     shift = sum(lines.by(path, gains) * (one.mean - one.nominal) for path, one in scatter.fields.items())
     for seat, slope in lines.pressed.items():
         one = seats[seat]
         mean, variance = one.moments()
         shift += slope * (mean - one.pressing)
         rest = slope**2 * max(variance - (one.gain * one.deviation) ** 2, 0.0)
-        for path, field in scatter.fields.items():
-            part = (lines.running[seat][path] * field.deviation / one.deviation) ** 2 if one.deviation > 0.0 else 0.0
-            shares[path] += rest * part
+        for path, part in _parts(lines.running[seat], scatter).items():
+            shares[path] += rest * part / one.deviation**2 if one.deviation > 0.0 else 0.0
     return shift, shares
 
 
@@ -170,12 +177,43 @@ def _curves(scatter: Scatter, evaluated: Evaluated) -> dict[str, list[Slopes]]:
     are: too far for a straight line. Fields of which one fails are left out."""
     found = {}
     for path, one in scatter.fields.items():
-        if one.shape == "lognormal":
+        if one.shape == "lognormal" and path not in scatter.together:
             cases = [evaluated(scatter.means | {path: float(x)}) for x in one.quantiles(SHARES)]
             solved = [case for case in cases if case is not None and _good(case)]
             if len(solved) == len(cases):
                 found[path] = solved
     return found
+
+
+_AXIS = Distribution(0.0, 1.0)
+"""A number along a principal axis of a posterior."""
+
+
+def _along_axes(scatter: Scatter, evaluated: Evaluated) -> list[list[Slopes] | None]:
+    """Solves along each principal axis of the fields that scatter together, at `SHARES` of it; `None` for an axis of
+    which one fails."""
+    if scatter.joint is None:
+        return []
+    found: list[list[Slopes] | None] = []
+    for axis in scatter.joint.axes:
+        cases = [evaluated(scatter.means | scatter.joint.at(far * axis)) for far in _AXIS.quantiles(SHARES)]
+        solved = [case for case in cases if case is not None and _good(case)]
+        found.append(solved if len(solved) == len(cases) else None)
+    return found
+
+
+def _axis_steps(
+    scatter: Scatter, slopes: Mapping[str, float], value: float, along: list[np.ndarray | None]
+) -> dict[str, np.ndarray]:
+    """Change of a result along each principal axis, at equally likely numbers; by a line where solves failed."""
+    if scatter.joint is None:
+        return {}
+    tangent = scatter.joint.tangent * np.array([slopes[path] for path in scatter.joint.fields])
+    steps = {}
+    for number, (axis, solved) in enumerate(zip(scatter.joint.axes, along, strict=True)):
+        line = float(tangent @ axis) * _AXIS.quantiles(_SHARES)
+        steps[f"axis {number}"] = line if solved is None else at_shares(_AXIS, solved, _SHARES) - value
+    return steps
 
 
 def _likely(
@@ -186,16 +224,21 @@ def _likely(
     shift: float,
     variance: float,
     curves: Mapping[str, np.ndarray],
+    along: list[np.ndarray | None],
 ) -> tuple[float, float]:
     """Results below which 5 and 95 % of the bearings are, of the linear model; what the seats add beyond their lines
     counts as a normal variable.
 
     **Arguments:** `value`: result at the nominal values; `shift` of the mean from it; `curves`: the result at `SHARES`
-    of those fields that are followed by solves instead of a line.
+    of those fields that are followed by solves instead of a line; `along`: the same of the principal axes of fields
+    that scatter together.
     """
     slopes = {path: lines.by(path, gains) for path in scatter.fields}
-    bent = [path for path, slope in slopes.items() if slope and scatter.fields[path].shape != "normal"]
-    mean, steps = value + shift, {}
+    alone = [path for path in scatter.fields if path not in scatter.together]
+    bent = [path for path in alone if slopes[path] and scatter.fields[path].shape != "normal"]
+    mean, steps = value + shift, _axis_steps(scatter, slopes, value, along)
+    for path in scatter.together:
+        mean -= slopes[path] * (scatter.fields[path].mean - scatter.fields[path].nominal)
     for path in bent:
         one = scatter.fields[path]
         if path in curves:
@@ -203,16 +246,17 @@ def _likely(
             steps[path] = at_shares(one, curves[path], _SHARES) - value
         else:
             steps[path] = slopes[path] * (one.quantiles(_SHARES) - one.mean)
-    rest = variance - sum((slopes[path] * scatter.fields[path].deviation) ** 2 for path in bent)
+    parts = _parts(slopes, scatter)
+    rest = variance - sum(parts[path] for path in (*bent, *scatter.together))
     normal = float(np.sqrt(max(rest, 0.0))) if rest > _ROUND_OFF * variance else 0.0
     ends = 0.5 * (1.0 - LIKELY), 0.5 * (1.0 + LIKELY)
-    if len(bent) > 1:
+    if len(steps) > 1:
         # each field takes its values in an order of its own
         order, total = np.random.default_rng(0), Distribution(mean, normal).quantiles(_SHARES)
         total = sum((order.permutation(one) for one in steps.values()), total)
         low, high = np.quantile(total, ends)
         return float(low), float(high)
-    around = mean + (np.sort(steps[bent[0]]) if bent else np.zeros(1))
+    around = mean + (np.sort(next(iter(steps.values()))) if steps else np.zeros(1))
     low, high = (_mixed_quantile(around, normal, end) for end in ends)
     return low, high
 
@@ -245,10 +289,15 @@ def _corners(
         lines = _lines("fit.clearance", scatter, seats, found, at_tight)
     low, high = dict(scatter.means), dict(scatter.means)
     tight = dict.fromkeys(seats, 1.0)
+    slopes = {path: lines.by(path, tight) for path in scatter.fields}
     for path, one in scatter.fields.items():
-        slope = lines.by(path, tight)
-        if slope:
-            low[path], high[path] = (one.lowest, one.highest) if slope > 0.0 else (one.highest, one.lowest)
+        if slopes[path]:
+            low[path], high[path] = (one.lowest, one.highest) if slopes[path] > 0.0 else (one.highest, one.lowest)
+    if scatter.joint is not None:
+        # the limits of all of them at once are further than any of their numbers
+        offset, _ = scatter.joint.steepest(slopes)
+        low |= scatter.joint.at(-SIGMAS * offset)
+        high |= scatter.joint.at(SIGMAS * offset)
     return low, high
 
 
@@ -303,8 +352,10 @@ def _bent_notes(
 
 def _reach(spread: Spread, scatter: Scatter, high: bool) -> float:
     """Distance of a worst case from the result at the means, if the derivatives held as far as that."""
-    reach = 0.0
+    reach = 0.0 if scatter.joint is None else SIGMAS * scatter.joint.steepest(spread.derivatives)[1]
     for path, slope in spread.derivatives.items():
+        if path in scatter.together:
+            continue
         one = scatter.fields[path]
         end = one.highest if (slope > 0.0) == high else one.lowest
         reach += abs(slope * (end - one.nominal))

@@ -19,7 +19,7 @@ _TAIL = 0.00135
 
 
 def cases_of(scatter: Scatter, count: int, seed: int) -> Cases:
-    """So many random samples, independent of each other.
+    """So many random samples, independent of each other but for the fields that scatter together.
 
     The first samples of a longer run with the same seed are those of a shorter one.
 
@@ -29,10 +29,13 @@ def cases_of(scatter: Scatter, count: int, seed: int) -> Cases:
         raise ValueError(f"samples: found {count}, expected 2 to {MOST_CASES}")
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or seed < 0:
         raise ValueError(f"seed: found {seed}, expected a whole number >= 0")
-    several = np.random.default_rng(seed).spawn(2)
+    several = np.random.default_rng(seed).spawn(3)
     normal = several[0].standard_normal((count, len(scatter.fields)))
     uniform = several[1].random((count, len(scatter.fields)))
     columns = [one.samples(normal[:, i], uniform[:, i]) for i, one in enumerate(scatter.fields.values())]
+    if scatter.joint is not None:
+        drawn = dict(zip(scatter.joint.fields, scatter.joint.draws(several[2], count).T, strict=True))
+        columns = [drawn.get(path, column) for path, column in zip(scatter.fields, columns, strict=True)]
     return Cases("random", tuple(scatter.fields), tuple(columns))
 
 

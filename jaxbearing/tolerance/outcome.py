@@ -50,7 +50,8 @@ class Spread:
     - `worst_low`, `worst_high`: smallest and largest result in the worst cases: for each result all fields at those of
       their limits that make it small by its derivatives, and large. Those whose solve fails are left out.
     - `likely`: 5 and 95 % of the bearings are below, by the derivatives and the shapes of the distributions.
-    - `contributions`: share of each field in the variance; they add up to 1 (all 0 without a variance).
+    - `contributions`: share of each field in the variance; they add up to 1 (all 0 without a variance). Fields that
+      scatter together part their covariance, so that a share may be negative or above 1.
     - `derivatives`: of the result by each field.
     - `sampled`: `None` without samples.
     """

@@ -11,6 +11,8 @@ import jax
 from .._scene import AbstractScene
 from ..bearings import priors
 from ..distribution import Distribution
+from ..joint import JointDistribution
+from ..loss_interval import numbers_among
 from ..mounting import Fits, iso286
 from ..numerics.precision import as_float
 from ..scenes.errors import SceneError
@@ -42,12 +44,28 @@ class Scatter:
     - `fields`: distribution of each number that scatters, by dotted path, in SI.
     - `origins`: where the distribution of a seat comes from, in words.
     - `notes`: for the user.
+    - `joint`: of those fields that scatter together; each is also one of `fields`, by itself.
     """
 
     scene: AbstractScene
     fields: dict[str, Distribution]
     origins: dict[str, str]
     notes: tuple[str, ...]
+    joint: JointDistribution | None = None
+
+    @property
+    def together(self) -> tuple[str, ...]:
+        """The fields that scatter together."""
+        return () if self.joint is None else self.joint.fields
+
+    @property
+    def covariances(self) -> dict[tuple[str, str], float]:
+        """Covariance of each two different fields that scatter together, in both orders, SI."""
+        if self.joint is None:
+            return {}
+        matrix, fields = self.joint.of_values, self.joint.fields
+        count = range(len(fields))
+        return {(fields[i], fields[j]): float(matrix[i, j]) for i in count for j in count if i != j}
 
     @property
     def fits(self) -> Fits | None:
@@ -80,25 +98,37 @@ def name_of(seat: str) -> str:
     return f"fits.{interference_of(seat)}"
 
 
-def scatter_of(scene: AbstractScene, over: Mapping[str, Any] | None = None, drag_prior: bool = True) -> Scatter:
+def scatter_of(
+    scene: AbstractScene,
+    over: Mapping[str, Any] | None = None,
+    drag_prior: bool = True,
+    posterior: JointDistribution | None = None,
+) -> Scatter:
     """The numbers of a scene that scatter.
 
     **Arguments:** `over`: dotted path -> `Distribution`, or a mapping {"mean": ..., "deviation": ...} or {"low": ...,
     "high": ...} with a "shape" where it is uniform or lognormal, or {"median": ..., "log_deviation": ...} with "low"
     and "high" where it is cut off; SI numbers. `drag_prior`: the drag coefficient of a bearing scatters as
     `bearings.priors.DRAG` where it is no other distribution. So does the gap at the inlets where the supply is a level.
+    `posterior`: fields that scatter together; those that the scene does not have are left out.
 
-    **Raises:** `ValueError` for what is no distribution, for a field that is no number of the scene, and where nothing
-    scatters; `AttributeError` for a field that is not there.
+    **Raises:** `ValueError` for what is no distribution, for a field that is no number of the scene, for one that has
+    two distributions, for a posterior without a field of the scene, and where nothing scatters; `AttributeError` for a
+    field that is not there.
     """
     given = {} if over is None else over
     if not isinstance(given, Mapping) or not all(isinstance(path, str) for path in given):
         raise ValueError(f"over must map dotted paths of fields to distributions, got {over!r}")
     fields = {path: _distribution(path, value) for path, value in given.items()}
     scene = jax.tree.map(as_float, scene)
+    joint, left_out = _joint(scene, posterior, fields)
+    if joint is not None:
+        fields |= joint.marginals
     seats = dict(_seats(scene, fields))
     origins = {name_of(seat): f"{_class_of(scene, seat)} and the normal class of the bearing" for seat in seats}
-    notes = list(_unscattered(scene))
+    notes = [*left_out, *_unscattered(scene)]
+    if joint is not None:
+        origins |= dict.fromkeys(joint.fields, "posterior")
     prior = priors.drag_prior(scene) if drag_prior else None
     if prior is not None and fields.setdefault(priors.DRAG_FIELD, prior) == prior:
         origins[priors.DRAG_FIELD] = priors.prior_in_words(prior)
@@ -121,7 +151,27 @@ def scatter_of(scene: AbstractScene, over: Mapping[str, Any] | None = None, drag
     ends = listed({path: [one.nominal, one.lowest, one.highest] for path, one in fields.items()})
     scene = jax.tree.map(as_float, scene.replace(changes))
     in_scene(scene, ends)
-    return Scatter(scene, fields, origins, tuple(notes))
+    return Scatter(scene, fields, origins, tuple(notes), joint)
+
+
+def _joint(
+    scene: AbstractScene, posterior: JointDistribution | None, others: Mapping[str, Distribution]
+) -> tuple[JointDistribution | None, list[str]]:
+    """The fields of a posterior that the scene has, and a note on those that it has not."""
+    if posterior is None:
+        return None, []
+    twice = [path for path in posterior.fields if path in others]
+    if twice:
+        raise ValueError(f"{twice[0]}: found a distribution and a posterior; expected one of them")
+    there = numbers_among(scene, posterior.marginals)
+    if priors.supply_prior(scene) is not None and priors.SUPPLY_FIELD in posterior.fields:
+        there[priors.SUPPLY_FIELD] = posterior.marginals[priors.SUPPLY_FIELD]
+    own = [path for path in posterior.fields if path in there]
+    if not own:
+        raise ValueError(f"posterior: found none of its fields {', '.join(posterior.fields)} in the scene")
+    missing = [path for path in posterior.fields if path not in own]
+    notes = [f"posterior: the scene does not have {', '.join(missing)}"] if missing else []
+    return posterior.only(own), notes
 
 
 def _of_prior(scene: Any, prior: Distribution) -> Iterator[str]:
@@ -135,9 +185,13 @@ def _of_prior(scene: Any, prior: Distribution) -> Iterator[str]:
 
 
 def scatter_of_source(
-    source: str | Path, overrides: Mapping[str, str] | None = None, drag_prior: bool = True
+    source: str | Path,
+    overrides: Mapping[str, str] | None = None,
+    drag_prior: bool = True,
+    posterior: JointDistribution | None = None,
 ) -> tuple[str, Scatter]:
-    """Name of a scene file or built-in scene, and what scatters in it; `drag_prior` as that of `scatter_of`.
+    """Name of a scene file or built-in scene, and what scatters in it; `drag_prior` and `posterior` as those of
+    `scatter_of`. A posterior prevails over the distributions of the file and the priors of its oil.
 
     **Raises:** `SceneError`; `ValueError` where nothing scatters.
     """
@@ -147,7 +201,9 @@ def scatter_of_source(
     warn_of_preset(read.tables, read.label, read.overrides)
     for path, one in found.items():
         _require_plain(read, path, one)
-    return read.label, scatter_of(scene, found, drag_prior)
+    if posterior is not None:
+        found = {path: one for path, one in found.items() if path not in posterior.fields}
+    return read.label, scatter_of(scene, found, drag_prior, posterior)
 
 
 def _require_plain(read: SceneSource, path: str, one: Distribution) -> None:

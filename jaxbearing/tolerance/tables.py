@@ -91,7 +91,7 @@ def _shares(spread: Spread) -> str:
     if not spread.moves:
         return "not changed by these fields"
     large = sorted(spread.contributions.items(), key=lambda item: -item[1])
-    named = [f"{path} {100.0 * share:.1f} %" for path, share in large if share >= _LEAST]
+    named = [f"{path} {100.0 * share:.1f} %" for path, share in large if abs(share) >= _LEAST]
     return ", ".join(named) or "none by its derivatives at the means"
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .._scene import AbstractScene
+from ..joint import JointDistribution
 from ..numerics.arguments import require_outside
 from ..numerics.garbage import rare_garbage_collection
 from ..numerics.newton import NewtonOptions
@@ -42,6 +43,7 @@ def tolerances(
     overwrite: bool = False,
     progress: Callable[[int], None] | None = None,
     drag_prior: bool = True,
+    posterior: JointDistribution | str | os.PathLike[str] | None = None,
 ) -> Tolerances:
     """Scatter of the results of a scene whose fields have tolerances.
 
@@ -50,7 +52,8 @@ def tolerances(
         found["fit.clearance"].mean, found["fit.clearance"].deviation, found["fit.clearance"].contributions
 
     Mean, standard deviation and contributions follow from one solve and its exact derivatives (delta method); with
-    `samples` random samples are solved too, as a sweep. All fields are independent of each other.
+    `samples` random samples are solved too, as a sweep. All fields are independent of each other, but for those of a
+    posterior.
 
     **Arguments:**
     - `scene`: from `load_scene`, or built from parts; or a scene file or the name of a built-in scene, of which those
@@ -69,27 +72,40 @@ def tolerances(
     - `chunk`, `devices`, `workers`, `scheduler`, `overwrite`, `progress`: as those of `jaxbearing.sweep`.
     - `drag_prior`: the drag coefficient of a bearing, which nobody knows well, scatters by an assumed distribution
       (`bearings.priors`) where it has no other; `False`: it does not.
+    - `posterior`: fields that scatter together, as a calibration leaves them: `calibration.joint_of` of it, or the
+      file that `jaxbearing calibrate --out FILE.nc` writes. It prevails over distributions of the scene's file.
 
     **Raises:** `SolveError` where the solve at the means fails; `ValueError` where nothing scatters, for a field or a
-    result that is not one number, for what is no distribution; `AttributeError` for a field that is not there;
-    `SceneError` for a file that cannot be read.
+    result that is not one number, for what is no distribution, for a file that holds no posterior; `AttributeError`
+    for a field that is not there; `SceneError` for a scene file that cannot be read.
     """
     require_x64()
+    joint = posterior_of(posterior)
     if isinstance(scene, AbstractScene):
         require_solvable(scene)
         instead = "it looks at the numbers; jax.grad and jax.jvp of solve can"
         require_outside("tolerances", instead, scene)
-        label, scatter = type(scene).__name__, scatter_of(scene, over, drag_prior)
+        label, scatter = type(scene).__name__, scatter_of(scene, over, drag_prior, joint)
     else:
-        label, scatter = scatter_of_source(os.fspath(scene), drag_prior=drag_prior)
+        label, scatter = scatter_of_source(os.fspath(scene), drag_prior=drag_prior, posterior=joint)
         if over:
-            scatter = scatter_of(scatter.scene, scatter.fields | dict(over), drag_prior)
+            alone = {path: one for path, one in scatter.fields.items() if path not in scatter.together}
+            scatter = scatter_of(scatter.scene, alone | dict(over), drag_prior, scatter.joint)
     analysis = Analysis(scatter, label, NewtonOptions() if options is None else options)
     found = analysis.tolerances(results)
     if samples:
         plan = analysis.plan(found, samples, seed, chunk)
         found = _with_samples(analysis, found, plan, seed, out, devices, workers, scheduler, overwrite, progress)
     return found
+
+
+def posterior_of(given: JointDistribution | str | os.PathLike[str] | None) -> JointDistribution | None:
+    """A posterior, read from its file where it is one. **Raises:** `ValueError` for another file."""
+    if given is None or isinstance(given, JointDistribution):
+        return given
+    from ..report.joint_file import read_joint
+
+    return read_joint(given)
 
 
 @dataclass(frozen=True)

@@ -199,6 +199,40 @@ def test_hundred_designations():
         assert [line for line in inside if not any(mark in line for mark in marks)] == []
 
 
+RATED = ("dynamic_capacity", "static_capacity")
+RATINGS = [0.6, 0.85, 1.2, 1.6]
+"""Given over computed ones."""
+
+
+@pytest.mark.parametrize("name", ["618/8", "6205", "7208", "7014-C", "NU 2210", "30206"])
+def test_usual_scenes_can_be_built(name):
+    """`jaxbearing new` builds no scene as a check where the estimate is a usual one."""
+    own = find(name)
+    assert own.is_usual
+    given = [{field: ratio * getattr(own.geometry, field)} for field in RATED for ratio in RATINGS]
+    found = [find(name, **one) for one in (*given, {"radial_load": 1e6}, {"inner_speed": 1e4})]
+    usual = [one for one in found if one.is_usual]
+    assert len(usual) > 2
+    for one in usual:
+        one.scene()
+
+
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [
+        ("30206", {"dynamic_capacity": 9e5}),
+        ("7014-C", {"dynamic_capacity": 2e3}),
+        ("6205", {"radial_load": 0.0}),
+        ("NU 311", {"axial_load": 1e3}),
+    ],
+)
+def test_scenes_that_cannot_be_built_are_not_usual(name, given):
+    bearing = find(name, **given)
+    assert not bearing.is_usual
+    with pytest.raises(jb.SceneError):
+        bearing.scene()
+
+
 @pytest.mark.parametrize("name", ["6207", "NU 311"])
 def test_scenes_solve(name):
     solution = jb.solve(find(name).scene())

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from fitting.posterior import Marginal, Posterior, Sampling
+from fitting.posterior import Marginal, Posterior, Sampling, available
+from jaxbearing.report.joint_file import read_joint
 
 CLEARANCE, MODULUS = "geometry.diametral_clearance", "materials.rings.youngs_modulus"
 SCENE = "deep_groove_6205"
@@ -40,7 +41,9 @@ def made_up_posterior(found, sampling):
     marginals = {path: one(parameter.value) for path, parameter in found.parameters.items()}
     values = np.array([one.value for one in found.parameters.values()])
     drawn = values * (1.0 + 1e-3 * np.random.default_rng(0).normal(size=(2, 60, len(values))))
-    return Posterior(marginals, np.log(drawn), drawn, np.ones((2, 60)), 0, 3.0, 0.95, sampling)
+    coordinate = [np.vectorize(field.coordinate) for field in found.fields]
+    coordinates = np.stack([one(drawn[..., i]) for i, one in enumerate(coordinate)], axis=-1)
+    return Posterior(marginals, coordinates, drawn, np.full((2, 60), found.scale), 0, 3.0, 0.95, sampling)
 
 
 def test_json_has_the_keys(jaxbearing_command, folder):
@@ -63,7 +66,7 @@ def test_json_has_the_keys(jaxbearing_command, folder):
 def test_screen_files_and_pictures(jaxbearing_command, folder, monkeypatch):
     monkeypatch.setattr("fitting.posterior.available", lambda: True)
     monkeypatch.setattr("jaxbearing.calibration.posterior.posterior_of", made_up_posterior)
-    files = ("--out", "new.toml", "--plot", "a.png", "--plot-posterior", "b.png")
+    files = ("--out", "new.toml", "--out", "joint.nc", "--plot", "a.png", "--plot-posterior", "b.png")
     given = ("--next", "next.csv", "--folds", "4", "--posterior", "--predict", f"{SCENE}=ring.radial", *files)
     result = jaxbearing_command("calibrate", SCENE, "data.csv", *FREE, *given)
     assert result.code == 0, result.err
@@ -75,12 +78,18 @@ def test_screen_files_and_pictures(jaxbearing_command, folder, monkeypatch):
         "Predictions with",
         "Next operating point",
         "wrote new.toml",
+        "wrote joint.nc: the fields with what they share; jaxbearing tolerances --posterior joint.nc",
     ):
         assert said in result.out
+    assert "8 of 8 measured values lie within" in " ".join(result.out.split())
     again = jb.load_scene("new.toml")
     np.testing.assert_allclose(float(again.geometry.diametral_clearance), 14e-6, rtol=0.03)
     np.testing.assert_allclose(float(again.materials.rings.youngs_modulus), 190e9, rtol=0.03)
     assert {"a.png", "b.png"} <= set(os.listdir(folder))
+    joint = read_joint("joint.nc")
+    assert joint.fields == (CLEARANCE, MODULUS)
+    assert joint.samples.shape == (120, 2)
+    assert list(joint.positive) == [False, True]
 
 
 def test_the_page_prints_what_the_command_does(jaxbearing_command, folder):
@@ -183,3 +192,22 @@ def test_weights_and_empty_cells(folder):
 def test_the_sampling_is_checked():
     with pytest.raises(ValueError, match="samples: found 3"):
         Sampling(samples=3).check()
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not available(), reason="NumPyro, an extra of the package, is not installed")
+def test_the_command_samples_predicts_and_draws(jaxbearing_command, folder):
+    """Asked: R-hat < 1.01. The prediction of another point is made of the samples."""
+    given = ("--posterior", "--samples", "400", "--predict", f"{SCENE}=ring.radial")
+    result = jaxbearing_command("calibrate", SCENE, "data.csv", *FREE, *given, "--plot-posterior", "b.png", "--json")
+    assert result.code == 0, result.err
+    said = json.loads(result.out)
+    for one in said["posterior"]["parameters"].values():
+        assert one["r_hat"] < 1.01
+        assert one["effective"] > 400
+    assert len(said["predictive"]["median"]) == 8
+    assert said["predictive"]["inside"] >= 0.75
+    (prediction,) = said["predictions"].values()
+    assert prediction["samples"] == 200
+    assert prediction["lower"] < prediction["value"] < prediction["upper"]
+    assert (folder / "b.png").read_bytes().startswith(b"\x89PNG")

@@ -12,6 +12,7 @@ from fit_results import MEDIAN, SWEEPS, made_up
 
 import jaxbearing as jb
 from fitting.parameters import NAMES
+from fitting.posterior import available
 from jaxbearing.cli.main import main
 
 SLOPES = ["shear_modulus_pressure", "shear_modulus_temperature", "stress_pressure", "stress_temperature"]
@@ -292,3 +293,23 @@ def test_the_scene_is_asked_for(jaxbearing_command):
     result = jaxbearing_command("fit", "curves.csv")
     assert (result.code, result.out) == (2, "")
     assert "--scene" in result.err
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not available(), reason="NumPyro, an extra of the package, is not installed")
+def test_the_posterior_of_a_measured_curve(jaxbearing_command, folder):
+    """Asked: R-hat < 1.01; the curve is predicted by the samples, and both are drawn."""
+    given = ("--starts", "1", "--posterior", "--samples", "600", "--plot-posterior", "posterior.png")
+    result = jaxbearing_command(*ETM, *given, "--json")
+    assert result.code == 0, result.err
+    found = json.loads(result.out)
+    assert list(found["posterior"]["parameters"]) == ["shear_modulus", "stress"]
+    for name, one in found["posterior"]["parameters"].items():
+        assert one["r_hat"] < 1.01
+        assert one["effective"] > 400
+        # least squares and the samples agree within half a standard error: the curve tells both numbers well
+        parameter = found["parameters"][name]
+        assert abs(one["median"] - parameter["value"]) < 0.5 * parameter["standard_error"]
+    assert len(found["predictive"]["median"]) == 18
+    assert found["predictive"]["inside"] >= 0.85
+    assert (folder / "posterior.png").read_bytes().startswith(b"\x89PNG")

@@ -98,3 +98,20 @@ def test_a_write_that_breaks_off(jaxbearing_command, folder, monkeypatch):
     assert result.err == "error: the output cannot be written: a.html: No space left on device\n"
     assert os.listdir(folder) == ["a.html"]
     assert (folder / "a.html").read_text(encoding="utf-8") == "mine"
+
+
+def test_interval_of_the_power_loss(jaxbearing_command, folder):
+    """By the assumed drag coefficient, by one of the file's own, and not where it is switched off."""
+    title = "How well the power loss is known"
+    found = {}
+    for name, more in (
+        ("assumed", ()),
+        ("own", ("--set", "drag.coefficient={mean = 0.4, deviation = 0.02}")),
+        ("none", ("--no-drag-prior",)),
+    ):
+        assert jaxbearing_command(*DRY, *more, "--out", f"{name}.html").code == 0
+        found[name] = Page((folder / f"{name}.html").read_text(encoding="utf-8")).text
+    assert title in found["assumed"]
+    assert "assumed: lognormal, median 0.3" in found["assumed"]
+    assert "normal, mean 0.4, deviation 0.02" in found["own"]
+    assert title not in found["none"]

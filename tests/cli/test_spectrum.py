@@ -65,6 +65,26 @@ def test_screen_and_json(jaxbearing_command, duty):
     np.testing.assert_allclose(found["life"]["L10r"], 1.0 / rate, rtol=1e-12)
 
 
+@pytest.mark.usefixtures("made_up")
+def test_over_a_field(jaxbearing_command, duty):
+    over = ("--over", "geometry.diametral_clearance=5 um:20 um:4")
+    shown = jaxbearing_command("spectrum", duty, *over)
+    assert (shown.code, shown.err) == (0, "")
+    words = "4 values of geometry.diametral_clearance", "3 states each", "clearance", "Lnmr", "governed by", "15.00"
+    for word in words:
+        assert word in shown.out, word
+    assert max(map(len, shown.out.splitlines())) <= 100
+    told = jaxbearing_command("spectrum", duty, *over, "--json")
+    assert (told.code, told.err) == (0, "")
+    found = json.loads(told.out)
+    assert (found["converged"], found["over"], found["unit"]) == (True, "geometry.diametral_clearance", "m")
+    np.testing.assert_allclose(found["values"], [5e-6, 10e-6, 15e-6, 20e-6])
+    assert [[one["name"] for one in each["states"]] for each in found["spectra"]] == [NAMES] * 4
+    lives = [one["solution"]["life"]["damage_rate"] for one in found["spectra"][2]["states"]]
+    rate = sum(one["revolutions"] * each for one, each in zip(found["spectra"][2]["states"], lives, strict=True))
+    np.testing.assert_allclose(found["spectra"][2]["life"]["L10r"], 1.0 / rate, rtol=1e-12)
+
+
 def test_a_state_that_fails_is_named(jaxbearing_command, duty, monkeypatch):
     monkeypatch.setattr("jaxbearing.spectrum.verb.LaneProgram", _OneFails)
     shown = jaxbearing_command("spectrum", duty)
@@ -110,7 +130,16 @@ REFUSED = {
     ),
     "given twice": (
         ("duty.toml", "--set", "operation.radial_load=3 kN"),
-        "duty.toml, state 'full load': operation.radial_load: found a field that --set gives too",
+        "duty.toml, state 'full load': operation.radial_load: found a field that --set or --over gives too",
+    ),
+    "over without values": (("duty.toml", "--over", "operation.oil_flow"), "--over: operation.oil_flow: found"),
+    "over an unknown field": (
+        ("duty.toml", "--over", "geometry.clearance=1 um:2 um:3"),
+        "--over: geometry.clearance: found the unknown name",
+    ),
+    "over what a state changes": (
+        ("duty.toml", "--over", "operation.radial_load=1 kN:2 kN:3"),
+        "duty.toml, state 'full load': operation.radial_load: found a field that --set or --over gives too",
     ),
     "no rating": (("duty.toml", "--set", "rating=none"), "rating"),
 }

@@ -10,7 +10,9 @@ import xarray as xr
 from filled_results import MadeUpProgram, slopes_of, solution_of
 
 import jaxbearing as jb
+from jaxbearing.joint import JointDistribution
 from jaxbearing.numerics.status import SolveError, Status
+from jaxbearing.report.joint_file import write_joint
 
 SCENE = "deep_groove_6205_fitted"
 CLEARANCE = 'geometry.diametral_clearance={low="13 um", high="28 um"}'
@@ -137,3 +139,23 @@ def test_other_verbs_take_the_mean_and_say_so(jaxbearing_command, folder, monkey
     assert said in copied.err
     (file,) = os.listdir(folder)
     assert float(jb.load_scene(file).geometry.diametral_clearance) == pytest.approx(20.5e-6, rel=1e-15)
+
+
+def test_posterior_of_a_file(jaxbearing_command, folder):
+    """A file of another kind is refused before the solve; one of a calibration scatters together."""
+    (folder / "other.nc").write_text("x", encoding="utf-8")
+    refused = jaxbearing_command("tolerances", "deep_groove_6205", "--posterior", "other.nc")
+    assert (refused.code, refused.out) == (2, "")
+    assert "--posterior: other.nc: " in refused.err
+    fields = "geometry.diametral_clearance", "materials.rings.youngs_modulus"
+    positive, centre = np.array([False, True]), np.array([14e-6, 190e9])
+    covariance = np.array([[1e-14, 0.9e-9], [0.9e-9, 1e-4]])
+    joint = JointDistribution(fields, centre, positive, covariance)
+    write_joint(joint, dict(zip(fields, ("m", "Pa"), strict=True)), folder / "fields.nc", "x")
+    found = jaxbearing_command("tolerances", "deep_groove_6205", "--posterior", "fields.nc", "--json")
+    assert found.code == 0, found.err
+    said = json.loads(found.out)
+    assert {said["fields"][path]["origin"] for path in fields} == {"posterior"}
+    ring = said["tolerances"]["ring.radial"]
+    slopes = np.array([ring["derivatives"][path] for path in fields])
+    np.testing.assert_allclose(ring["deviation"] ** 2, slopes @ joint.of_values @ slopes, rtol=1e-9)

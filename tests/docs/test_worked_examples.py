@@ -60,7 +60,7 @@ EXAMPLES = {
         acbb["life"]["viscosity_ratio"],
     ],
     "The pair 7312-B itself": lambda pair: [pair["system_life"]["L10r_hours"]],
-    "6207 with a turning outer ring": lambda found: [found["life"]["L10h"]],
+    "6207 with a turning outer ring": lambda *found: [one["life"]["L10h"] for one in found],
     "Load distribution: Stribeck's numbers": lambda balls, rollers, angular, tapered: [
         16 * largest(balls) / 1e3,
         16 * largest(rollers) / 1e3,
@@ -111,7 +111,7 @@ def test_every_command_of_the_page_is_compared():
 
 
 QUICK = {"6207 with a turning outer ring", "A program of 1973"}
-"""Sections of one solve; the others have several structures."""
+"""Sections of one structure; the others have several structures."""
 
 
 @pytest.mark.parametrize(
@@ -127,6 +127,15 @@ def test_commands_give_the_numbers_of_their_tables(title, solved):
         assert f"{100.0 * (number / float(printed) - 1.0):+.1f} %".replace("-0.0", "0.0").replace("+0.0", "0.0") == (
             deviation
         ), what
+
+
+def test_life_of_a_sheave_has_one_round_pair():
+    """Loads and speeds in round numbers whose life has the four printed digits."""
+    speeds, loads = [*range(10, 1000, 10), *range(1000, 10000, 25)], [0.01 * step for step in range(10, 1000)]
+    hours = lambda speed, load: 1e6 / (60.0 * speed) * (27.0 / load) ** 3
+    found = [(n, round(p, 2)) for n in speeds for p in loads if abs(hours(n, p) - 804800.0) <= 50.0]
+    assert found == [(2450, 0.55)]
+    assert abs(hours(407.6, 1.0) - 804800.0) <= 50.0
 
 
 def test_ratings_of_the_257_spindle_bearings():

@@ -8,7 +8,17 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from fitting.posterior import PosteriorUnavailableError, Sampling, Target, available, potential_of, sampled
+from fitting.posterior import (
+    Marginal,
+    Posterior,
+    PosteriorUnavailableError,
+    Sampling,
+    Target,
+    available,
+    potential_of,
+    sampled,
+)
+from fitting.predictive import chosen_samples, measured_again
 
 COUNT = 24
 MATRIX = np.stack([np.ones(COUNT), np.linspace(-1.0, 1.0, COUNT)], axis=1)
@@ -77,6 +87,40 @@ def test_without_the_library_it_says_so(monkeypatch):
     monkeypatch.setattr("fitting.posterior.available", lambda: False)
     with pytest.raises(PosteriorUnavailableError, match="extra 'posterior'"):
         sampled(line(), Sampling(), 0.95)
+
+
+def drawn_posterior(coordinates, scale):
+    """A posterior of one parameter with these samples."""
+    marginal = Marginal(0.0, 0.0, 1.0, -2.0, 2.0, 1.0, 1000.0)
+    values = np.asarray(coordinates)[..., None]
+    return Posterior({"level": marginal}, values, values, scale, 0, 3.0, 0.95, Sampling())
+
+
+def test_a_new_measurement_scatters_by_samples_and_errors():
+    """Normal samples and normal errors: variances add up, and 95 % are 1.96 deviations of the sum."""
+    rng = np.random.default_rng(11)
+    found = drawn_posterior(0.3 * rng.normal(size=(4, 5000)), np.full((4, 5000), 2.0))
+    place = chosen_samples(found, 20000)
+    values = found.values.reshape(-1, 1)[place] + np.array([[1.0, 5.0]])
+    again = measured_again(found, place, values, np.array([1.1, 9.0]), np.array([0.2, 0.2]), ("a", "a"))
+    half = stats.norm.ppf(0.975) * np.hypot(0.3, 2.0 * 0.2)
+    # four standard errors of a quantile of so many samples: the density there is 0.0584 over the deviation
+    error = 4.0 * np.sqrt(0.025 * 0.975 / len(place)) / 0.0584 * np.hypot(0.3, 0.4)
+    np.testing.assert_allclose(again.upper - [1.0, 5.0], half, atol=error)
+    np.testing.assert_allclose(again.lower - [1.0, 5.0], -half, atol=error)
+    np.testing.assert_allclose(again.deviation, 0.4, rtol=1e-12)
+    assert again.inside == 0.5
+    assert again.in_words().startswith("1 of 2 measured values lie within the 95 % intervals in which 20000 samples")
+    assert set(again.to_dict()) == {"median", "lower", "upper", "inside", "level", "samples"}
+
+
+def test_a_sample_without_a_solution_is_said():
+    found = drawn_posterior(np.zeros((2, 50)), np.ones((2, 50)))
+    place = chosen_samples(found, 10)
+    values = np.ones((10, 1))
+    values[3] = np.nan
+    with pytest.raises(ValueError, match="no solution with 1 of 10 samples"):
+        measured_again(found, place, values, np.ones(1), np.ones(1), ("a",))
 
 
 # NumPyro is an extra of the package; `.[test]`, which README and CI install, has it, so these tests run there

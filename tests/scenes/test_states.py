@@ -89,7 +89,7 @@ REFUSED = {
     "unknown table": (one('operatoin.radial_load = "1 kN"'), r"state 'a': operatoin: found the unknown name"),
     "no unit": (one("operation.radial_load = 1000"), r"state 'a': operation\.radial_load: found"),
     "another kind": (one('kind = "two_disk"'), r"state 'a': kind: found another kind of scene"),
-    "of --set too": (one("geometry.n_balls = 8"), r"state 'a': geometry\.n_balls: found a field that --set gives too"),
+    "of --set too": (one("geometry.n_balls = 8"), r"geometry\.n_balls: found a field that --set or --over gives too"),
 }
 
 

@@ -77,7 +77,12 @@ def _frequencies(solution: Solution) -> Iterator[tuple[str, str]]:
     """Frequencies at which damages are heard, of the motion and of the textbook."""
     if solution.textbook_frequencies is None:
         return
-    names = {"cage": "cage", "outer_pass": "outer ring", "inner_pass": "inner ring", "element_spin": "element's spin"}
+    names = {
+        "cage": "cage (FTF)",
+        "outer_pass": "outer ring (BPFO)",
+        "inner_pass": "inner ring (BPFI)",
+        "element_spin": "element's spin (BSF)",
+    }
     for title, found in (("Frequencies", solution.frequencies), ("Textbook's", solution.textbook_frequencies)):
         said = (f"{words} {digits(float(np.asarray(getattr(found, name))))}" for name, words in names.items())
         yield title, f"{', '.join(said)} Hz"

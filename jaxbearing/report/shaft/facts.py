@@ -45,12 +45,18 @@ def bearing_columns(solution: ShaftSolution) -> dict[str, list[str]]:
         "x\nmm": _column([1e3 * float(one.position) for one in bearings], 1),
         "axial\nN": [f"{value:+{_width(force)}}" if value else "0" for value in axial],
         "radial\nN": [f"{value:{_width(force)}}" for value in radial],
-        "at\ndeg": [f"{np.degrees(float(one.azimuth)):.1f}" if radial[i] else "-" for i, one in enumerate(bearings)],
+        "at\ndeg": [_azimuth(one) if radial[i] else "-" for i, one in enumerate(bearings)],
         "moment\nN m": [f"{_above(float(one.moment), moment):{_width(moment, 2)}}" for one in bearings],
         "Q max\nN": [text(one.largest_load) for one in bearings],
         "L10r\n10^6 rev": [_life(one) for one in bearings],
         "loss\nW": [text(loss_of(one)) for one in bearings],
     }
+
+
+def _azimuth(one: BearingOnShaft) -> str:
+    """Azimuth of the radial force in degrees; round-off makes -180 of 180."""
+    degrees = f"{np.degrees(float(one.azimuth)):.1f}"
+    return "180.0" if degrees == "-180.0" else degrees
 
 
 def _above(value: float, largest: float) -> float:

@@ -1,0 +1,1 @@
+"""What `measurements.py` computes for the page "Beside measurements": one module for each kind of data."""

@@ -1,0 +1,32 @@
+"""The interval of a power loss as a table of a page, and as a line of the screen."""
+
+from collections.abc import Iterator
+
+from ..loss_interval import PowerInterval
+from .display import with_unit
+from .page_content import Listing
+
+TITLE = "How well the power loss is known"
+HEADINGS = ("by", "5 % of the losses are below", "95 % are below", "distribution")
+REMARK = (
+    "All other inputs are as the scene has them. The inputs are independent of each other. The error of the laws "
+    "themselves is not counted."
+)
+
+
+def interval_listing(interval: PowerInterval) -> Listing:
+    """The interval by all inputs that have a distribution, then that by each alone, the widest first."""
+    rows = [(part.path, with_unit(part.low, "W"), with_unit(part.high, "W"), part.assumed) for part in interval.parts]
+    together = ("all of these", with_unit(interval.low, "W"), with_unit(interval.high, "W"), "")
+    return Listing(TITLE, HEADINGS, [together, *rows] if len(rows) > 1 else rows, (REMARK,))
+
+
+def interval_headline(interval: PowerInterval) -> tuple[str, str]:
+    """Name and value of the interval among the few results at the top."""
+    return "power loss, 90 % between", f"{with_unit(interval.low, 'W')} and {with_unit(interval.high, 'W')}"
+
+
+def interval_lines(interval: PowerInterval) -> Iterator[str]:
+    """The same in sentences."""
+    name, limits = interval_headline(interval)
+    yield f"{name} {limits}, {'by' if len(interval.parts) == 1 else 'mostly by'} {interval.by} ({interval.assumed})"

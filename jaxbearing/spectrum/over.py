@@ -1,0 +1,100 @@
+"""Life under a load spectrum against one field of the scene, on the screen and as JSON."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from rich import box
+from rich.console import Console
+from rich.padding import Padding
+from rich.table import Table
+
+from ..report.backends.screen import counted, headline, print_rule, print_warnings
+from ..report.display import digits, display_unit, number
+from .result import Spectrum
+from .tables import spectrum_to_dict
+
+_COLUMNS = {
+    "Lnmr\nh": "Lnmr_hours",
+    "L10r\nh": "L10r_hours",
+    "L10m\nh": "L10mh",
+    "L10\nh": "L10h",
+}
+"""Heading -> life in hours."""
+
+
+def print_over(
+    path: str,
+    unit: str,
+    values: Sequence[float],
+    found: Sequence[Spectrum],
+    label: str,
+    seconds: float,
+    console: Console,
+) -> None:
+    """A row for each value; one whose states did not all converge has no life.
+
+    **Arguments:** `path`: of the field; `unit`: its SI unit, "" for a plain number; `values`, in SI, and the spectrum
+    of each; `label`: of the scene; `seconds`: that it took.
+    """
+    failed = sum(bool(one.failures) for one in found)
+    status, style = (f"{failed} FAILED", "bold red") if failed else ("CONVERGED", "bold green")
+    words = f"{counted(len(found), 'value')} of {path}, {counted(len(found[0].names), 'state')} each, {seconds:.1f} s"
+    headline(label, status, style, words, console)
+    print_rule("Life under the load spectrum", console)
+    columns = over_columns(path, unit, values, found)
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
+    for heading in columns:
+        table.add_column(heading, justify="left" if heading == _GOVERNS else "right")
+    for row in zip(*columns.values(), strict=True):
+        table.add_row(*row)
+    console.print(Padding(table, (0, 1)))
+    said = [
+        f"{number(value, unit)} {display_unit(unit)}, {name}: {text}"
+        for value, one in zip(values, found, strict=True)
+        for name, text in one.failures.items()
+    ]
+    print_warnings(said or list(dict.fromkeys(text for one in found for text in one.warnings)), console)
+
+
+_GOVERNS = "governed by"
+
+
+def over_columns(path: str, unit: str, values: Sequence[float], found: Sequence[Spectrum]) -> dict[str, list[str]]:
+    """Heading, with the unit on a second line -> texts, one a value; lives that no value has are left out."""
+    own = path.rpartition(".")[2].replace("_", " ")
+    columns = {f"{own}\n{display_unit(unit)}": [number(value, unit) for value in values]}
+    for heading, name in _COLUMNS.items():
+        texts = ["-" if one.failures else _text(getattr(one.life, name)) for one in found]
+        if set(texts) != {"-"}:
+            columns[heading] = texts
+    loads = ["-" if one.failures else _text(1e-3 * np.asarray(one.life.equivalent_load)) for one in found]
+    safety = [_text(_least(one), 3) for one in found]
+    most = [f"{one.governing}, {_percent(one)} %" if one.governing is not None else "-" for one in found]
+    return columns | {"load\nkN": loads, "least\nC0/P0": safety, _GOVERNS: most}
+
+
+def over_to_dict(path: str, unit: str, values: Sequence[float], found: Sequence[Spectrum]) -> dict[str, Any]:
+    """The field, its values in SI, and the object of each spectrum; arguments as those of `print_over`."""
+    spectra = [spectrum_to_dict(one) for one in found]
+    return {
+        "converged": all(one["converged"] for one in spectra),
+        "over": path,
+        "unit": unit,
+        "values": [float(value) for value in values],
+        "spectra": spectra,
+    }
+
+
+def _least(found: Spectrum) -> float:
+    """The least static safety of all states; NaN where the catalogue's formula is not for one of them."""
+    known = [one.life.static_safety for one in found.solutions]
+    return float("nan") if any(one is None for one in known) else float(np.min([np.asarray(one) for one in known]))
+
+
+def _percent(found: Spectrum) -> str:
+    return digits(100.0 * float(np.max(np.asarray(found.life.damage))), 3)
+
+
+def _text(value: Any, significant: int = 4) -> str:
+    return "-" if value is None else digits(float(np.asarray(value)), significant)
