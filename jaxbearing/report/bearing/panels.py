@@ -19,8 +19,8 @@ from .ring_panels import ring_panels
 SIDES = (
     ("outer", OUTER, "square", "outer race"),
     ("inner", INNER, "circle", "inner race"),
-    ("outer_second", OUTER_SECOND, "diamond", "outer race, second flank"),
-    ("inner_second", INNER_SECOND, "triangle-down", "inner race, second flank"),
+    ("outer_second", OUTER_SECOND, "diamond", "outer, second"),
+    ("inner_second", INNER_SECOND, "triangle-down", "inner, second"),
     ("flange", RIB, "triangle-up", "rib"),
 )
 LOG_FROM = 20.0
