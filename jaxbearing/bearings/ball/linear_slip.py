@@ -62,7 +62,7 @@ def linear_slip(
     spin = jnp.stack([sine, -sine / ratio, cosine / ratio])
     of_spin = weight * 0.2 * spread[race][:, None] * jnp.cbrt(jnp.square(weight)) / jnp.square(half)
     matrix = jnp.einsum("ikn,jkn,kn->ijn", slide, slide, weight) + jnp.einsum("ikn,jkn,kn->ijn", spin, spin, of_spin)
-    right = jnp.sum(weight * lever * ring * slide + of_spin * sine * ring * spin, axis=1)
+    right = jnp.sum((weight * lever * ring)[None] * slide + (of_spin * sine * ring)[None] * spin, axis=1)
     orbit, axial, radial = solve_blocks(matrix, right[:, None])[:, 0]
     axial, radial = axial / ratio, radial / ratio
     way = jnp.where(kinematics.inner_speed < kinematics.outer_speed, -1.0, 1.0)
