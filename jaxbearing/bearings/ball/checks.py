@@ -39,7 +39,7 @@ def _cusps(scene: BallBearing, contacts: Contacts) -> Excess:
         if apart is not None:
             past = contacts.most(jnp.arcsin(apart / radii[race]) - side * contacts.angle)
             found[text.format(place=contacts.places[k])] = past[k]
-    carrying = jnp.sum(contacts.load > LOADED * jnp.max(contacts.load), axis=0)
+    carrying = jnp.sum(contacts.load > LOADED * jnp.max(contacts.load), axis=0, dtype=float)
     text = "balls with more than two contacts under load slide: friction and wear rise, as with mainly radial load"
     return found | {text: jnp.max(carrying) - 2.5}
 
