@@ -34,10 +34,13 @@ from ...contacts.mixed import MixedState
 from ...contacts.shear import Sliding
 from ...gaps.ball_pocket import BallPocketFilm
 from ...numerics.roots import monotone_root
+from ...numerics.safe import smooth_abs
 from .arcs import added
 from .lubricated import AbstractLubricatedBallSystem
 from .state import BallsState
 
+FADING_LOAD = 1e-3
+"""Load of a contact at which its traction fades where balls have more than two, N."""
 PART_TOLERANCE = 1e-12
 """Tolerance of the attitude of least spin power, as a part of the way from outer to inner control."""
 
@@ -80,10 +83,22 @@ def _friction(system: AbstractLubricatedBallSystem, state: BallsState) -> tuple[
     bend = 0.5 / _patch_radius(system) if system.laws.heathcote else None
     sliding = _sliding(system, state, bend)
     shear = system.laws.shear(state.contact, state.load, state.film, races.mean_speed, sliding, system.oil)
+    if not system.arcs.single:
+        shear = _fading(shear, state.load)
     turn = system.arcs.senses * races.roll
     rolling = system.laws.rolling_moment(state.contact, state.load, state.film, races.mean_speed, turn, system.inlet)
     curvature = None if bend is None or shear.curvature is None else -bend * shear.curvature
     return shear, rolling, curvature
+
+
+def _fading(shear: Traction, load: Float[Array, "contact ball"]) -> Traction:
+    r"""Traction times $Q/\sqrt{Q^2 + Q_\epsilon^2}$.
+
+    The patch of a contact levels off near load 0, and an open one would pull at its ball."""
+    share = load / smooth_abs(load, FADING_LOAD)
+    more = {} if shear.curvature is None else {"curvature": share * shear.curvature}
+    names = ("rolling", "transverse", "moment", "power")
+    return shear._replace(**{name: share * getattr(shear, name) for name in names}, **more)
 
 
 def _sliding(system: AbstractLubricatedBallSystem, state: BallsState, bend: Array | None = None) -> Sliding:
