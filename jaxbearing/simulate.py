@@ -9,7 +9,6 @@ from .numerics.garbage import rare_garbage_collection
 from .numerics.precision import require_x64
 
 if TYPE_CHECKING:
-    from .bearings.ball.scene import BallBearing
     from .bearings.bearing import AbstractBearing
     from .bearings.motion.family import AbstractMovingBearing
     from .bearings.motion.history import History, LastState
@@ -69,7 +68,7 @@ def simulate(
 ) -> "History": ...
 @overload
 def simulate(
-    scene: "BallBearing | TaperedRollerBearing",
+    scene: "TaperedRollerBearing",
     duration: float | None = None,
     *,
     simulation: "Simulation | None" = None,
@@ -114,8 +113,9 @@ def simulate(
     """Run a bearing in time from the quasi-static state of its operating point, or a line contact from its steady film.
 
     A bearing with `[thermal]` runs in another way, whatever its family: the run is of its temperatures, from cold, and
-    the bearing is in its steady state at each instant. A run of the rollers needs the table left out. The result is a
-    `WarmUpHistory`, that of a run of rollers a `History`; the type of a scene does not say whether it has the table.
+    the bearing is in its steady state at each instant. A run of the rolling elements needs the table left out. The
+    result is a `WarmUpHistory`, that of a run of rolling elements a `History`; the type of a scene does not say whether
+    it has the table.
     A run of temperatures ends with the status `thermal_runaway` where a node passes `thermal.limit`.
 
     A run that is interrupted by Ctrl-C comes back with what was computed until then (`history.completed`); so does one
@@ -166,9 +166,10 @@ def _require_moving(scene: Any, method: str) -> None:
     """**Raises:** `TypeError` for what is no scene, or for a kind that does not move."""
     if isinstance(scene, AbstractScene) and getattr(type(scene), method) is not getattr(AbstractScene, method):
         return
-    name, taken = ("simulate", "any bearing with [thermal], a cylindrical roller bearing or a line contact")
+    taken = "any bearing with [thermal], a cylindrical roller bearing, a ball bearing or a line contact"
+    name = "simulate"
     if method == "simulated_batch":
-        name, taken = ("simulate_batch", "a cylindrical roller bearing")
+        name, taken = ("simulate_batch", "a cylindrical roller bearing or a ball bearing")
     raise TypeError(f"cannot simulate a {type(scene).__name__}; {name} takes: {taken}")
 
 

@@ -40,7 +40,7 @@ from .row import AbstractRow
 from .solution import RING_FREEDOMS, TILTS, Solution
 from .warm import settled, solve_warm
 
-TAKEN = "simulate takes: any bearing with [thermal], a cylindrical roller bearing, a line contact"
+TAKEN = "simulate takes: any bearing with [thermal], a cylindrical roller bearing, a ball bearing, a line contact"
 """Second half of the message about a scene that `simulate` does not take."""
 Bearing = TypeVar("Bearing", bound="AbstractBearing")
 

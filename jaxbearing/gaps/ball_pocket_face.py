@@ -113,38 +113,59 @@ class CompliantBallPocketFace(Checked):
         **Arguments:** `gap`, H, m, any sign; `gap_rate`, dH/dt, m/s; `speed_along`, `speed_across`, of the ball's
         surface at the wall along and across the pocket's axis, m/s, signed; `viscosity`, Pa s.
         """
-        gap = jnp.asarray(gap)
-        root = jnp.sqrt(jnp.square(gap) + 4.0 * jnp.square(self.minimum_film))
-        positive = gap >= 0
-        # below contact the difference cancels: use the conjugate
-        closed = 2.0 * jnp.square(self.minimum_film) / (root - jnp.where(positive, 0.0, gap))
-        smooth_gap = jnp.where(positive, 0.5 * (gap + root), closed)
         least = jnp.sqrt(jnp.square(speed_along) + jnp.square(self.minimum_speed))
         rolling = self._entrainment(least, speed_across, viscosity)
-        ratio = self._squeeze(gap_rate, viscosity) / (rolling * jnp.sqrt(smooth_gap))
         mean_radius = jnp.sqrt(self.ball_radius * self.conforming_radius)
-        log_rigid = jnp.log(jnp.pi * mean_radius * rolling) + jnp.arcsinh(ratio)
-        log_stiffness = jnp.log(self.stiffness)
-        args = tuple(jnp.broadcast_arrays(gap, log_rigid, log_stiffness))
-        pressed = 1.5 * jnp.log(jnp.maximum(self.minimum_film, -gap)) + log_stiffness
-        guess = jnp.where(gap < self.minimum_film, pressed, log_rigid - 0.5 * jnp.log(smooth_gap))
-        z = monotone_root(
-            _balance,
-            args,
-            *LOG_LOAD_RANGE,
-            guess + jnp.zeros_like(args[0]),
-            tolerance=LOAD_STEP,
-            expansion=_expansion,
-        )
-        film = jnp.exp(2.0 * (log_rigid - z.value))
+        entering = Entering(self._squeeze(gap_rate, viscosity), rolling, mean_radius)
+        load, film, residual = yielding_film(gap, entering, self.stiffness, self.minimum_film)
         area = 2.0 * jnp.pi * mean_radius * jnp.log(jnp.maximum(CUT_FILMS, self.clearance / film))
         return BallPocketFace(
-            load=jnp.exp(z.value),
+            load=load,
             film=film,
             friction_along=viscosity * speed_along * area,
             friction_across=viscosity * speed_across * area,
-            residual=z.residual / film,
+            residual=residual,
         )
+
+
+class Entering(NamedTuple):
+    """What a film carries its load by: `squeeze`, C, N/m; `rolling`, X over the root of the film, N/m^1.5;
+    `mean_radius`, root of R_1 R_2, m."""
+
+    squeeze: Batch
+    rolling: Batch
+    mean_radius: Values
+
+
+def yielding_film(
+    gap: Values, entering: Entering, stiffness: Scalar, minimum_film: Scalar
+) -> tuple[Array, Array, Array]:
+    """Load, N, film, m, and residual relative to the film, of a wall that yields, see `CompliantBallPocketFace`.
+
+    **Arguments:** `gap`, H, m, any sign; `stiffness`, N/m^1.5; `minimum_film`, m.
+    """
+    gap = jnp.asarray(gap)
+    root = jnp.sqrt(jnp.square(gap) + 4.0 * jnp.square(minimum_film))
+    positive = gap >= 0
+    # below contact the difference cancels: use the conjugate
+    closed = 2.0 * jnp.square(minimum_film) / (root - jnp.where(positive, 0.0, gap))
+    smooth_gap = jnp.where(positive, 0.5 * (gap + root), closed)
+    ratio = entering.squeeze / (entering.rolling * jnp.sqrt(smooth_gap))
+    log_rigid = jnp.log(jnp.pi * entering.mean_radius * entering.rolling) + jnp.arcsinh(ratio)
+    log_stiffness = jnp.log(stiffness)
+    args = tuple(jnp.broadcast_arrays(gap, log_rigid, log_stiffness))
+    pressed = 1.5 * jnp.log(jnp.maximum(minimum_film, -gap)) + log_stiffness
+    guess = jnp.where(gap < minimum_film, pressed, log_rigid - 0.5 * jnp.log(smooth_gap))
+    z = monotone_root(
+        _balance,
+        args,
+        *LOG_LOAD_RANGE,
+        guess + jnp.zeros_like(args[0]),
+        tolerance=LOAD_STEP,
+        expansion=_expansion,
+    )
+    film = jnp.exp(2.0 * (log_rigid - z.value))
+    return jnp.exp(z.value), film, z.residual / film
 
 
 def _balance(log_load: Array, args: tuple[Array, Array, Array]) -> Array:

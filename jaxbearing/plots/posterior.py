@@ -78,7 +78,8 @@ def _measured_again(panel: Any, one: Any) -> None:
     panel.plot(place[inside], of(one.measured)[inside], "o", color=CURVES[0], ms=3.5)
     panel.plot(place[~inside], of(one.measured)[~inside], "x", color=CURVES[1], ms=6.0)
     panel.axhline(0.0, color=FAINT, linewidth=0.9, zorder=0)
-    panel.set_xlabel("measured value", fontsize=9)
+    panel.xaxis.get_major_locator().set_params(integer=True)
+    panel.set_xlabel("number of the measured value", fontsize=9)
     panel.set_ylabel("from the median, deviations", fontsize=9)
     grid_lines(panel)
 

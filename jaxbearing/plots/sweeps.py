@@ -20,7 +20,9 @@ OPERATING_POINT = "operating point"
 """Name of the mark of an operating point."""
 _LOSS = "power_loss_"
 _LOG_FROM = 50.0
-"""Largest over smallest value from which on the levels of a map are those of a logarithm."""
+"""Largest over smallest value from which on the levels of a map, and the axis of a result, are those of a logarithm."""
+_ROOM = 1.15
+"""Factor between the ends of a logarithmic axis and its values."""
 _SHORT = 30.0
 """Half the length of a contour, points, below which it is not labelled: the corner of a map would cut the label."""
 _LINES_AT_MOST = 8
@@ -100,7 +102,8 @@ def result_against(
     operating_point: Mapping[str, float] | None = None,
 ) -> "matplotlib.figure.Figure":
     """One result of a sweep, "cage_slip", against a swept field; a second field gives a family of lines, a failed case
-    a gap. Arguments and errors as for `power_loss_against`; `result` is a name of the data set."""
+    a gap. The axis of the result is logarithmic where the largest value is more than 50 times the smallest. Arguments
+    and errors as for `power_loss_against`; `result` is a name of the data set."""
     own, axes = axes is None, prepare(axes)
     fields = swept(sweep)
     x_name = _field(sweep, field, fields)
@@ -114,8 +117,9 @@ def result_against(
         x, _ = shown(sweep[x_name])
         values, unit = shown(_results(sweep, result))
         order = np.argsort(x)
-        axes.plot(x[order], values[order], color=COLOURS[0], marker="o", markersize=3.5)
+        axes.plot(x[order], values[order], color=COLOURS[0], marker="o", markersize=3.5, clip_on=False)
         axes.set_ylabel(name_of(sweep, result, unit), fontsize=9)
+    _scale_of_results(axes)
     values, unit = shown(sweep[x_name])
     axes.set_xlabel(axis_name(sweep[x_name], unit), fontsize=9)
     axes.set_xlim(values.min(), values.max() if values.max() > values.min() else None)
@@ -267,6 +271,15 @@ def _scale(axes: Any, which: str, values: np.ndarray) -> None:
     """Logarithmic where the values, which are sorted, ask for it; ticks are then written as numbers."""
     if _spread(values) == "log":
         logarithmic(axes, which)
+
+
+def _scale_of_results(axes: Any) -> None:
+    """Makes the upright axis logarithmic where the lines pass through so large a range of values above 0."""
+    values = np.ma.masked_invalid(np.concatenate([line.get_ydata() for line in axes.get_lines()]))
+    if not values.count() or values.min() <= 0.0 or values.max() <= _LOG_FROM * values.min():
+        return
+    axes.set_ylim(values.min() / _ROOM, values.max() * _ROOM)
+    logarithmic(axes, "y")
 
 
 def _contours(axes: Any, xs: np.ndarray, ys: np.ndarray, values: Any) -> tuple[Any, Sequence[float]]:

@@ -88,6 +88,8 @@ MASS = Dimension("a mass", "kg", "4 kg")
 ACCELERATION = Dimension("an acceleration", "m/s^2", "9.81 m/s^2")
 TILT_STIFFNESS = Dimension("a stiffness against tilting", "N*m/rad", "200 kN*m/rad")
 TANGENTIAL_COMPLIANCE = Dimension("a tangential compliance", "m/Pa", "1e-15 m/Pa")
+DAMPING = Dimension("a damping constant", "N*s/m", "1000 N*s/m")
+CONTACT_DAMPING = Dimension("a damping over a load", "s/m", "0.05 s/m")
 
 
 _BY_UNIT = {
@@ -97,7 +99,7 @@ _BY_UNIT = {
         *(DENSITY, VISCOSITY, KINEMATIC_VISCOSITY, CONDUCTIVITY, CONDUCTIVITY_SLOPE, KELVIN_PER_PRESSURE),
         *(KELVIN2_PER_PRESSURE, TIME, FREQUENCY, TANGENTIAL_COMPLIANCE, LINE_CONTACT_STIFFNESS, THERMAL_EXPANSION),
         *(HEAT_CAPACITY, HEAT_CAPACITY_SLOPE, HEAT_CONDUCTANCE, BODY_HEAT_CAPACITY, AREA),
-        *(MASS, ACCELERATION, TILT_STIFFNESS, FOUNDATION),
+        *(MASS, ACCELERATION, TILT_STIFFNESS, DAMPING, CONTACT_DAMPING, FOUNDATION),
     )
 } | {"kg/(m^3 K)": DENSITY_SLOPE}
 

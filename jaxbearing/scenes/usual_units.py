@@ -75,5 +75,7 @@ USUAL: dict[str, dict[str, tuple[float, float]]] = {
     "kg": {"kg": (1.0, 0.0), "g": (0.001, 0.0)},
     "m/s^2": {"m/s^2": (1.0, 0.0)},
     "N*m/rad": {"N*m/rad": (1.0, 0.0), "kN*m/rad": (1000.0, 0.0)},
+    "N*s/m": {"N*s/m": (1.0, 0.0), "N s/m": (1.0, 0.0), "kN*s/m": (1000.0, 0.0)},
+    "s/m": {"s/m": (1.0, 0.0)},
 }
 """Units by the SI unit of their dimension: text of the unit -> factor to SI, and the unit's own zero in SI."""

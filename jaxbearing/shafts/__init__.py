@@ -4,6 +4,8 @@ from .forces import Belt as Belt
 from .forces import Gear as Gear
 from .forces import Mass as Mass
 from .forces import PointLoad as PointLoad
+from .heat import ShaftThermal as ShaftThermal
+from .heat import ShaftThermalResult as ShaftThermalResult
 from .mounting import LinearBearing as LinearBearing
 from .mounting import MatchedSet as MatchedSet
 from .mounting import MountedBearing as MountedBearing

@@ -15,6 +15,7 @@ from ..numerics.checks import Checked, known
 from ..numerics.newton import NewtonOptions
 from ..numerics.refusals import refuse_all
 from .forces import AbstractForce
+from .heat import ShaftThermal, thermal_problems
 from .mounting import LinearBearing, MatchedSet, MountedBearing, Support, _numbers
 from .paths import part_at, path_in_file, replaced
 from .shaft import Shaft
@@ -74,6 +75,7 @@ class ShaftSystem(AbstractScene):
       freedoms for each of the bearings in the order of `places`; `None`: each outer ring has its own support.
     - `states`: of a duty cycle; without any there is one state, that of the scene.
     - `life`: inputs of the life of the system.
+    - `thermal`: joins the thermal networks of the bearings along shaft and housing; `None`: each has its own.
 
     **Raises:** `ValueError` for names that are given twice, for no bearing, for positions beyond the ends of the shaft,
     and for shares that do not add up to 1.
@@ -91,6 +93,7 @@ class ShaftSystem(AbstractScene):
     )
     states: tuple[ShaftState, ...] = eqx.field(default=(), converter=tuple)
     life: SystemLife = SystemLife()
+    thermal: ShaftThermal | None = None
 
     def __check_init__(self):
         refuse_all(self._problems())
@@ -109,6 +112,8 @@ class ShaftSystem(AbstractScene):
         if sum(force.balances for force in self.forces) > 1:
             yield "force: more than one has balance = true, expected at most one"
         yield from self._beyond()
+        paths = {self._table_of(place): place.scene for place in places}
+        yield from thermal_problems(self.thermal, self.shaft, paths)
         if self.housing is not None:
             count = 5 * len(places)
             if np.shape(self.housing) != (count, count):
@@ -131,6 +136,10 @@ class ShaftSystem(AbstractScene):
             at = known(position)
             if at is not None and not -1e-9 <= at[0] <= end + 1e-9:
                 yield f"{said}{at[0] * 1e3:g} mm lies beyond the shaft ({end * 1e3:g} mm)"
+
+    def _table_of(self, place: Place) -> str:
+        """Path of the table of a bearing, or of its set."""
+        return f"bearing.{place.name}" if place.set_index is None else f"set.{self.sets[place.set_index].name}"
 
     def _path_of(self, place: Place) -> str:
         """Beginning of a message about the position of a bearing."""

@@ -15,6 +15,7 @@ from .._scene import AbstractSolution, label
 from ..bearings.solution import FailureCause, RingDisplacement
 from ..life.result import Life
 from ..numerics.status import Status
+from .heat import ShaftThermalResult
 
 _Number = Float[Array, ""]
 
@@ -157,6 +158,7 @@ class ShaftSolution(AbstractSolution):
     - `bearings`: by name, those of sets first.
     - `sets`: by name.
     - `life`: of the system; `None` if a bearing has no rating.
+    - `thermal`: the network along shaft and housing; `None` where the bearings have no common one.
     - `checks`: text of a warning or rule -> True if it applies.
     - `softest`: the freedom, of the node or bearing that it names, along which the iterate ran away where there is no
       equilibrium: index into `freedom_names`.
@@ -176,6 +178,7 @@ class ShaftSolution(AbstractSolution):
     softest: Int[Array, ""]
     operation: Any = None
     duty: DutyResult | None = None
+    thermal: ShaftThermalResult | None = None
     failure_causes: dict[str, FailureCause] = eqx.field(default_factory=dict)
     unknowns: int = eqx.field(static=True, default=0, metadata=label("1", "unknowns of the shaft"))
     freedom_names: tuple[str, ...] = eqx.field(static=True, default=())

@@ -16,7 +16,16 @@ from ..numerics.newton import NewtonOptions
 from ..numerics.precision import as_float
 from ..numerics.status import Status
 from .balance import Axis, Parts, axis_of, build_balance
-from .batches import FREEDOM_WORDS, LinearBatch, RollingBatch, batches_of, largest_load, pressure_centre, solutions
+from .batches import (
+    FREEDOM_WORDS,
+    AbstractBatch,
+    LinearBatch,
+    RollingBatch,
+    batches_of,
+    largest_load,
+    pressure_centre,
+    solutions,
+)
 from .lives import hourly_rates, life_of, slopes_of, system_rate
 from .mounting import LinearBearing
 from .preload import Mounted, groups_of, mount
@@ -31,6 +40,7 @@ from .solution import (
     SystemLifeResult,
     TorqueBalance,
 )
+from .warm import solve_warm_shaft
 
 SLIDING_APART = (
     "forces of rollers that slide come from dry rollers that may tilt; films, cage and losses are those of the same "
@@ -93,15 +103,37 @@ def _duty_lives(
 
 
 def _solve(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
+    if system.thermal is not None:
+        return solve_warm_shaft(
+            system,
+            lambda places, mounted, grown: _at(
+                system, places, batches_of(places, jnp.asarray(system.shaft.speed)), mounted, grown, options
+            ),
+        )
     places = system.places
-    speed = jnp.asarray(system.shaft.speed)
-    position = jnp.stack([jnp.asarray(place.position, dtype=float) for place in places])
-    batches = batches_of(places, speed)
-    mounted = mount(system, places, batches)
-    closure = mounted.closure
+    batches = batches_of(places, jnp.asarray(system.shaft.speed))
+    mounted, grown = mount(system, places, batches), None
     if system.shaft.thermal_strain is not None:
-        sense = np.asarray([place.sense for place in places])
-        closure = closure + sense * system.shaft.thermal_strain * (position - system.shaft.strain_reference)
+        grown = system.shaft.thermal_strain * (_positions(places) - system.shaft.strain_reference)
+    return _at(system, places, batches, mounted, grown, options)
+
+
+def _positions(places: tuple[Place, ...]) -> Float[Array, " bearing"]:
+    return jnp.stack([jnp.asarray(place.position, dtype=float) for place in places])
+
+
+def _at(
+    system: ShaftSystem,
+    places: tuple[Place, ...],
+    batches: tuple[AbstractBatch, ...],
+    mounted: Mounted,
+    grown: Float[Array, " bearing"] | None,
+    options: NewtonOptions,
+) -> ShaftSolution:
+    """The equilibrium. **Arguments:** `grown`: displacement of the shaft against the housing by growth, m."""
+    position, closure = _positions(places), mounted.closure
+    if grown is not None:
+        closure = closure + np.asarray([place.sense for place in places]) * grown
     axis = axis_of(system)
     expansion = jnp.stack([jnp.asarray(place.expansion, dtype=float) for place in places])
     balance = build_balance(system, places, axis, position, closure, mounted.springs)

@@ -53,6 +53,8 @@ class HeatPaths(eqx.Module):
     outer_ring_ambient: _Number | None = _flow("outer ring", "ambient")
     shaft_ambient: _Number | None = _flow("shaft", "ambient")
     housing_ambient: _Number | None = _flow("housing", "ambient")
+    shaft_neighbours: _Number | None = _flow("shaft", "the shaft at the neighbouring bearings")
+    housing_neighbours: _Number | None = _flow("housing", "the housing at the neighbouring bearings")
 
 
 class ThermalResult(eqx.Module):
@@ -97,9 +99,9 @@ class ThermalResult(eqx.Module):
         return jnp.stack([getattr(self.temperatures, name) for name in self.nodes])
 
     def paths(self) -> dict[tuple[str, str], _Number]:
-        """Heat that flows from the first to the second of two nodes, W; the second may be `ambient`. A negative number
-        flows the other way round."""
-        ends = itertools.product(self.nodes, (*self.nodes, "ambient"))
+        """Heat that flows from the first to the second of two nodes, W; the second may be `ambient`, or `neighbours`. A
+        negative number flows the other way round."""
+        ends = itertools.product(self.nodes, (*self.nodes, "ambient", "neighbours"))
         found = {(first, second): getattr(self.flows, f"{first}_{second}", None) for first, second in ends}
         return {pair: flow for pair, flow in found.items() if flow is not None}
 

@@ -139,7 +139,7 @@ def test_pieces_end_at_kinks():
     ("scene", "message"),
     [
         (lambda: warm("roller", 6), r"thermal\.capacity\.shaft, thermal\.capacity\.housing: found nothing"),
-        (lambda: jb.load_scene("deep_groove_6205", {"contact": "none"}), "cannot simulate a BallBearing"),
+        (lambda: jb.load_scene("tapered_example"), "cannot simulate a TaperedRollerBearing"),
     ],
 )
 def test_refusals(scene, message):

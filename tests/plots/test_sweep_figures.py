@@ -103,6 +103,7 @@ def test_ticks_of_logarithms_and_labels_of_contours_are_numbers():
     assert all(f"{value:e}"[0] in "125" for value in values)
     assert overlapping(figure) == []
     line = result_against(decades().isel(operation_radial_load=0), "life").axes[0]
+    assert line.get_yscale() == "log"
     assert [label.get_text() for label in line.get_xticklabels()][:3] == ["100", "200", "500"]
 
 

@@ -174,3 +174,14 @@ def test_outline_of_an_arrow():
     assert along.max() == pytest.approx(50.0)
     assert along.min() == pytest.approx(0.0, abs=1e-12)
     assert np.isfinite(corners).all()
+
+
+def test_heat_to_the_neighbours_on_a_shaft():
+    thermal = with_numbers(solution_of(SCENES[6]())).thermal
+    joined = dataclasses.replace(thermal.flows, shaft_neighbours=jnp.asarray(3.0), housing_neighbours=jnp.asarray(-2.0))
+    more = network_diagram(dataclasses.replace(thermal, flows=joined))
+    arrows = {arrow.text: arrow for arrow in more.arrows}
+    out, back = arrows["3.00 W, neighbours"], arrows["2.00 W, neighbours"]
+    assert (out.start[0], back.end[0]) == (PLACES["shaft"][0], PLACES["housing"][0])
+    assert out.end[1] > out.start[1]
+    assert back.end[1] < back.start[1]

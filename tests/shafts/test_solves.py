@@ -22,6 +22,8 @@ from jaxbearing.shafts import (
     ShaftSystem,
     Support,
 )
+from jaxbearing.shafts.batches import batches_of
+from jaxbearing.shafts.scene import Place
 
 PRELOAD = Preload(force=180.0)
 
@@ -157,6 +159,22 @@ def test_a_lane_without_equilibrium_says_so():
     assert np.all(np.isfinite(found.shaft.displacement[0]))
     with pytest.raises(jb.SolveError, match="no_equilibrium: nothing holds the shaft along X at"):
         jb.solve(dataclasses.replace(linear_shaft(axial=50.0), bearings=tuple(floating)))
+
+
+@pytest.mark.parametrize("axial", [0.0, 1e-6, -2e-4])
+def test_an_empty_bearing_has_derivatives(axial):
+    """The mounted set is found with all bearings at rest, and those beside it carry nothing there."""
+
+    def force(clearance):
+        scene = DEEP_GROOVE.replace_geometry(diametral_clearance=clearance)
+        (batch,) = batches_of([Place("b", scene, 0.0, 1.0, 0.0, 0.0, None, None)], jnp.asarray(0.0))
+        rows, at = batch.rows(jnp.zeros(1), at_rest=True), jnp.zeros((1, 5)).at[0, 0].set(axial)
+        held = batch.hold(rows, at, batch.initial(rows, at))
+        return batch.force_at(rows, at, held.elements)[0, 0]
+
+    step = 1e-9
+    difference = (force(4e-5 + step) - force(4e-5 - step)) / (2.0 * step)
+    np.testing.assert_allclose(jax.grad(force)(4e-5), difference, rtol=1e-5, atol=1e-3)
 
 
 @pytest.mark.slow

@@ -154,8 +154,10 @@ def with_films(scene: BallBearing, core: BallCore) -> BallCore:
     return dataclasses.replace(core, grooves=grooves)
 
 
-def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem | ArchedBallSystem:
-    """The lubricated bearing of the same balls as `core`, to start from the first guess of that."""
+def build_lubricated(
+    scene: BallBearing, core: BallCore, guess: BallGuess | None = None
+) -> LubricatedBallSystem | ArchedBallSystem:
+    """The lubricated bearing of the same balls as `core`, to start from the first guess of that or from a given one."""
     assert scene.contact is not None
     assert scene.oil is not None
     motion, angle, arcs = core.kinematics, core.grooves.free_angle, core.arcs
@@ -163,7 +165,7 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
     inlet = oil_of_races(scene)
     parts: dict[str, Any] = {
         **core.shared_fields(),
-        **_guesses(core, scene.slips, _guess if arcs.single else _places),
+        **(_guesses(core, scene.slips, _guess if arcs.single else _places) if guess is None else {"guess": guess}),
         "attitude": scene.kinematics.attitude,
         "geometry": scene.geometry,
         "reduced_modulus": reduced_modulus(scene.materials.rings, scene.materials.balls),

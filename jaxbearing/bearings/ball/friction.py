@@ -35,10 +35,12 @@ from ...contacts.shear import Sliding
 from ...gaps.ball_pocket import BallPocketFilm
 from ...numerics.roots import monotone_root
 from ...numerics.safe import smooth_abs
-from .arcs import added
+from .arcs import Arcs, added
 from .lubricated import AbstractLubricatedBallSystem
-from .state import BallsState
+from .state import BallsState, RaceState
 
+SIDES = Arcs().senses
+"""Of balls with two contacts, inner, outer: the sense of the contact's x axis along the orbit."""
 FADING_LOAD = 1e-3
 """Load of a contact at which its traction fades where balls have more than two, N."""
 PART_TOLERANCE = 1e-12
@@ -48,7 +50,7 @@ PART_TOLERANCE = 1e-12
 def with_traction(system: AbstractLubricatedBallSystem, state: BallsState) -> BallsState:
     """The state with all friction on the balls, and the equations of their motion."""
     motion = state.motion
-    shear, rolling, curvature = _friction(system, state)
+    shear, rolling, curvature = race_friction(system, state)
     forward, about = jnp.asarray(-system.arcs.senses * shear.rolling), -shear.moment
     axis, radius = _moments(system, state.angle, forward, about, (rolling, curvature))
     tangential, drag_force, pocket = added(system.arcs.by_race(forward)), None, None
@@ -76,7 +78,9 @@ def with_traction(system: AbstractLubricatedBallSystem, state: BallsState) -> Ba
     return state._replace(rows=_rows(system, state, axis, radius, tangential))
 
 
-def _friction(system: AbstractLubricatedBallSystem, state: BallsState) -> tuple[Traction, Array | None, Array | None]:
+def race_friction(
+    system: AbstractLubricatedBallSystem, state: BallsState | RaceState
+) -> tuple[Traction, Array | None, Array | None]:
     """Traction of all contacts; moments against the roll by the film's pressure and by Heathcote slip, N m;
     `None`: not modelled."""
     races = state.races
@@ -101,7 +105,7 @@ def _fading(shear: Traction, load: Float[Array, "contact ball"]) -> Traction:
     return shear._replace(**{name: share * getattr(shear, name) for name in names}, **more)
 
 
-def _sliding(system: AbstractLubricatedBallSystem, state: BallsState, bend: Array | None = None) -> Sliding:
+def _sliding(system: AbstractLubricatedBallSystem, state: BallsState | RaceState, bend: Array | None = None) -> Sliding:
     """Speed of the ball over both races, in the axes of the traction law. **Arguments:** `bend`: half the curvature of
     the surface in which they meet, 1/m, where it counts."""
     races, slide = state.races, system.slide_share * system.arcs.senses

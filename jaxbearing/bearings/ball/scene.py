@@ -8,6 +8,7 @@ along $+e_x$. The groove is taken as a full circle: `geometry.shoulder_angle_*` 
 
 import dataclasses
 import functools
+import math
 import operator
 from collections.abc import Callable, Iterator
 from typing import Any, ClassVar, Literal
@@ -29,11 +30,12 @@ from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import choice
 from ...thermal.settings import Thermal
 from ...thermal.shares import OilTemperatures
-from ..bearing import AbstractBearing
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..cage import AbstractCage
 from ..facts import RangeChecks
 from ..growth import Growth, Play
+from ..motion.family import AbstractMotion, AbstractMovingBearing
+from ..motion.settings import Simulation
 from ..mounted import mounting_problems
 from ..operation import LOAD_FIELDS, AbstractOperation
 from ..outline import Outline
@@ -81,10 +83,11 @@ class BallOperation(AbstractOperation):
 
 
 class BallMaterials(eqx.Module):
-    """Solids of a ball bearing: `rings` and `balls`."""
+    """Solids of a ball bearing: `rings`, `balls` and, for the motion in time, `cage`."""
 
     rings: Material
     balls: Material
+    cage: Material | None = None
 
 
 class BallAttitude(eqx.Module):
@@ -131,19 +134,38 @@ class BallCage(AbstractCage):
     def row(self, geometry: BallGeometry) -> tuple[int, Scalar]:
         return geometry.n_balls, geometry.ball_diameter
 
+    def land_places(self, geometry: BallGeometry) -> Array:
+        """Axial places of the middles of the lands from that of the balls, m: beside the pockets, evenly spaced."""
+        if self.lands == 1:
+            return jnp.zeros(1)
+        side = 0.5 * (geometry.ball_diameter + self.pocket_clearance + self.land_width)
+        return jnp.linspace(-1.0, 1.0, self.lands) * side
+
+    def mass_and_inertias(self, geometry: BallGeometry, density: Scalar) -> tuple[Scalar, Scalar, Scalar]:
+        """Mass, kg, and moments of inertia about the axis and across it, kg m^2: a ring as wide as pockets and lands,
+        less a flat round plug for each pocket; the mass is spread as in the whole ring."""
+        inner, outer = self.bore(geometry) / 2.0, self.outside(geometry) / 2.0
+        hole = geometry.ball_diameter + self.pocket_clearance
+        width = hole + self.lands * self.land_width
+        ring = math.pi * (outer * outer - inner * inner) * width
+        plugs = geometry.n_balls * 0.25 * math.pi * hole * hole * (outer - inner)
+        mass = density * (ring - plugs)
+        polar = 0.5 * mass * (inner * inner + outer * outer)
+        return mass, polar, 0.5 * polar + mass * width * width / 12.0
+
 
 class BallDragSettings(DragSettings):
     """Oil drag on the orbiting balls; where the coefficient is not given it is that of an isolated sphere."""
 
 
-class BallBearing(AbstractBearing):
-    """A steady single-row ball bearing under any combination of axial load, radial load and moment.
+class BallBearing(AbstractMovingBearing):
+    """A single-row ball bearing under any combination of axial load, radial load and moment.
 
     - `contact=None`: dry and frictionless: loads, contact angles and motion without sliding, with `kinematics.attitude`
       "outer" or "inner".
     - `contact.traction=None`: films too, and where named the rolling resistance; balls roll without sliding.
     - with traction the balls slide and spin; without a `cage` every ball has its own orbital speed.
-    - `simulation`: what a run of the temperatures does beyond the operating point; a steady solve does not look at it.
+    - `simulation`: what a run in time does beyond the operating point; a steady solve does not look at it.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
     """
@@ -151,6 +173,7 @@ class BallBearing(AbstractBearing):
     kind: ClassVar[str] = "ball_bearing"
     element: ClassVar[str] = "ball"
     yield_pressure: ClassVar[float] = BALL_PRESSURE
+    loads_over_time: ClassVar[tuple[str, ...]] = tuple(LOAD_FIELDS.values())
 
     geometry: BallGeometry
     materials: BallMaterials
@@ -164,7 +187,7 @@ class BallBearing(AbstractBearing):
     fits: Fits | None = None
     temperatures: PartTemperatures | None = None
     thermal: Thermal | None = None
-    simulation: WarmUpSimulation | None = None
+    simulation: Simulation | WarmUpSimulation | None = None
     oil_temperatures: OilTemperatures | None = None
 
     def __check_init__(self):
@@ -254,6 +277,12 @@ class BallBearing(AbstractBearing):
         from .row import ball_row_of
 
         return ball_row_of(self, expansion)
+
+    @property
+    def motion(self) -> AbstractMotion:
+        from .motion.family import BallBearingMotion
+
+        return BallBearingMotion()
 
     def range_checks(self) -> RangeChecks:
         from .checks import CHECKS

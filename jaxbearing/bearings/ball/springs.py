@@ -12,6 +12,9 @@ from jaxtyping import Array, Float
 from ...numerics.safe import safe_norm
 from .arcs import Arcs, added, coordinate_map
 
+NO_APPROACH = 1e-300
+"""Approach of bodies that do not touch, m: their force is 0, and the root of it has a derivative."""
+
 
 class CentrifugalProblem(eqx.Module):
     """Balls between two grooves under given forces. Units m, N; (inner, outer) or (axial, radial) first.
@@ -67,7 +70,7 @@ class Spring(NamedTuple):
 def spring(arm: Float[Array, "2 ball"], offset: Array, constant: Array) -> Spring:
     """Energy, force and stiffness of one contact, whose centres are `arm` apart."""
     length = safe_norm(arm[0], arm[1], 1e-30)
-    approach = jnp.maximum(length - offset, 0.0)
+    approach = jnp.maximum(length - offset, NO_APPROACH)
     root = jnp.sqrt(approach)
     load = constant * approach * root
     normal = arm / length[None]

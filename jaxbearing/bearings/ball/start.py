@@ -3,8 +3,8 @@ r"""First guess of a ball bearing's equilibrium: without friction, at frozen cen
 $\Pi = \sum_j[\sum\frac25K_o\delta_{o+}^{5/2} + \sum\frac25K_i\delta_{i+}^{5/2} - F_CW] - F\cdot q$, with sums over the
 arcs of each ring (`arcs`): each $\delta$ is the norm of an affine map minus a constant, and the power is convex and
 increasing. Two nested damped Newton iterations, on each ball for a given ring and on the ring with every ball in
-equilibrium, both accepting a step only where the potential falls. Nothing here is differentiated: it is the start of an
-iteration.
+equilibrium, both accepting a step only where the potential falls. Only `force_at` is differentiated: the rest is the
+start of an iteration.
 """
 
 import functools

@@ -86,3 +86,12 @@ class BallsState(NamedTuple):
     """Contributions of each ball to the forces on the ring's freedoms, N."""
     cage_moment: Float[Array, " ball"] | None
     cage_force: Float[Array, "2 ball"] | None
+
+
+class RaceState(NamedTuple):
+    """What friction on the raceways depends on; the fields are those of `BallsState`."""
+
+    load: Float[Array, "2 ball"]
+    contact: PointContact
+    races: RaceMotion
+    film: PointFilm

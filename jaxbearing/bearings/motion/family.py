@@ -100,6 +100,10 @@ class AbstractMotion(abc.ABC):
     def require_moving(self, scene: Any) -> None:
         """**Raises:** `ValueError` for a scene whose rolling elements nothing drives."""
 
+    def require_settings(self, scene: Any, simulation: Simulation) -> None:
+        """Refuses settings before anything is solved. **Raises:** `ValueError` where one lacks or does not belong."""
+        return
+
     @abc.abstractmethod
     def quasi_static(self, scene: Any, options: NewtonOptions | None = None) -> Any:
         """Steady state of the operating point, as places and speeds of elements and cage, with a `status`; pure."""
@@ -132,6 +136,8 @@ class AbstractMovingBearing(AbstractBearing):
     """Base of the bearings that `jaxbearing.simulate` takes."""
 
     runs_in_programs: ClassVar[bool] = True
+    loads_over_time: ClassVar[tuple[str, ...]] = ("radial_load", "radial_load_lateral")
+    """Fields of the operating point that `Simulation.load` multiplies."""
 
     cage: eqx.AbstractVar[Any]
     simulation: eqx.AbstractVar[Any]

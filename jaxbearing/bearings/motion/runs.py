@@ -119,6 +119,7 @@ def requested(
             f"simulation: expected a Simulation for a scene without [thermal], got a {type(chosen).__name__}"
         )
     check_inputs(chosen)
+    scene.motion.require_settings(scene, chosen)
     duration = duration if duration is not None else chosen.duration
     if duration is None:
         raise ValueError("simulate needs a duration: pass one, or give the scene a simulation.duration")

@@ -18,7 +18,7 @@ def at_start(scene: Bearing, simulation: Simulation) -> Bearing:
     """The scene at the speed and loads of time 0."""
     zero, operation = jnp.zeros(()), scene.operation
     factor = simulation.load.factor(zero)
-    names = [name for name in ("radial_load", "radial_load_lateral") if getattr(operation, name) is not None]
+    names = [name for name in scene.loads_over_time if getattr(operation, name) is not None]
     loads = {name: getattr(operation, name) * factor for name in names}
     return scene.at_operation(inner_speed=operation.inner_speed * simulation.speed.factor(zero), **loads)
 

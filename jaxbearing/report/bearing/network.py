@@ -109,6 +109,9 @@ def _between(pair: tuple[str, str], heat: float, scale: float) -> Arrow:
         # the loss of a ring comes from below too
         x += 0.0 if first == "bearing" else _UPRIGHT
         start, end, at = (x, y - HIGH / 2.0), (x, AMBIENT + 12.0), (x + BESIDE, 0.5 * (AMBIENT - 5.0))
+    elif second == "neighbours":
+        start, end, at = (x, y + HIGH / 2.0), (x, y + 2.0 * HIGH), (x, y + 2.0 * HIGH + 12.0)
+        text = f"{text}, neighbours"
     elif second == "oil":
         start, end = (x, y + HIGH / 2.0), _oil_side(x)
         at = (x + BESIDE, 0.5 * (start[1] + end[1])) if x == MIDDLE else _beside(start, end, text, width)

@@ -62,6 +62,10 @@ def _variables(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple
         for path, value, metadata in labelled(inner) if inner is not None else ():
             name = f"system_{path}" if part == "life" else f"torque_{path}"
             yield name, variable(value, metadata, f"{part}.{path}", dims)
+    if solution.thermal is not None:
+        for path, value, metadata in labelled(solution.thermal):
+            own = ("gap",) * (np.ndim(value) - len(dims))
+            yield f"thermal_{path}", xr.Variable((*dims, *own), np.asarray(value), _said(metadata, f"thermal.{path}"))
     yield from _stacked(list(solution.bearings.values()), "bearing", "bearings", dims)
     yield from _stacked(list(solution.sets.values()), "set", "sets", dims)
     for name, one in solution.bearings.items():

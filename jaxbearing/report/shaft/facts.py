@@ -8,7 +8,7 @@ import numpy as np
 from ...bearings.solution import RING_FREEDOMS
 from ...shafts.solution import BearingOnShaft, SetResult, ShaftSolution
 from ..backends.json import finite
-from ..display import digits, with_unit
+from ..display import ZERO_CELSIUS, digits, with_unit
 from .bending import bending_line
 
 NAMES = "bearing\n"
@@ -144,6 +144,22 @@ def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     yield "Torques", ", ".join(parts)
     if number(torque.power_loss):
         yield "Power loss", with_unit(float(torque.power_loss), "W")
+    if solution.thermal is not None:
+        yield from _thermal_facts(solution)
+
+
+def _thermal_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
+    """Temperatures along shaft and housing, and the heat that flows there."""
+    found = solution.thermal
+    assert found is not None
+    for part in ("shaft", "housing"):
+        networks = {name: one.solution.thermal for name, one in solution.bearings.items() if one.solution is not None}
+        own = {name: getattr(one.temperatures, part) for name, one in networks.items() if one is not None}
+        degrees = ", ".join(f"{name} {float(value) - ZERO_CELSIUS:.1f}" for name, value in own.items())
+        flows = ", ".join(digits(float(flow)) for flow in np.asarray(getattr(found, f"{part}_flow")))
+        yield f"{part.capitalize()}, degC", f"{degrees}; heat towards +X between neighbours {flows} W"
+    away = f"{with_unit(float(found.heat_to_oil), 'W')} to the oil, {with_unit(float(found.heat_to_ambient), 'W')}"
+    yield "Heat", f"{away} to the ambient; balanced in {int(found.solves)} solves of the shaft"
 
 
 def shaft_warnings(solution: ShaftSolution) -> list[str]:

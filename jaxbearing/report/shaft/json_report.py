@@ -34,6 +34,7 @@ def to_dict(solution: ShaftSolution) -> dict[str, Any]:
         "shaft": {"nodes": nodes},
         "sets": {name: plain(one) for name, one in solution.sets.items()},
         "torque": plain(solution.torque),
+        "thermal": None if solution.thermal is None else plain(solution.thermal),
         "system_life": None if solution.life is None else plain(solution.life),
         "duty": None if solution.duty is None else _duty(solution.duty),
     }

@@ -106,7 +106,7 @@ def _results(solution: ShaftSolution) -> Iterator[Row]:
     """All single numbers, by their paths in Python."""
     parts = {f"bearings['{name}'].": one for name, one in solution.bearings.items()}
     parts |= {f"sets['{name}'].": one for name, one in solution.sets.items()}
-    parts |= {"torque.": solution.torque, "life.": solution.life}
+    parts |= {"torque.": solution.torque, "life.": solution.life, "thermal.": solution.thermal}
     for above, part in parts.items():
         if part is None:
             continue

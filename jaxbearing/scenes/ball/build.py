@@ -13,11 +13,14 @@ from ...bearings.ball.scene import (
     BallMaterials,
     BallOperation,
 )
+from ...bearings.motion.settings import Simulation
+from ...bearings.operation import LOAD_FIELDS
 from ...bearings.rating import Rating
+from ...bearings.warming.settings import WarmUpSimulation
 from ...contacts import PointLaws, Supply
 from ...lubricants import Lubricant
 from ..bearing.build import built, cage, part, seats, solids
-from ..bearing.simulation import warm_up
+from ..bearing.simulation import simulation, warm_up
 from ..laws import BALL_FILMS, POINT_ROLLING, distributed_traction, thermal_factor
 from ..mixed import mixed_friction
 from ..oil.catalogue import lubricant
@@ -34,7 +37,7 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
     return built(
         BallBearing,
         geometry=lambda: BallGeometry(**table.geometry.model_dump()),
-        materials=lambda: BallMaterials(**solids(table, "rings", "balls")),
+        materials=lambda: BallMaterials(**solids(table, "rings", "balls", "cage")),
         operation=lambda: BallOperation(**table.operation.model_dump(exclude_none=True)),
         kinematics=lambda: _kinematics(
             table.kinematics, slips(), table.geometry.shim_inner is not None or table.geometry.shim_outer is not None
@@ -45,8 +48,18 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
         drag=lambda: part(BallDragSettings, table.drag),
         rating=lambda: part(Rating, table.rating),
         **seats(table),
-        simulation=lambda: warm_up(table),
+        simulation=lambda: _run(table),
     )
+
+
+def _run(table: BallBearingTable) -> Simulation | WarmUpSimulation | None:
+    if table.simulation is None:
+        return None
+    if table.thermal is not None:
+        return warm_up(table)
+    given = [load for load in map(table.operation.model_dump().get, LOAD_FIELDS.values()) if load]
+    # one load that follows a course in time may be given by its values, several only by factors
+    return simulation(table.simulation, table.operation.inner_speed, given[0] if len(given) == 1 else 0.0)
 
 
 def _kinematics(table: KinematicsTable | None, slips: bool, arcs: bool) -> BallAttitude:

@@ -24,7 +24,7 @@ from ..bearing.schema import (
     require_oil,
     require_oil_flow,
 )
-from ..bearing.simulation import WarmUpTable
+from ..bearing.simulation import BallSimulationTable
 from ..kinds import KIND
 from ..laws import BALL_FILMS, POINT_ROLLING, POINT_THERMAL, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
@@ -45,6 +45,7 @@ class BallGeometryTable(table_of(BallGeometry)):
 class BallMaterialsTable(Table):
     rings: MaterialField
     balls: MaterialField
+    cage: MaterialField | None = None
 
 
 class BallContactTable(table_of(PointLaws)):
@@ -157,13 +158,18 @@ class BallBearingTable(Table):
     fits: FitsTable | None = None
     temperatures: TemperaturesTable | None = None
     thermal: ThermalTable | None = None
-    simulation: WarmUpTable | None = None
+    simulation: BallSimulationTable | None = None
 
     @check
     def _flow(self) -> Problems:
         """Checks what one table needs of another. The classes check the rest when they are built."""
         if self.contact is not None and self.contact.traction is not None:
             yield from require_oil_flow(self.drag, self.operation)
+
+    @check
+    def _kind_of_run(self) -> Problems:
+        if self.simulation is not None:
+            yield from self.simulation.of_other_run(warm=self.thermal is not None)
 
     @check
     def _oil(self) -> Problems:

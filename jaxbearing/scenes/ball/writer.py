@@ -4,6 +4,7 @@ from ...bearings.ball.gyroscopic import CappedCouple, ResolvedCouple, SharedCoup
 from ...bearings.ball.scene import BallAttitude, BallBearing
 from ...contacts import PointLaws
 from ...lubricants import Lubricant
+from ..bearing.simulation import BallSimulationTable
 from ..bearing.simulation_writer import simulation
 from ..bearing.writer import bearing_tables, cage, flow_law, march_accuracy, thermal_law
 from ..laws import BALL_FILMS, POINT_ROLLING, POINT_THERMAL
@@ -22,7 +23,7 @@ def ball_tables(scene: BallBearing) -> Rows:
         contact=None if scene.contact is None else _laws(scene.contact, scene.oil),
         kinematics=_kinematics(scene.kinematics),
         cage=cage(BallCageTable, scene.cage),
-        simulation=simulation(scene.simulation),
+        simulation=simulation(scene.simulation, BallSimulationTable),
     )
 
 

@@ -3,6 +3,7 @@
 A bearing with [thermal] runs in its temperatures, one without in the motion of its rolling elements.
 """
 
+import dataclasses
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -21,6 +22,8 @@ from ..time_tables import check_lists, read_time_table
 _LAWS = ("perturbation", "ramp", "table")
 _ALWAYS = ("speed", "load")
 _OF_OIL = ("oil_inlet", "oil_flow")
+_NUMBERS_OF_BALLS = ("ring_mass", "ring_damping", "contact_damping")
+_OF_BALLS = (*_NUMBERS_OF_BALLS, "meridian")
 
 
 class PerturbationTable(table_of(Sinusoidal)):
@@ -150,7 +153,7 @@ class WarmUpTable(table_of(WarmUpSimulation, base=CoursesTable)):
 class SimulationTable(
     table_of(
         *(Simulation, WarmUpSimulation),
-        leave_out=("entrainment_smoothing",),
+        leave_out=("entrainment_smoothing", *_OF_BALLS),
         optional=("solver", "instants"),
         base=CoursesTable,
     )
@@ -185,13 +188,30 @@ class SimulationTable(
                 yield refusal_at(f"simulation.{name}_ramp.shape", expected, "'linear'")
 
 
-def simulation(table: SimulationTable, inner_speed: float, radial_load: float) -> Simulation:
-    """The run of the rollers that a table describes. **Arguments:** speed, rad/s, and load, N, of the operating point.
+_SHARED = tuple(field.name for field in dataclasses.fields(Simulation) if field.name not in _OF_BALLS)
+
+
+class BallSimulationTable(table_of(Simulation, leave_out=_SHARED, base=SimulationTable)):
+    """See `bearings.motion.settings.Simulation`, and with [thermal] `bearings.warming.settings.WarmUpSimulation`."""
+
+    def of_other_run(self, warm: bool) -> Problems:
+        yield from super().of_other_run(warm)
+        for name in _NUMBERS_OF_BALLS if warm else ():
+            if getattr(self, name) is not None:
+                expected = "none beside [thermal]: it belongs to a run of the balls"
+                yield refusal_at(f"simulation.{name}", expected, "one")
+
+
+def simulation(table: SimulationTable, inner_speed: float, load: float) -> Simulation:
+    """The run of the rolling elements that a table describes. **Arguments:** speed, rad/s, and load, N, of the
+    operating point; a load of 0 where a file can only give factors.
 
     **Raises:** `SceneError` for a file that cannot be read or makes no sense.
     """
-    turning, steady = table.rotating_load, {"speed": inner_speed, "load": radial_load}
-    own = {} if table.solver is None else {"solver": table.solver}
+    turning, steady = table.rotating_load, {"speed": inner_speed, "load": load}
+    own: dict[str, Any] = {} if table.solver is None else {"solver": table.solver}
+    if isinstance(table, BallSimulationTable):
+        own |= {name: getattr(table, name) for name in _OF_BALLS}
     return Simulation(
         duration=table.duration,
         **{name: _factor(table, name, (0.0, value)) for name, value in steady.items()},

@@ -7,12 +7,17 @@ from ..part_writer import Rows, all_rows, rows, shown, table_rows, unwritable
 from .simulation import SimulationTable, WarmUpTable
 
 
-def simulation(part: Simulation | WarmUpSimulation | None) -> Rows | None:
-    """The table of a run; `None` if the scene has none. **Raises:** `SceneError` for what a file cannot hold."""
+def simulation(
+    part: Simulation | WarmUpSimulation | None, table: type[SimulationTable] = SimulationTable
+) -> Rows | None:
+    """The table of a run; `None` if the scene has none.
+
+    **Arguments:** `table`: that of a run of the family. **Raises:** `SceneError` for what a file cannot hold.
+    """
     if part is None:
         return None
     if isinstance(part, Simulation):
-        found, laws = rows(SimulationTable, part), {"speed": part.speed, "load": part.load}
+        found, laws = rows(table, part), {"speed": part.speed, "load": part.load}
     else:
         found = rows(WarmUpTable, part)
         names = ("speed", "load", "oil_inlet", "oil_flow")

@@ -11,6 +11,7 @@ import numpy as np
 from ...bearings.rating import Rating
 from ...numerics.refusals import Refusals, refuse_all
 from ...shafts.forces import FORCES
+from ...shafts.heat import ShaftThermal
 from ...shafts.mounting import LinearBearing, MatchedSet, MountedBearing, Preload, Support
 from ...shafts.scene import ShaftState, ShaftSystem, SystemLife
 from ...shafts.shaft import STEEL, Gravity, Section, Shaft
@@ -47,6 +48,7 @@ def shaft(table: ShaftTable, states: tuple[ShaftState, ...] = ()) -> ShaftSystem
         "bearings": lambda: _each(table, "bearing", lambda name, one: _mounted(name, one, rated)),
         "sets": lambda: _each(table, "set", lambda name, one: _set(name, one, rated)),
         "forces": lambda: _each(table, "force", _force),
+        "thermal": lambda: part(ShaftThermal, table.thermal),
         "life": lambda: SystemLife() if table.life is None else SystemLife(weibull=table.life.weibull),
     }
     for name, make in parts.items():
@@ -85,16 +87,15 @@ def _within(error: ValueError, word: str, name: str) -> list[ValueError]:
 def _shaft(table: ShaftTable) -> Shaft:
     given = table.shaft
     found: dict[str, Any] = given.model_dump(exclude={"sections", "material", "gravity"})
+    made = lambda one, default: default if one is None else material(one, thermal=table.thermal is not None)
     sections = [
-        Section(
-            **one.model_dump(exclude={"material"}), material=None if one.material is None else material(one.material)
-        )
+        Section(**one.model_dump(exclude={"material"}), material=made(one.material, None))
         for one in table.entries("sections").values()
     ]
     return Shaft(
         **found,
         sections=tuple(sections),
-        material=STEEL if given.material is None else material(given.material),
+        material=made(given.material, STEEL),
         gravity=part(Gravity, given.gravity),
     )
 

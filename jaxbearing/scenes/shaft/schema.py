@@ -40,6 +40,7 @@ from .tables import (
     SetEntry,
     SetMountTable,
     ShaftPart,
+    ShaftThermalTable,
     StateTable,
     member_table,
     mounted_table,
@@ -104,6 +105,7 @@ class ShaftTable(Table):
     kind: Annotated[Literal["shaft"], KIND]
     shaft: ShaftPart
     housing: HousingTable | None = None
+    thermal: ShaftThermalTable | None = None
     life: LifeTable | None = None
 
     @classmethod

@@ -13,6 +13,7 @@ from ...bearings.operation import Operation
 from ...bearings.solution import RING_FREEDOMS, stiffness_units
 from ...bearings.tapered.scene import TaperedOperation
 from ...shafts.forces import FORCES
+from ...shafts.heat import ShaftThermal
 from ...shafts.mounting import LinearBearing, MatchedSet, MountedBearing, Preload, Support
 from ...shafts.scene import ShaftState, SystemLife
 from ...shafts.shaft import Gravity, Section, Shaft
@@ -146,6 +147,10 @@ class HousingTable(Table):
     """
 
     matrix: MatrixOfAll
+
+
+class ShaftThermalTable(table_of(ShaftThermal)):
+    """Joins the thermal networks of the bearings along shaft and housing; each has six nodes."""
 
 
 class PreloadTable(table_of(Preload)):

@@ -24,6 +24,7 @@ from .tables import (
     SectionTable,
     SetMountTable,
     ShaftPart,
+    ShaftThermalTable,
     SupportTable,
 )
 
@@ -32,6 +33,7 @@ def shaft_tables(scene: ShaftSystem) -> Rows:
     """The tables that describe a scene. **Raises:** `SceneError` for what a file cannot hold."""
     tables: Rows = {"kind": scene.kind, "shaft": _shaft(scene.shaft)}
     tables["housing"] = None if scene.housing is None else {"matrix": _matrix(scene.housing)}
+    tables["thermal"] = None if scene.thermal is None else rows(ShaftThermalTable, scene.thermal)
     tables["set"] = [_set(one) for one in scene.sets]
     tables["bearing"] = [_mounted(one) for one in scene.bearings]
     tables["force"] = [{"name": one.name, "kind": one.kind} | rows(FORCE_TABLES[one.kind], one) for one in scene.forces]

@@ -215,5 +215,5 @@ def test_pure_trajectory_has_derivatives():
 
 
 def test_kinds_that_do_not_move_say_so():
-    with pytest.raises(TypeError, match="cannot simulate a BallBearing"):
-        jb.simulate(jb.load_scene("deep_groove_6205"), 1e-3)
+    with pytest.raises(TypeError, match="cannot simulate a TaperedRollerBearing"):
+        jb.simulate(jb.load_scene("tapered_example"), 1e-3)

@@ -22,6 +22,9 @@ class RollerMotion(AbstractMotion):
     def require_moving(self, scene: CylindricalRollerBearing) -> None:
         start.require_moving(scene)
 
+    def require_settings(self, scene: CylindricalRollerBearing, simulation: Simulation) -> None:
+        simulation.require_no_mass()
+
     def quasi_static(self, scene: CylindricalRollerBearing, options: NewtonOptions | None = None) -> QuasiStatic:
         return start.quasi_static(scene, options)
 

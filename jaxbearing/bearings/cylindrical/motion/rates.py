@@ -28,6 +28,7 @@ from ....numerics.arrow import ArrowPoint
 from ....numerics.series import cosine_and_sine
 from ....time_laws import AbstractTimeFactor, RotatingLoad, Steady
 from ...motion.family import AbstractDynamics
+from ...motion.frame import turning_frame
 from ...motion.history import Energy, Instant, PocketPeaks
 from ...mounted import running_play
 from ...ring_shape import InnerRoundness, OuterRoundness, out_of_round
@@ -142,13 +143,7 @@ class RollerDynamics(AbstractDynamics):
 
     def frame(self, time: Scalar) -> tuple[Float[Array, ""], Float[Array, ""], Float[Array, ""]]:
         """Angle, rad, speed and acceleration of the frame in which positions are counted."""
-        time = jnp.asarray(time, dtype=float)
-        factor, rate = jax.jvp(self.speed.factor, (time,), (jnp.ones_like(time),))
-        return (
-            self.reference_speed * self.speed.integral(time),
-            self.reference_speed * factor,
-            self.reference_speed * rate,
-        )
+        return turning_frame(self.reference_speed, self.speed, time)
 
     def ring_load(self, time: Scalar) -> Float[Array, " freedom"]:
         """Load on the inner ring along its freedoms, N."""

@@ -70,6 +70,7 @@ def build_dynamics(
     """
     require_moving(scene)
     check_run(scene.operation)
+    simulation.require_no_mass()
     if simulation.rotating_load is not None and not scene.skewed:
         scene = scene.replace({"ring_freedom": ("radial", "lateral")})
     seats = None if scene.fits is None else scene

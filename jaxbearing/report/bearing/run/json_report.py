@@ -16,7 +16,7 @@ def statistics(history: History) -> dict[str, Any]:
     instants, elements = history.instants, history.instants.elements
     found: dict[str, Any] = {
         "inner_speed": _spread(instants.inner_speed),
-        "ring": {"radial": _spread(instants.ring.radial)},
+        "ring": {name: _spread(getattr(instants.ring, name)) for name in _moved(instants)},
         "power_loss": {name: float(np.mean(value)) for name, value in _losses(history).items()},
         "drive_power": float(np.mean(instants.drive_power)),
         "power": {"loss": _spread(instants.power_loss.total), "drive": _spread(instants.drive_power)}
@@ -27,6 +27,8 @@ def statistics(history: History) -> dict[str, Any]:
         values = by_side(elements, name).values()
         if values:
             found[f"{name}_max"] = float(max(np.abs(one).max() for one in values))
+    if "axial" in found["ring"]:
+        found["excursion"] = _excursion(instants)
     if instants.cage is not None:
         found["cage"] = {
             "speed": _spread(instants.cage.speed),
@@ -43,6 +45,17 @@ def statistics(history: History) -> dict[str, Any]:
     if spread is not None:
         found["shocks"] = _by_sector(spread)
     return found
+
+
+def _moved(instants: Any) -> tuple[str, ...]:
+    """Displacements of the ring that the statistics show: the axial one where loads along the axis move it."""
+    return ("axial", "radial") if hasattr(instants, "axial_load") else ("radial",)
+
+
+def _excursion(instants: Any) -> float:
+    """Largest distance of an element along the pitch circle from the mean of all, beside equal spacing, m."""
+    along = np.asarray(instants.state_elements)[:, 0]
+    return float(np.abs(along - along.mean(axis=1, keepdims=True)).max())
 
 
 def by_side(elements: Any, name: str) -> dict[str, np.ndarray]:
@@ -72,7 +85,7 @@ def _spread(values: Any) -> dict[str, float]:
 def _stored(history: History) -> dict[str, float]:
     """Drive power beside the dissipation, as means over the run, W."""
     energy, time = history.energy, float(history.time[-1] - history.time[0])
-    names = ("pocket_films", "lever_arm", "kinetic")
+    names = ("pocket_films", "lever_arm", "damping", "kinetic")
     works = {name: getattr(energy, name) for name in names if hasattr(energy, name)}
     return {name: float(work) / time if time > 0 else math.nan for name, work in works.items()}
 

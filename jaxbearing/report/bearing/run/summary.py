@@ -26,7 +26,11 @@ def print_summary(history: History, label: str, console: "Console") -> None:
     if not history.completed:
         console.print(Text(history.failure(), style="bold red"))
     table = Table("", "mean", "least", "largest", "at the end", box=None, pad_edge=False)
-    rows = [("inner ring speed", found["inner_speed"], "rad/s"), ("ring displacement", found["ring"]["radial"], "m")]
+    rows = [("inner ring speed", found["inner_speed"], "rad/s")]
+    if "axial" in found["ring"]:
+        rows += [(f"{name} ring displacement", found["ring"][name], "m") for name in ("axial", "radial")]
+    else:
+        rows.append(("ring displacement", found["ring"]["radial"], "m"))
     if "cage" in found:
         cage = found["cage"]
         rows += [("cage speed", cage["speed"], "rad/s"), ("cage slip", cage["slip"], "1")]
@@ -35,6 +39,9 @@ def print_summary(history: History, label: str, console: "Console") -> None:
     for name, spread, unit in rows:
         table.add_row(name, *(with_unit(spread[key], unit) for key in ("mean", "min", "max", "end")))
     console.print(table)
+    if "excursion" in found:
+        away = with_unit(found["excursion"], "m")
+        console.print(f"Largest excursion of a {history.element_name} along the orbit from equal spacing: {away}")
     if "pocket_load" in found:
         element = history.element_name
         said = f"Largest pocket load of a {element} in a turn of the cage, N (mean over the {element}s, largest)"
@@ -53,8 +60,10 @@ def print_summary(history: History, label: str, console: "Console") -> None:
     table = Table("", "", box=None, pad_edge=False, show_header=False)
     for name, watts in sorted(found["power_loss"].items(), key=lambda item: (item[0] != "total", -item[1])):
         table.add_row(name.replace("_", " "), with_unit(watts, "W"))
-    for name, key in (("pocket films, squeezed", "pocket_films"), ("into kinetic energy", "kinetic")):
-        table.add_row(name, with_unit(found["power"][key], "W"))
+    stored = {"pocket_films": "pocket films, squeezed", "damping": "contact and ring damping"}
+    for key, name in (stored | {"kinetic": "into kinetic energy"}).items():
+        if key in found["power"]:
+            table.add_row(name, with_unit(found["power"][key], "W"))
     table.add_row("drive power", with_unit(found["drive_power"], "W"))
     console.print(table)
     if history.not_modelled:

@@ -1,0 +1,70 @@
+"""Range checks of a run in time of balls: those of `bearings.checks`, over all instants together."""
+
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array
+
+from ...checks import result_excess
+from ...facts import MEAN_OF_POINT, RACEWAYS, Contacts, Excess, Facts
+from ...motion.checks import AT_SOME_TIME
+from ...solution import RING_FREEDOMS, CageState, RingDisplacement
+from ..kinematics import BallKinematics, BallMotion
+from ..scene import BallBearing
+from .results import BallInstant
+
+
+def run_excess(scene: BallBearing, instants: BallInstant) -> Excess:
+    """Excess of the results of a run over the ranges of laws and bearings: text -> the largest number of all
+    instants, positive where the check applies. Pure.
+
+    **Arguments:** `instants`, of a run or of a piece of it, with the times in front of every array. All contacts of a
+    raceway at all these times are looked at together: those count that carry a part of the largest load. Instants with
+    a load that is not finite, at which a run breaks off, count nothing.
+    """
+    oil, elements = scene.oil, instants.elements
+    assert oil is not None
+    mean_speed = jax.vmap(lambda *moving: _mean_speeds(scene, *moving), out_axes=1)(
+        jnp.asarray(instants.inner_speed),
+        BallMotion(
+            *(
+                jnp.asarray(getattr(elements, name))
+                for name in ("orbital_speed", "spin_speed", "attitude_angle", "transverse_spin")
+            )
+        ),
+        jnp.asarray(elements.contact_angle_inner),
+        jnp.asarray(elements.contact_angle_outer),
+    )
+    inlet = oil.at(jnp.asarray(scene.operation.oil_temperature))
+    together: Any = lambda *races: jnp.stack([jnp.reshape(jnp.asarray(race), -1) for race in races])
+    rise = (elements.temperature_rise_inner, elements.temperature_rise_outer)
+    load = together(elements.load_inner, elements.load_outer)
+    contacts = Contacts(
+        RACEWAYS,
+        jnp.where(jnp.isfinite(load), load, 0.0),
+        together(elements.pressure_inner, elements.pressure_outer),
+        MEAN_OF_POINT,
+        laws=scene.contact,
+        inlet=inlet,
+        mean_speed=together(*mean_speed),
+        sliding=together(elements.sliding_inner, elements.sliding_outer),
+        temperature=None if rise[0] is None else inlet.temperature + together(*rise),
+        angle=together(elements.contact_angle_inner, elements.contact_angle_outer),
+    )
+    largest = {name: jnp.nanmax(jnp.abs(jnp.asarray(getattr(instants.ring, name)))) for name in RING_FREEDOMS}
+    own, zero = instants.cage, jnp.zeros(())
+    cage = None if own is None else CageState(zero, zero, jnp.nanmax(jnp.asarray(own.eccentricity_ratio)), zero)
+    found = result_excess(scene, Facts((contacts,)), RingDisplacement(**largest), cage)
+    return {AT_SOME_TIME + text: value for text, value in found.items()}
+
+
+def _mean_speeds(
+    scene: BallBearing, inner_speed: Array, motion: BallMotion, inner_angle: Array, outer_angle: Array
+) -> Array:
+    """Mean surface speeds on both races at one time, m/s."""
+    geometry, operation = scene.geometry, scene.operation
+    sizes = (operation.outer_speed, geometry.pitch_diameter, geometry.ball_diameter)
+    kinematics = BallKinematics(inner_speed, *(jnp.asarray(size) for size in sizes))
+    races = kinematics.inner_race(motion, inner_angle), kinematics.outer_race(motion, outer_angle)
+    return jnp.stack([race.mean_speed for race in races])

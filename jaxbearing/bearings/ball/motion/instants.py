@@ -1,0 +1,172 @@
+"""Results of a moving ball bearing at one time."""
+
+import dataclasses
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ...._types import Scalar
+from ....numerics.arrow import ArrowPoint
+from ....numerics.safe import safe_norm
+from ...computed import computed_results
+from ...motion.history import CageMotion, PocketPeaks
+from ...solution import RING_FREEDOMS, RingDisplacement
+from ..core import FORCE_FLOOR
+from ..kinematics import BallMotion
+from ..solution import BallResults, SolvedBalls
+from .energy import (
+    damping_power,
+    drive_power,
+    kinetic_energy,
+    pocket_energy,
+    power_by_location,
+    raceway_energy,
+)
+from .neighbours import neighbour_place
+from .rates import BallDynamics, MovingBalls
+from .results import BallInstant
+from .speeds import PocketPlace
+
+
+class _Seen(NamedTuple):
+    """What the functions of `BallResults` take from the state of a steady bearing."""
+
+    angle: Float[Array, "2 ball"]
+    motion: BallMotion
+
+
+def observe(dynamics: BallDynamics, time: Scalar, state: ArrowPoint) -> BallInstant:
+    """All results at one time; pure."""
+    now = dynamics.at(time, state)
+    balls, shared, _ = dynamics.unscaled(state)
+    frame_angle, frame_speed, _ = dynamics.frame(time)
+    load, turned = dynamics.ring_load(time), dynamics.cage is not None
+    axial, radial, lateral, moment, moment_lateral = load
+    cage = now.places.cage
+    walls, pocket = now.walls, now.pocket
+    return BallInstant(
+        inner_speed=now.rates.races[0],
+        radial_load=radial,
+        lateral_load=lateral,
+        ring=RingDisplacement(**dict(zip(RING_FREEDOMS, now.places.ring, strict=True))),
+        cage=_cage_motion(dynamics, now),
+        elements=_ball_results(dynamics, now),
+        pocket_peaks=None if walls is None or pocket is None else PocketPeaks(*front_and_rear(pocket, *walls.load)),
+        power_loss=power_by_location(dynamics, now),
+        drive_power=drive_power(now),
+        kinetic_energy=kinetic_energy(dynamics, now),
+        pocket_energy=pocket_energy(dynamics, now),
+        raceway_energy=raceway_energy(dynamics, now),
+        state_elements=balls,
+        state_cage=shared,
+        frame_angle=frame_angle,
+        frame_speed=frame_speed,
+        axial_load=axial,
+        moment=moment,
+        moment_lateral=moment_lateral,
+        axial_place=now.places.offset,
+        outward_place=now.places.radius - dynamics.levers.pitch_radius,
+        pocket_offset=None if now.pocket is None else now.pocket.size,
+        gap_ahead=_gaps(dynamics, now),
+        load_ahead=None if now.met is None else now.met.load,
+        cage_axial=cage[0] if turned else None,
+        cage_tilt=cage[3] if turned else None,
+        cage_tilt_lateral=cage[4] if turned else None,
+        damping_power=damping_power(dynamics, now),
+    )
+
+
+def _gaps(dynamics: BallDynamics, now: MovingBalls) -> Float[Array, " ball"] | None:
+    """Gap between each ball and the next one, m; `None` with a cage."""
+    if dynamics.neighbours is None:
+        return None
+    return neighbour_place(now.places).distance - 2.0 * dynamics.levers.ball_radius
+
+
+def front_and_rear(pocket: PocketPlace, ahead: Array, behind: Array) -> Float[Array, "2 ball"]:
+    """Values of the front and the rear half of every pocket, in the sense of orbit.
+
+    **Arguments:** `ahead`, `behind`: values of the walls that the offset of the ball has ahead and behind."""
+    forward = pocket.direction[0] >= 0
+    return jnp.stack([jnp.where(forward, ahead, behind), jnp.where(forward, behind, ahead)])
+
+
+def _ball_results(dynamics: BallDynamics, now: MovingBalls) -> BallResults:
+    (w_x, w_r, w_t), speeds, pressed = now.rates.spin, now.speeds.races, now.pressed
+    motion = BallMotion(now.rates.orbit, safe_norm(w_x, w_r), jnp.arctan2(w_r, w_x), w_t)
+    angle = jnp.arctan2(now.meridian.sine, now.meridian.cosine)
+    pressure = pressed.contact.hertz_pressure(now.load)
+    ratio = jnp.abs(speeds.spin) / safe_norm(speeds.roll, 1e-12)
+    more: dict[str, Any] = {}
+    if pressed.film is not None:
+        more |= dict(zip(("film_inner", "film_outer"), pressed.film.film, strict=True))
+        if pressed.film.rise is not None:
+            more |= dict(zip(("temperature_rise_inner", "temperature_rise_outer"), pressed.film.rise, strict=True))
+    if now.walls is not None and now.pocket is not None:
+        loads, films = (front_and_rear(now.pocket, *both) for both in (now.walls.load, now.walls.film))
+        more |= dict(zip(("pocket_load_front", "pocket_load_rear"), loads, strict=True))
+        more |= dict(zip(("pocket_film_front", "pocket_film_rear"), films, strict=True))
+    seen: Any = (dynamics, _Seen(angle, motion))
+    more |= computed_results(BallResults, SolvedBalls(*seen))
+    return BallResults(
+        azimuth=now.places.azimuth,
+        load_inner=now.load[0],
+        load_outer=now.load[1],
+        contact_angle_inner=angle[0],
+        contact_angle_outer=angle[1],
+        pressure_inner=pressure[0],
+        pressure_outer=pressure[1],
+        orbital_speed=now.rates.orbit,
+        spin_speed=motion.spin_speed,
+        attitude_angle=motion.attitude,
+        spin_to_roll_inner=ratio[0],
+        spin_to_roll_outer=ratio[1],
+        transverse_spin=w_t,
+        sliding_inner=speeds.rolling[0],
+        sliding_outer=speeds.rolling[1],
+        traction_inner=now.friction.rolling[0],
+        traction_outer=now.friction.rolling[1],
+        spin_moment_inner=-now.friction.spin[0],
+        spin_moment_outer=-now.friction.spin[1],
+        **more,
+    )
+
+
+def _cage_motion(dynamics: BallDynamics, now: MovingBalls) -> CageMotion | None:
+    """In the plane with Y along the load line and X a quarter turn behind it."""
+    if now.lands is None:
+        return None
+    speed = now.rates.cage[5]
+    motion = dataclasses.replace(dynamics.kinematics, inner_speed=now.rates.races[0])
+    angle, (w_x, w_r, _) = jnp.arctan2(now.meridian.sine, now.meridian.cosine), now.rates.spin
+    free = motion.rolling(angle[0], angle[1], jnp.arctan2(w_r, w_x)).orbital_speed
+    weight = now.load[0] + FORCE_FLOOR
+    mean = jnp.sum(weight * free) / jnp.sum(weight)
+    least = 1e-8 * motion.orbit_scale(mean)
+    return CageMotion(
+        x=-now.places.cage[2],
+        y=now.places.cage[1],
+        velocity_x=-now.rates.cage[2],
+        velocity_y=now.rates.cage[1],
+        speed=speed,
+        slip=(mean - speed) * mean / (jnp.square(mean) + jnp.square(least)),
+        eccentricity_ratio=jnp.max(now.lands.eccentricity_ratio),
+    )
+
+
+def pocket_peaks(dynamics: BallDynamics, times: Float[Array, "interval part"], states: ArrowPoint) -> PocketPeaks:
+    """Largest loads on the front and the rear half of every pocket in each interval, shape (interval, ball), of states
+    at several times within it.
+
+    **Arguments:** `states`, with `interval * part` in front.
+    """
+
+    def at_once(time: Array, state: ArrowPoint) -> Array:
+        place, walls = dynamics.at_pockets(time, state)
+        return front_and_rear(place, *walls.load)
+
+    loads = jax.vmap(at_once)(times.reshape(-1), states)
+    front, rear = jnp.swapaxes(jnp.max(loads.reshape(*times.shape, *loads.shape[1:]), axis=1), 0, 1)
+    return PocketPeaks(front=front, rear=rear)

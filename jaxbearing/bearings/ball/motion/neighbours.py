@@ -1,0 +1,87 @@
+r"""Balls that meet the next ones, where no cage keeps them apart.
+
+With the centres $p_j$ in space, the distance $d_j = |p_{j+1} - p_j|$ and its direction $n_j$, the interaction speeds of
+each pair are the rate of the distance, $n_j\cdot(\dot p_{j+1} - \dot p_j)$, and the sliding where the balls are
+nearest, $\dot p_j - \dot p_{j+1}$ across $n_j$ plus $\tfrac12d_j(\Omega_j + \Omega_{j+1})\times n_j$. They are linear
+in the generalised speeds, and 0 for two balls that turn about each other as one body: their forces have no moment.
+"""
+
+from typing import NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ....gaps.meeting_balls import MeetingBalls, MetBalls
+from ....numerics.series import cosine_and_sine
+from .layout import Places, Rates
+
+STILL = 1e-9
+"""Floor of the entraining speed's size, m/s, where no direction is defined."""
+
+
+class NeighbourSpeeds(NamedTuple):
+    """Of each ball and the next one: rate of the distance of their centres, m/s, and sliding, m/s, in space (along the
+    axis, along azimuths 0 and 90 degrees)."""
+
+    apart: Float[Array, " ball"]
+    sliding: Float[Array, "3 ball"]
+
+
+class NeighbourPlace(NamedTuple):
+    """Distance of the centres of each ball and the next one, m, and its direction in space."""
+
+    distance: Float[Array, " ball"]
+    normal: Float[Array, "3 ball"]
+
+
+class Neighbours(eqx.Module):
+    """The contacts of balls with each other.
+
+    **Arguments:** `law`: of the film between two balls; `viscosity`: of the oil there, Pa s.
+    """
+
+    law: MeetingBalls
+    viscosity: Float[Array, ""]
+
+    def contacts(self, place: NeighbourPlace, places: Places, rates: Rates) -> MetBalls:
+        """Load, film and friction between each ball and the next one."""
+        _, turning = _in_space(places, rates)
+        entraining = 0.5 * place.distance[None] * jnp.cross(turning - _next(turning), place.normal, axis=0)
+        gap = place.distance - 2.0 * self.law.ball_radius
+        apart = neighbour_speeds(places, place, rates).apart
+        speed = jnp.sqrt(jnp.sum(jnp.square(entraining), axis=0) + STILL**2)
+        return self.law.contact(gap, apart, speed, self.viscosity)
+
+
+def neighbour_place(places: Places) -> NeighbourPlace:
+    cosine, sine = cosine_and_sine(places.azimuth)
+    centre = jnp.stack([places.centre[0], places.radius * cosine, places.radius * sine])
+    ahead = _next(centre) - centre
+    distance = jnp.sqrt(jnp.sum(jnp.square(ahead), axis=0))
+    return NeighbourPlace(distance, ahead / distance[None])
+
+
+def neighbour_speeds(places: Places, place: NeighbourPlace, rates: Rates) -> NeighbourSpeeds:
+    """See the module; linear in `rates`."""
+    moving, turning = _in_space(places, rates)
+    parting = _next(moving) - moving
+    apart = jnp.sum(parting * place.normal, axis=0)
+    around = jnp.cross(turning + _next(turning), place.normal, axis=0)
+    return NeighbourSpeeds(apart, apart[None] * place.normal - parting + 0.5 * place.distance[None] * around)
+
+
+def _in_space(places: Places, rates: Rates) -> tuple[Float[Array, "3 ball"], Float[Array, "3 ball"]]:
+    """Speed of the centre and angular velocity of each ball, m/s and rad/s."""
+    cosine, sine = cosine_and_sine(places.azimuth)
+    (w_x, w_r, w_t), (x, r) = rates.spin, rates.centre
+    along = places.radius * rates.orbit
+    space = lambda axial, outward, around: jnp.stack(
+        [axial, outward * cosine - around * sine, outward * sine + around * cosine]
+    )
+    return space(x, r, along), space(rates.orbit - w_x, w_r, w_t)
+
+
+def _next(values: Array) -> Array:
+    """Values of the next ball, around the circle."""
+    return jnp.roll(values, -1, axis=-1)
