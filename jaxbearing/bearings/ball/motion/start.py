@@ -127,6 +127,7 @@ def build_dynamics(scene: BallBearing, simulation: Simulation, reference_speed: 
     zero = jnp.zeros_like(core.azimuth)
     # its equations are not solved, so that it needs no place to start from
     system = build_lubricated(resolved, core, BallGuess(zero, zero, zero, jnp.zeros(len(core.freedoms))))
+    assert isinstance(system, LubricatedBallSystem)
     geometry, grooves = running.geometry, core.grooves
     share = grooves.offset[1] / grooves.centre_distance
     drag = system.drag
