@@ -2,7 +2,8 @@ r"""Equations of the steady lubricated ball bearing, as a block-arrow system.
 
 Unknowns of each ball:
 
-- ln Qi and the inner contact angle, always;
+- two of its contacts, which say where it is: `pairs` has ln Qi and the inner contact angle of balls with two contacts,
+  `arched` the place of the centre of balls with more;
 - with traction the spin and, with `attitude="min_power"`, the attitude beta. With `"equilibrium"` they are the axial
   and the radial part of the spin instead, because polar coordinates are singular where the spin of a skidding ball
   passes through 0;
@@ -12,8 +13,8 @@ Unknowns of each ball:
 Global unknowns: the displacements of the ring; with a cage its speed, with which all balls orbit; without traction, on
 request, one orbital speed for all balls.
 
-`frictionless` has the contacts without traction and the two equations that keep the centre of a ball compatible with
-both races; `friction` has the friction on the balls and the equations of their motion.
+`pairs` and `arched` have the contacts without traction and their two equations; `friction` has the friction on the
+balls and the equations of their motion.
 
 The massless cage transmits the pocket forces to its lands. If the inner ring guides it, they enter the balance of that
 ring, $F_r = \sum p_r\cos\psi + W_{FCi}\cos\chi$, $W_{FCi}\cos\chi = \sum(F_{C2} - F_{C1})\cos\psi$ (source eqs.
@@ -23,6 +24,8 @@ line where the balls on both sides of it run alike. The balances of the ring, an
 """
 
 import dataclasses
+from collections.abc import Callable
+from typing import ClassVar, NamedTuple
 
 import equinox as eqx
 import jax
@@ -34,11 +37,10 @@ from ..land import LandState, guided_land
 from ..ring import LENGTH_UNIT
 from .core import orbit_row, orbit_totals
 from .friction import with_traction
-from .frictionless import AbstractLubricatedBallSystem
+from .kinematics import BallMotion
+from .lubricated import AbstractLubricatedBallSystem
 from .state import BallsState
 
-LOG_LOAD_RANGE = (-200.0, 18.0)
-"""ln(load / 1 N) that an iterate may take."""
 EASIEST_SLIDE = 1e-3
 """Factor on the sliding speed in the traction law of the easiest system."""
 THINNEST_FILM = 1e-3
@@ -47,60 +49,75 @@ WIDEST_START = 0.3
 """Sliding speed over which boundary friction starts in the easiest system, m/s."""
 
 
-class LubricatedBallSystem(AbstractLubricatedBallSystem):
+OWN_EQUATIONS = {
+    "spin": "moment about the bearing axis on a ball",
+    "axial spin": "moment about the bearing axis on a ball",
+    "radial spin": "moment about the radius on a ball",
+    "attitude": "least spin power of a ball",
+    "orbit": "tangential force on a ball",
+    "outward": "radial pocket friction on a ball",
+    "transverse": "moment about the tangent on a ball",
+    "carried": "transverse friction at the inner race of a ball",
+}
+"""Names of the equations that belong to the unknowns of a ball's motion."""
+
+
+class OfContacts(NamedTuple):
+    """The two unknowns of the contacts of a ball: names of their equations, largest steps and bounds, scaled."""
+
+    names: tuple[str, str]
+    caps: tuple[float, float]
+    lowest: tuple[float, float]
+    highest: tuple[float, float]
+
+
+class AbstractBallEquations(AbstractLubricatedBallSystem):
     """Lubricated ball bearing; see the module."""
+
+    of_contacts: ClassVar[OfContacts]
 
     # -- solver contract ------------------------------------------------------------------------------------------
 
     def equation_names(self) -> tuple[str, ...]:
-        text = {
-            "spin": "moment about the bearing axis on a ball",
-            "axial spin": "moment about the bearing axis on a ball",
-            "radial spin": "moment about the radius on a ball",
-            "attitude": "least spin power of a ball",
-            "orbit": "tangential force on a ball",
-            "outward": "radial pocket friction on a ball",
-            "transverse": "moment about the tangent on a ball",
-            "carried": "transverse friction at the inner race of a ball",
-        }
-        own = tuple(text[name] for name in self.own_unknowns)
+        own = tuple(OWN_EQUATIONS[name] for name in self.own_unknowns)
         orbit = "common orbital speed" if self.cage is None else "moment balance of the cage"
-        return (
-            "approach of the rings at a ball",
-            "direction of the contacts of a ball",
-            *own,
-            *self.ring.equation_names(),
-            *((orbit,) if self.global_orbit else ()),
-        )
+        last = (orbit,) if self.global_orbit else ()
+        return (*self.of_contacts.names, *own, *self.ring.equation_names(), *last)
 
     def step_caps(self) -> ArrowPoint:
         caps = dict.fromkeys(("spin", "axial spin", "radial spin", "orbit"), 0.15)
         caps |= {"attitude": 0.3, "outward": 1.0, "transverse": 0.02, "carried": 1.0}
-        elements = [12.0, 0.2, *(caps[name] for name in self.own_unknowns)]
+        elements = [*self.of_contacts.caps, *(caps[name] for name in self.own_unknowns)]
         ring = [5.0] * len(self.freedoms) + [0.15] * self.global_orbit
         return ArrowPoint(jnp.asarray(elements)[:, None], jnp.asarray(ring))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        low, high = LOG_LOAD_RANGE
         own = len(self.own_unknowns)
-        lowest, highest = [low, -1.6] + [-50.0] * own, [high, 1.6] + [50.0] * own
+        lowest, highest = [*self.of_contacts.lowest] + [-50.0] * own, [*self.of_contacts.highest] + [50.0] * own
         ring = jnp.asarray([1e5] * len(self.freedoms) + [3.0] * self.global_orbit)
         return ArrowPoint(jnp.asarray(lowest)[:, None], -ring), ArrowPoint(jnp.asarray(highest)[:, None], ring)
 
-    def initial(self) -> ArrowPoint:
-        guess, reference = self.guess, self.reference
-        zeros = jnp.zeros_like(guess.log_load)
-        inner = guess.angle
-        outer = self._outer_contact(guess.log_load, inner, self.centrifugal(reference.orbital_speed), None)[1]
-        rolling = self.kinematics.rolling(inner, outer, guess.attitude)
+    def _started(
+        self,
+        contacts: tuple[Array, Array],
+        ring: Float[Array, " freedom"],
+        load: Float[Array, " ball"],
+        rolling: BallMotion,
+        held: Callable[[Array], BallMotion],
+    ) -> ArrowPoint:
+        """First unknowns, from those of the contacts.
+
+        **Arguments:** `ring`: its displacements, m; `load`: of each ball, N; `rolling`: motion of the balls where each
+        has its own orbital speed; `held`: that motion at an orbital speed for all, rad/s.
+        """
+        reference, zeros = self.reference, jnp.zeros_like(load)
         orbit = common = (rolling.orbital_speed - reference.orbital_speed) / self.orbit_unit
         if self.global_orbit:
-            weights = jnp.exp(guess.log_load)
-            common = jnp.sum(weights * orbit) / jnp.sum(weights)
-            rolling = self.kinematics.held(self.orbit(common), inner, outer, guess.attitude)
+            common = jnp.sum(load * orbit) / jnp.sum(load)
+            rolling = held(self.orbit(common))
         start = {
             "spin": (rolling.spin_speed - reference.spin_speed) / self.spin_unit(),
-            "attitude": guess.attitude,
+            "attitude": rolling.attitude,
             "orbit": orbit,
             "outward": zeros,
             "transverse": zeros,
@@ -108,11 +125,9 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
         }
         parts = zip(self._spin_parts(rolling), self._spin_parts(reference), strict=True)
         start |= {name: (value - ref) / self.spin_unit() for (name, value), (_, ref) in parts}
-        elements = jnp.stack([guess.log_load, inner, *(start[name] for name in self.own_unknowns)])
-        ring = guess.ring / LENGTH_UNIT
-        if self.global_orbit:
-            ring = jnp.append(ring, common)
-        return ArrowPoint(elements, ring)
+        elements = jnp.stack([*contacts, *(start[name] for name in self.own_unknowns)])
+        scaled = ring / LENGTH_UNIT
+        return ArrowPoint(elements, jnp.append(scaled, common) if self.global_orbit else scaled)
 
     @property
     def increasing(self) -> bool:
@@ -177,7 +192,7 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
         if state.cage_moment is not None and state.cage_force is not None:
             totals += [self.multiplicity * state.cage_moment[None, :], state.cage_force]
         if self.common_orbit:
-            own = self.kinematics.rolling(state.angle[0], state.angle[1], state.motion.attitude).orbital_speed
+            own = self.free_rolling(state)
             totals.append(self.multiplicity * orbit_totals(state.load[0], own, state.motion.orbital_speed))
         local = jnp.concatenate([state.fit, *(row[None, :] for row in state.rows)])
         return local, jnp.concatenate(totals), jnp.maximum(jnp.max(state.film.residual), state.orbit_residual)
