@@ -39,9 +39,9 @@ _CLASSES: dict[str, Any] = {
     "auto": dfx.Kvaerno5,
 }
 
-KEPT = ("kvaerno3", "kvaerno4", "kvaerno5", "auto")
+KEPT = ("kvaerno4", "kvaerno5", "auto")
 """Solvers that keep one Jacobian over stages and steps (`kept_jacobian`), with the arrow elimination. With the dense
-elimination diffrax's own iterations solve the stages; they have a reverse mode."""
+elimination, and in kvaerno3, diffrax's own iterations solve the stages; they have a reverse mode."""
 
 STAGE_ERROR = 1.0
 """Error of the stage equations, in units of the tolerance."""
