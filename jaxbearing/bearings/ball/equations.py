@@ -16,11 +16,12 @@ request, one orbital speed for all balls.
 `pairs` and `arched` have the contacts without traction and their two equations; `friction` has the friction on the
 balls and the equations of their motion.
 
-The massless cage transmits the pocket forces to its lands. If the inner ring guides it, they enter the balance of that
-ring, $F_r = \sum p_r\cos\psi + W_{FCi}\cos\chi$, $W_{FCi}\cos\chi = \sum(F_{C2} - F_{C1})\cos\psi$ (source eqs.
-(18)-(19), (22)): the radial friction of each pocket is added to the radial force of its ball on the ring, and has no
-moment. The tangential forces, those of the pockets through the lands and $F_{ti}$ of the balls, cancel along the load
-line where the balls on both sides of it run alike. The balances of the ring, and its stiffness, leave out both.
+The cage has no mass and transmits the pocket forces to its lands. If the inner ring guides the cage, these forces enter
+the balance of that ring, $F_r = \sum p_r\cos\psi + W_{FCi}\cos\chi$, $W_{FCi}\cos\chi = \sum(F_{C2} - F_{C1})\cos\psi$
+(source eqs. (18)-(19), (22)). The radial friction of each pocket is therefore added to the radial force of its ball on
+the ring; it has no moment. The tangential forces are those of the pockets, which act through the lands, and $F_{ti}$ of
+the balls. They cancel along the load line if the balls on both sides of it run alike. The balances and the stiffness of
+the ring leave out the tangential forces.
 """
 
 import dataclasses
@@ -46,7 +47,7 @@ EASIEST_SLIDE = 1e-3
 THINNEST_FILM = 1e-3
 """Factor on the films of the easiest system."""
 WIDEST_START = 0.3
-"""Sliding speed over which boundary friction starts in the easiest system, m/s."""
+"""Width of the range of sliding speeds in which boundary friction develops in the easiest system, m/s."""
 
 
 OWN_EQUATIONS = {
@@ -131,13 +132,13 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
 
     @property
     def increasing(self) -> bool:
-        """False: at a root, a pivot can be negative if a ball has nearly lost its inner race."""
+        """False: a pivot at a root can be negative if a ball has almost lost contact with the inner race."""
         return False
 
     @property
     def rounding(self) -> float:
-        """In slow, heavily loaded contacts the round-off of a speed changes the friction by up to 1e-8 of its scale,
-        which is 1 % of the load of a ball."""
+        """In slow, heavily loaded contacts the round-off of a speed changes the friction by up to 1e-8 of the friction
+        scale. That scale is 1 % of the load of a ball."""
         return 100.0
 
     @property
@@ -150,12 +151,12 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
         return self.slips and self.laws.mixed is not None
 
     def homotopy(self, parameter, path):
-        """With traction, the easier systems slide more slowly in the traction law, which then saturates less. If
+        """With traction, the easier systems have less sliding in the traction law, so the traction saturates less. If
         traction has to carry the gyroscopic couple, the first path lowers that couple and the second the sliding.
-        Of rough balls a path before these widens the range of sliding speeds in which boundary friction starts. The
-        narrower this range is, the closer to rolling a ball must stay on the way to its root.
+        For rough balls an additional first path widens the range of sliding speeds in which boundary friction develops.
+        The narrower this range is, the closer to rolling a ball must stay on the way to its root.
         Without traction, the first path raises the load until the contacts are stiffer than the films, and the second
-        thins the films, because those of lightly loaded balls are much thicker than their contacts are deflected."""
+        thins the films. The films of lightly loaded balls are much thicker than the deflection of their contacts."""
         if self.heavier is not None:
             of_load, of_films = jnp.where(path == 0, parameter, 0.0), jnp.where(path == 0, 0.0, parameter)
             guess = jax.tree.map(lambda a, b: jnp.where(of_load > 0, a, b), self.heavy_guess, self.guess)
@@ -174,7 +175,7 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
         return eqx.tree_at(lambda system: system.laws.mixed.slide_width, self, width)
 
     def _slower(self, parameter, path):
-        """Traction laws that see less sliding, or less of a couple that traction has to carry."""
+        """The system with less sliding in the traction laws, or with a smaller gyroscopic couple."""
         slide = EASIEST_SLIDE**parameter
         if not self.resolved:
             return dataclasses.replace(self, slide_share=slide)
@@ -183,7 +184,7 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
 
     @property
     def extra_totals(self) -> int:
-        # moment on the cage, and two components of the force for one global; weighted speeds and weights
+        # common orbit: weighted speeds and weights for one global; cage: its moment and two force components for one
         return 1 if self.common_orbit else 0 if self.cage is None else 2
 
     def element(self, unknowns, shared):
@@ -206,7 +207,7 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
             return ring, jnp.zeros(())
         land = self.land(self.orbit(globals_[d]), totals[d + 1], totals[d + 2])
         scale = self.friction_scale() * 0.5 * self.kinematics.pitch_diameter * self.ball_count
-        # the moment falls with the cage speed
+        # the moment falls with the cage speed, so its sign is changed
         return jnp.concatenate([ring, -(totals[d] + land.cage_torque)[None] / scale]), land.residual
 
     # -- physics --------------------------------------------------------------------------------------------------

@@ -240,8 +240,8 @@ class BallBearing(AbstractMovingBearing):
         name = "shim_outer" if self.geometry.shim_inner is None else "shim_inner"
         if isinstance(self.simulation, Simulation):
             yield (
-                f"geometry.{name}: found beside [simulation] without [thermal], expected one of the two: balls in motion "
-                "have two contacts"
+                f"geometry.{name}: found beside [simulation] without [thermal], expected one of the two: balls in "
+                "motion have two contacts"
             )
         expected, traction = ("equilibrium", "with") if self.slips else ("linear_slip", "without")
         if self.kinematics.attitude != expected:
