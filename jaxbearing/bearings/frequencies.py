@@ -56,7 +56,9 @@ def frequencies_of_motion(operation: Any, elements: Any, cage: Any) -> Kinematic
     (inner_load, outer_load, orbit, spin), rings, cage_speed, second = known_numbers(
         (given, speeds, None if cage is None else cage.speed, second)
     )
-    load = sum(second, inner_load + outer_load) + NO_LOAD
+    load = inner_load + outer_load + NO_LOAD
+    for more in second:
+        load = load + more
     mean = lambda speed: (load * speed).sum(axis=-1) / load.sum(axis=-1)
     with np.errstate(all="ignore"):  # those of a solve that failed need not be numbers
         turning = mean(orbit) if cage_speed is None else cage_speed

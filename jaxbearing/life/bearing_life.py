@@ -232,7 +232,8 @@ def _of_points(contacts: RatedContacts, rating: Rating, turns: Any) -> Rated:
     capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *rated))
     static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0], modulus))
     limits = ball_contact_capacities(capacity, *sizes, *contacts.conformities)
-    rate = ball_damage_rate(contacts.inner, contacts.outer, limits, *turns, contacts.second)
+    of_inner, of_outer = turns
+    rate = ball_damage_rate(contacts.inner, contacts.outer, limits, of_inner, of_outer, contacts.second)
     radial, axial = contacts.radial_load, contacts.axial_load
     if radial is None or axial is None:
         return Rated("ball", capacity, static, rate, None, None)
