@@ -106,7 +106,7 @@ def test_energy_of_a_run_balances(run):
 def test_results_have_their_places_in_files(run):
     _, history = run
     data = history_to_dataset(history)
-    for name in ("elements_load_inner", "axial_place", "pocket_offset", "cage_tilt"):
+    for name in ("load_inner", "axial_place", "pocket_offset", "cage_tilt"):
         assert any(name in str(variable) for variable in data.data_vars), name
 
 
