@@ -127,7 +127,7 @@ class ArchedBallSystem(AbstractBallEquations):
         )
 
     def _taken(self, motion: BallMotion, load: Float[Array, "contact ball"]) -> Float[Array, "contact ball"]:
-        """What the contacts have to carry together of a resolved couple, N, as if the first one did."""
+        """Force of a resolved couple that the contacts carry together, N, as if the first one did."""
         taken = 2.0 * self.couple(motion) / self.kinematics.ball_diameter
         return jnp.zeros_like(load).at[0].set(taken)
 
