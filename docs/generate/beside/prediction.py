@@ -31,7 +31,7 @@ ALMOST_NONE = 1.0
 
 
 class Told(NamedTuple):
-    """The information of data on a judged number: posterior median and deviation of the logarithm over those of the prior."""
+    """The information of data on a judged number: median and deviation of the logarithm, of posterior over prior."""
 
     shift: float
     narrower: float
