@@ -1,4 +1,4 @@
-"""What a posterior predicts to be measured again: the samples' results with new errors."""
+"""The values that a posterior predicts for a new measurement: the samples' results with new errors."""
 
 from dataclasses import dataclass
 from typing import Any

@@ -132,6 +132,16 @@ def test_driven_runs(name):
     assert abs(history.energy.error) < 1e-5
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("solver", ["kvaerno5", "auto"])
+def test_run_up_from_one_percent_of_the_speed(solver):
+    """tsit5 is held to steps of 0.3 us there: more than 3000 in the first millisecond."""
+    history = simulate(table_16(0.6), 4 * SHORT, simulation=Simulation(speed=Ramp(0.01, 1.0, 15e-3), solver=solver))
+    assert history.completed
+    assert abs(history.energy.error) < 1e-5
+    assert int(history.accepted) < 1000
+
+
 # kvaerno4, between its neighbours, on a small system only: tests/numerics/test_integrate.py
 ORDERS = {"implicit_euler": 1, "tsit5": 5, "dopri8": 8, "kvaerno3": 3, "kvaerno5": 5}
 

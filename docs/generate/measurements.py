@@ -32,7 +32,7 @@ DEVIATION = "**Deviation:** "
 
 
 def kept() -> dict[str, Found]:
-    """What was computed last, by the names of the comparisons."""
+    """The results that were computed last, by the names of the comparisons."""
     whole = json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.exists() else {}
     return {name: Found(**one) for name, one in whole.items()}
 
@@ -45,7 +45,7 @@ def keep(name: str, found: Found) -> None:
 
 
 def block(one: Comparison, found: Found) -> str:
-    """What stands between the marks of a comparison."""
+    """The text between the marks of a comparison."""
     said = (
         f"{DEVIATION}{found.deviation}.",
         f"**Free:** {one.free}.",
@@ -61,7 +61,7 @@ def place(name: str) -> re.Pattern[str]:
 
 
 def shown(page: str, name: str) -> str:
-    """What a page has between the marks of a name."""
+    """The text of a page between the marks of a name."""
     found = place(name).search(page)
     if found is None:
         raise ValueError(f"{PAGE.name}: found no marks of {name}")

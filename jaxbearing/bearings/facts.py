@@ -36,6 +36,8 @@ class Contacts(NamedTuple):
     - `past_edge`: by how much a contact ellipse passes the end of what it rests on, positive where it is cut off, for
       the rows whose `edges` name such an end.
     - `starved`: what the supply of oil does to them.
+    - `largest`: load to which those of each place are compared, N; `None`: the largest at the place. Both flanks of a
+      raceway are compared to the same one.
     """
 
     places: tuple[str, ...]
@@ -53,10 +55,12 @@ class Contacts(NamedTuple):
     past_edge: Float[Array, "place element"] | None = None
     edges: tuple[str | None, ...] = ()
     starved: Starvation | None = None
+    largest: Float[Array, "place 1"] | None = None
 
     def loaded(self, part: float = LOADED) -> Bool[Array, "place element"]:
         """Contacts that count: with at least this part of the largest load at the same place."""
-        return (self.load > 0) & (self.load >= part * jnp.max(self.load, axis=1, keepdims=True))
+        largest = jnp.max(self.load, axis=1, keepdims=True) if self.largest is None else self.largest
+        return (self.load > 0) & (self.load >= part * largest)
 
     def most(self, values: Array, part: float = LOADED) -> Float[Array, " place"]:
         """Largest of the values over the contacts that count; -inf where none does."""

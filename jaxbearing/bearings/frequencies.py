@@ -49,12 +49,16 @@ def frequencies_of_motion(operation: Any, elements: Any, cage: Any) -> Kinematic
     **Arguments:** `operation`, `elements`, `cage`: those of a solution, or of a batch of them; `cage` is `None` where
     the scene has none.
     """
+    others = (getattr(elements, f"load_{race}_second", None) for race in ("inner", "outer"))
+    second = tuple(load for load in others if load is not None)
     given = (elements.load_inner, elements.load_outer, elements.orbital_speed, elements.spin_speed)
     speeds = (operation.inner_speed, operation.outer_speed)
-    (inner_load, outer_load, orbit, spin), rings, cage_speed = known_numbers(
-        (given, speeds, None if cage is None else cage.speed)
+    (inner_load, outer_load, orbit, spin), rings, cage_speed, second = known_numbers(
+        (given, speeds, None if cage is None else cage.speed, second)
     )
     load = inner_load + outer_load + NO_LOAD
+    for more in second:
+        load = load + more
     mean = lambda speed: (load * speed).sum(axis=-1) / load.sum(axis=-1)
     with np.errstate(all="ignore"):  # those of a solve that failed need not be numbers
         turning = mean(orbit) if cage_speed is None else cage_speed

@@ -1,5 +1,7 @@
 """Mixed friction in the results of bearings: names, and sums over the rolling elements."""
 
+import functools
+import operator
 from collections.abc import Sequence
 
 import jax.numpy as jnp
@@ -29,16 +31,22 @@ def mixed_results(state: MixedState | None, sides: Sequence[str] = SIDES) -> dic
 
 
 def boundary_power(
-    raceways: MixedState | None, multiplicity: int = 1, rib: MixedState | None = None
+    raceways: MixedState | None,
+    multiplicity: int = 1,
+    rib: MixedState | None = None,
+    races: Sequence[int] = (0, 1),
 ) -> BoundaryPower | None:
     """The part of boundary friction in the losses; `None` if mixed friction is not modelled.
 
     **Arguments:** `raceways`: of the contacts on the inner and the outer raceway, if these slide; `multiplicity`:
-    rolling elements for which each one stands; `rib`: of the roller ends.
+    rolling elements for which each one stands; `rib`: of the roller ends; `races`: of each contact, 0 inner.
     """
     powers: dict[str, Array] = {}
     if raceways is not None:
-        inner, outer = multiplicity * jnp.sum(raceways.boundary_power, axis=1)
+        each = multiplicity * jnp.sum(raceways.boundary_power, axis=1)
+        inner, outer = (
+            functools.reduce(operator.add, [each[k] for k, race in enumerate(races) if race == side]) for side in (0, 1)
+        )
         powers |= {"inner_raceway": inner, "outer_raceway": outer}
     if rib is not None:
         powers["flange"] = multiplicity * jnp.sum(rib.boundary_power)

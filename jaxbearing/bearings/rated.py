@@ -20,6 +20,8 @@ class RatedContacts(NamedTuple):
     - `contact_angle`: nominal one, for which ratings are made, rad.
     - `rings`, `elements`: their materials.
     - `inner`, `outer`: loads on the raceways, N, one an element; of line contacts in laminae one a lamina as well.
+    - `second`: loads on the second flanks of the inner and the outer raceway, N, one an element, of rings with two
+      groove arcs; `None` of rings with one.
     - `conformities`: of point contacts, groove radius over ball diameter of the inner and the outer race.
     - `length`: of line contacts, along which a roller carries, m.
     - `profiled`: whether rollers have a profile, which spreads the load near their ends.
@@ -37,6 +39,7 @@ class RatedContacts(NamedTuple):
     inner: Float[Array, "element ..."]
     outer: Float[Array, "element ..."]
     conformities: tuple[Scalar, Scalar] | None = None
+    second: tuple[Array | None, Array | None] = (None, None)
     length: Scalar | None = None
     profiled: bool = False
     radial_load: Array | None = None

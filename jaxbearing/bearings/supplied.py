@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from .._scene import label
@@ -47,9 +48,10 @@ class SupplyResult(eqx.Module):
 
 
 def supply_result(
-    scene: AbstractBearing, load: Float[Array, "2 element"], starved: Starvation | None
+    scene: AbstractBearing, load: Float[Array, "contact element"], starved: Starvation | None
 ) -> SupplyResult | None:
-    """The supply of a scene; `None` for one without films. **Arguments:** `load`, N, and `starved`, of the raceways."""
+    """The supply of a scene; `None` for one without films. **Arguments:** `load`, N, and `starved`, of the raceways,
+    the inner one first; where there are more contacts than two, `scene.geometry.arcs.races` says which is where."""
     if scene.contact is None or scene.oil is None:
         return None
     supply = scene.contact.supply
@@ -61,8 +63,19 @@ def supply_result(
         for name in ("film_factor", "rolling_factor", "gap_over_central"):
             values = jnp.broadcast_to(getattr(starved, name), load.shape)
             both = jnp.take_along_axis(values, most, axis=1)[:, 0]
+            if len(load) > 2:
+                both = _of_races(scene.geometry.arcs.races, jnp.max(load, axis=1), both)
             numbers |= {f"{name}_inner": both[0], f"{name}_outer": both[1]}
     return SupplyResult(supply.stated, **numbers)
+
+
+def _of_races(races: tuple[int, ...], load: Float[Array, " contact"], values: Float[Array, " contact"]) -> list[Array]:
+    """Values of the more loaded contact of each race."""
+    found = []
+    for race in (0, 1):
+        rows = np.flatnonzero(np.asarray(races) == race)
+        found.append(values[rows][jnp.argmax(load[rows])])
+    return found
 
 
 def supply_problems(scene: AbstractBearing) -> Iterator[str]:

@@ -173,7 +173,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
         static_capacity=rated.static_capacity,
         equivalent_load=equivalent,
         reliability_factor=jnp.asarray(reliability),
-        contact_static_safety=contact_safety(solid[0].pressure_inner, solid[0].pressure_outer, rated.family),
+        contact_static_safety=contact_safety(_pressure(solid[0], "inner"), _pressure(solid[0], "outer"), rated.family),
         family=rated.family,
         **more,
     )
@@ -208,6 +208,12 @@ def _cleanliness(rating: Rating, kappa: Array, pitch_diameter: Array) -> Array:
     return contamination_factor(kappa, pitch_diameter, rating.cleanliness)
 
 
+def _pressure(elements: Any, race: str) -> Array:
+    """Largest Hertz pressure of each element on a raceway, of both its flanks where it has two groove arcs, Pa."""
+    first, second = getattr(elements, f"pressure_{race}"), getattr(elements, f"pressure_{race}_second", None)
+    return first if second is None else jnp.maximum(first, second)
+
+
 def _given(value: Any, computed: Callable[[], Array]) -> Array:
     return computed() if value is None else jnp.asarray(value)
 
@@ -226,7 +232,8 @@ def _of_points(contacts: RatedContacts, rating: Rating, turns: Any) -> Rated:
     capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *rated))
     static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0], modulus))
     limits = ball_contact_capacities(capacity, *sizes, *contacts.conformities)
-    rate = ball_damage_rate(contacts.inner, contacts.outer, limits, *turns)
+    of_inner, of_outer = turns
+    rate = ball_damage_rate(contacts.inner, contacts.outer, limits, of_inner, of_outer, contacts.second)
     radial, axial = contacts.radial_load, contacts.axial_load
     if radial is None or axial is None:
         return Rated("ball", capacity, static, rate, None, None)

@@ -5,6 +5,8 @@ loaded. A ring that turns against the load meets the mean over the elements of $
 rest the sum of its own points, $Q^{10/3}$ or $q^{9/2}$.
 """
 
+import functools
+import operator
 from typing import NamedTuple
 
 import jax.numpy as jnp
@@ -90,16 +92,19 @@ def ball_damage_rate(
     capacities: ContactCapacities,
     inner_turns: Bool[Array, ""],
     outer_turns: Bool[Array, ""],
+    second: tuple[Array | None, Array | None] = (None, None),
 ) -> Float[Array, ""]:
     r"""$1/L_{10r} = [(Q_{ei}/Q_{ci})^{10/3} + (Q_{ee}/Q_{ce})^{10/3}]^{9/10}$, per 10^6 revolutions.
 
     **Evidence:** [C], see `ball_contact_capacities`. **Arguments:** loads of all contacts, N, zeros included; whether
-    each ring turns against the load.
+    each ring turns against the load; `second`: loads on the second flanks of inner and outer raceway, N, of rings with
+    two groove arcs. Each flank is a raceway of its own, whose term is added (product of survivals).
     """
     _require_loads(inner, outer, capacities)
-    rings = ((inner, capacities.inner, inner_turns), (outer, capacities.outer, outer_turns))
+    rings = [(inner, capacities.inner, inner_turns), (outer, capacities.outer, outer_turns)]
+    rings += [(load, *ring[1:]) for load, ring in zip(second, rings, strict=True) if load is not None]
     each = [_mean_power(load / limit, turns, 3.0, 10.0 / 3.0) for load, limit, turns in rings]
-    return _power(each[0] + each[1], 0.9)
+    return _power(functools.reduce(operator.add, each), 0.9)
 
 
 def edge_factors(n_laminae: int) -> np.ndarray:

@@ -23,9 +23,11 @@ from jaxtyping import Array, Bool, Float, Int
 
 from .arrow import ArrowPoint
 from .integrator import IMPLICIT, Field, IntegratorOptions, NestedField, Segment
+from .kept_jacobian import KeptJacobian
 from .lineax_solver import BlockArrow
 from .remembering import Memory, Remembering
 from .status import Status
+from .switching import Switching
 
 _CLASSES: dict[str, Any] = {
     "tsit5": dfx.Tsit5,
@@ -34,8 +36,12 @@ _CLASSES: dict[str, Any] = {
     "kvaerno4": dfx.Kvaerno4,
     "kvaerno5": dfx.Kvaerno5,
     "implicit_euler": dfx.ImplicitEuler,
+    "auto": dfx.Kvaerno5,
 }
 
+KEPT = ("kvaerno4", "kvaerno5", "auto")
+"""Solvers that keep one Jacobian over stages and steps (`kept_jacobian`), with the arrow elimination. With the dense
+elimination, and in kvaerno3, diffrax's own iterations solve the stages; they have a reverse mode."""
 
 STAGE_ERROR = 1.0
 """Error of the stage equations, in units of the tolerance."""
@@ -96,6 +102,8 @@ def _problem(
     options: IntegratorOptions,
     idle: int,
 ) -> _Problem:
+    if options.solver in KEPT and (options.elimination == "arrow" or options.solver == "auto"):
+        return _kept_problem(field, state, args, options, idle)
     solver, same = diffrax_solver(options, idle), lambda y: y
     if not isinstance(field, NestedField):
         return _Problem(field, solver, state, args, optx.rms_norm, same)
@@ -124,6 +132,34 @@ def _problem(
         lambda error: optx.rms_norm(error[:size]),
         lambda y: unravel(y[:size]),
     )
+
+
+def _kept_problem(
+    field: Field | NestedField, state: ArrowPoint, args: Any, options: IntegratorOptions, idle: int
+) -> _Problem:
+    """Problem for `KeptJacobian`, whose iterations begin a solve inside with what the last one found."""
+    tolerance = jnp.asarray(options.tolerance)
+    if isinstance(field, NestedField):
+        # the field is called in several places: so it is traced once
+        nested, first = eqx.filter_jit(field.rates), eqx.filter_jit(field.guess)
+        rates = lambda t, y, a, found: nested(t, y, a[0], found, a[1])
+        guess = lambda t, y, a: first(t, y, a[0])
+    else:
+        plain = eqx.filter_jit(field)
+        rates = lambda t, y, a, found: (plain(t, y, a[0]), found)
+        guess = lambda t, y, a: ()
+    solver: Any = KeptJacobian(
+        method=_CLASSES[options.solver](),
+        rates=rates,
+        guess=guess,
+        tolerance=tolerance,
+        idle=idle,
+        dense=options.elimination == "dense",
+    )
+    if options.solver == "auto":
+        solver = Switching(solver)
+    alone = lambda t, y, a: rates(t, y, a, guess(t, y, a))[0]
+    return _Problem(alone, solver, state, (args, tolerance), optx.rms_norm, lambda y: y)
 
 
 def integrate_segment(

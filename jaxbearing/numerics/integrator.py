@@ -11,7 +11,7 @@ from .checks import Checked, bounded
 from .precision import as_float
 from .structure import choice, count
 
-Solver = Literal["tsit5", "dopri8", "kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler"]
+Solver = Literal["tsit5", "dopri8", "kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler", "auto"]
 SOLVERS: tuple[str, ...] = get_args(Solver)
 IMPLICIT = ("kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler")
 Field = Callable[[Any, ArrowPoint, Any], ArrowPoint]
@@ -32,7 +32,7 @@ class IntegratorOptions(Checked):
     """Options of the integrator.
 
     **Arguments:**
-    - `solver`: one of `SOLVERS`.
+    - `solver`: one of `SOLVERS`; "auto" is tsit5 or kvaerno5, by the stiffness that it measures (`switching`).
     - `tolerance`: relative tolerance, and absolute one in the units of the state.
     - `max_steps`: limit of the steps of one segment, rejected ones included.
     - `elimination`: elimination of the stage equations of implicit solvers: "arrow", or "dense" for comparison.

@@ -12,5 +12,7 @@ CURVES = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", INK)
 """Colours of the curves of one chart, in this order."""
 INNER, OUTER, RIB = CURVES[:3]
 """Results at the inner raceway, the outer raceway and the rib."""
+INNER_SECOND, OUTER_SECOND = CURVES[4:6]
+"""Results at the second flanks of the raceways, of rings with two groove arcs."""
 LOSS = "#56789A"
 """Bars of power losses, and single curves of a run in time."""

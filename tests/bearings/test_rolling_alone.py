@@ -9,7 +9,7 @@ import pytest
 
 import jaxbearing as jb
 from jaxbearing.bearings.ball.build import build_core, build_lubricated
-from jaxbearing.bearings.ball.rolling import rolling_balance
+from jaxbearing.bearings.ball.rolling import rolling_balance, rolling_resistance
 
 ROLLING_BALLS = {
     "contact.traction": "none",
@@ -51,9 +51,11 @@ def test_constraint_forces_balance_each_ball(attitude):
         state = system.at(system.initial())
         widened = jax.tree.map(lambda leaf: jnp.broadcast_to(leaf, (*leaf.shape[:-1], 2)), state)
         load = jnp.asarray([[900.0, 400.0], [1200.0, 800.0]])
-        found = rolling_balance(system, widened._replace(angle=jnp.asarray(angle), load=load))
-        assert found is not None
-        return found.forward, found.about, found.resistance, system.kinematics.ball_diameter
+        widened = widened._replace(angle=jnp.asarray(angle), load=load)
+        resistance = rolling_resistance(system, widened)
+        assert resistance is not None
+        found = rolling_balance(system, widened, resistance)
+        return found.forward, found.about, resistance, system.kinematics.ball_diameter
 
     found = jax.tree.map(np.asarray, balanced(balls(**{"kinematics.attitude": attitude})))
     (f_i, f_o), (s_i, s_o), (r_i, r_o), diameter = found

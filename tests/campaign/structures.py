@@ -2,9 +2,16 @@
 
 import math
 
-from campaign import balls, bent_rings, contacts, rollers, tapered
+from campaign import balls, bent_rings, contacts, four_point, rollers, tapered
 
-STRUCTURES = [*rollers.STRUCTURES, *bent_rings.STRUCTURES, *balls.STRUCTURES, *tapered.STRUCTURES, *contacts.STRUCTURES]
+STRUCTURES = [
+    *rollers.STRUCTURES,
+    *bent_rings.STRUCTURES,
+    *balls.STRUCTURES,
+    *four_point.STRUCTURES,
+    *tapered.STRUCTURES,
+    *contacts.STRUCTURES,
+]
 
 
 def shares(cases: int) -> dict[str, int]:

@@ -109,7 +109,7 @@ def test_interval_of_the_power_loss(jaxbearing_command, folder):
         ("own", ("--set", "drag.coefficient={mean = 0.4, deviation = 0.02}")),
         ("none", ("--no-drag-prior",)),
     ):
-        assert jaxbearing_command(*DRY, *more, "--out", f"{name}.html").code == 0
+        assert jaxbearing_command("report", "reference_roller", *more, "--out", f"{name}.html").code == 0
         found[name] = Page((folder / f"{name}.html").read_text(encoding="utf-8")).text
     assert title in found["assumed"]
     assert "assumed: lognormal, median 0.3" in found["assumed"]

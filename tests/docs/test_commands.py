@@ -19,6 +19,7 @@ import jax.numpy as jnp
 import pytest
 from filled_results import MadeUpProgram, history_of, slopes_of, solution_of
 
+import jaxbearing as jb
 from fitting import fit as _fit  # noqa: F401  (the module of this name is in sys.modules)
 from jaxbearing import CylindricalRollerBearing, EHLLineContact
 from jaxbearing.cli.main import main
@@ -149,6 +150,9 @@ def made_up(monkeypatch, one_process):
         return solution_of(scene), Sensitivities(numbers, numbers)
 
     run = lambda scene, duration, **_: history_of(scene, duration or scene.simulation.duration)
+    # names of the package that are looked up for the first time meanwhile would stay made up
+    for name in ("simulate", "sensitivities"):
+        getattr(jb, name)
     monkeypatch.setattr(sys.modules["jaxbearing.solve"], "solve_once", solution_of)
     monkeypatch.setattr(sys.modules["jaxbearing.sensitivity"], "sensitivities", slopes)
     monkeypatch.setattr(sys.modules["jaxbearing.simulate"], "simulate", run)
@@ -166,7 +170,7 @@ def made_up(monkeypatch, one_process):
 @pytest.fixture
 def shortened(monkeypatch, one_process):
     """Solvers as they are; runs in time are short."""
-    simulate = sys.modules["jaxbearing.simulate"].simulate
+    simulate = jb.simulate
     short = lambda scene, duration, **more: simulate(scene, min(duration or SHORT, SHORT), **more)
     monkeypatch.setattr(sys.modules["jaxbearing.simulate"], "simulate", short)
 

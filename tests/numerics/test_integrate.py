@@ -80,7 +80,7 @@ def steps_recorded(guesses):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_solve_inside_begins_where_the_last_one_ended(solver):
-    """Same motion; explicit solvers extrapolate what was found, to third order in the step."""
+    """Same motion. Explicit solvers extrapolate what was found, to third order in the step."""
     guesses, times = [], jnp.asarray([0.5, 1.0])
     # implicit Euler is of first order
     options = IntegratorOptions(solver=solver, tolerance=1e-3 if solver == "implicit_euler" else 1e-6)
@@ -90,10 +90,11 @@ def test_a_solve_inside_begins_where_the_last_one_ended(solver):
     assert int(found.status) == Status.CONVERGED
     assert found.states.elements.shape == (2, 1, 3)
     np.testing.assert_allclose(found.last.globals, exact(1.0)[1:], atol=200.0 * float(options.tolerance))
-    if solver in ("tsit5", "dopri8"):
+    if solver not in ("implicit_euler", "kvaerno3"):
         time, guess, z = np.asarray(guesses).T
         late = time > 0.2
-        assert np.max(np.abs(guess[late] - z[late])) < 1e-5
+        # implicit solvers begin with what the last iteration found, without extrapolation
+        assert np.max(np.abs(guess[late] - z[late])) < (1e-5 if solver in ("tsit5", "dopri8") else 0.1)
         assert np.max(np.abs(guess - 0.5)) > 0.1
     else:
         assert all(guess == 0.5 for _, guess, _ in guesses)

@@ -1,1 +1,1 @@
-"""What `measurements.py` computes for the page "Beside measurements": one module for each kind of data."""
+"""The computations of `measurements.py` for the page "Beside measurements": one module for each kind of data."""

@@ -1,4 +1,4 @@
-"""What all comparisons share: their form, readers of the data, texts of deviations and tables."""
+"""The common part of all comparisons: their form, readers of the data, texts of deviations and tables."""
 
 import csv
 import importlib.util
@@ -14,7 +14,7 @@ MEASURED = DOCS / "examples" / "measured"
 
 
 class Found(NamedTuple):
-    """What a comparison computed.
+    """The results of a comparison.
 
     **Arguments:**
     - `headings`, `rows`: of its table, texts.

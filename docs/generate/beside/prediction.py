@@ -1,4 +1,4 @@
-"""What the calibrated model predicts for `turbine_roller`: its total loss, from the priors and after each data set.
+"""The prediction of the calibrated model for `turbine_roller`: its total loss, from the priors and after each data set.
 
 Neither data set is of this bearing. The heat of the 35-mm ball bearing tells the drag coefficient of its balls, the
 torque of the 32216 the oil supply of its bath. Both are judged numbers of the same kind as the drag coefficient of
@@ -31,7 +31,7 @@ ALMOST_NONE = 1.0
 
 
 class Told(NamedTuple):
-    """What data tell of a judged number: posterior median and deviation of the logarithm over those of the prior."""
+    """The information of data on a judged number: median and deviation of the logarithm, of posterior over prior."""
 
     shift: float
     narrower: float

@@ -75,11 +75,11 @@ MISSING = {
     "HM801349_pair": "length and diameter of the rollers, viscosity of the oil, supply, share of the axial load",
     "HH926749_pair_grease": "geometry, base oil, supply, temperature",
 }
-"""What a solve of each bearing would need and the data do not have."""
+"""Inputs of a solve of each bearing that the data do not have."""
 
 
 def trb_others() -> Found:
-    """What the other tapered bearings lack, and how their torque grows with speed or load."""
+    """Missing inputs of the other tapered bearings, and the growth of their torque with speed or load."""
     rows = []
     for name, missing in MISSING.items():
         points = [row for row in rows_of(MEASURED / "trb_other_torque.csv") if row["bearing"] == name]

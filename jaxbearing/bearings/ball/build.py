@@ -1,10 +1,12 @@
 """From a ball bearing scene to its equations, with everything prepared that does not depend on the unknowns."""
 
 import dataclasses
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from ...gaps import ReynoldsDrag, RollerDrag, ball_frontal_area
@@ -15,15 +17,18 @@ from ...numerics.safe import safe_norm
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..parts import azimuths, drag_density
 from ..ring import LENGTH_UNIT, InnerRing, inner_ring
+from .arched import ArchedBallSystem
 from .core import FORCE_FLOOR, BallCore
-from .equations import LubricatedBallSystem
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
 from .kinematics import BallKinematics
+from .pairs import LubricatedBallSystem
 from .scene import BallBearing
-from .start import together
-from .state import BallCageParts, BallDrag, BallGuess
+from .springs import together
+from .state import BallCageParts, BallDrag, BallGuess, BallPlaces
 from .system import Grooves
 
+SPREAD_LOAD = 1e6
+"""Load, N, for which the size of a patch is taken: Hertz's formula is smoothed near load 0."""
 SMALLEST_GUESS = 1e-3
 """Load of an inner contact that the frictionless bearing has lost, over a ball's load scale, where the films start."""
 CONTROL_AT_EQUAL_LOADS, CONTROL_BY_LOAD = -1.6, 8.0
@@ -32,24 +37,26 @@ CONTROL_AT_EQUAL_LOADS, CONTROL_BY_LOAD = -1.6, 8.0
 
 
 class Row(NamedTuple):
-    """The balls that are solved for, how the inner ring may move, and how that moves their inner groove centres,
-    (axial, radial), m: `directions` for a unit of its unknowns, `held_shift` by what it is held at."""
+    """The balls that are solved for, how the inner ring may move, and how that moves the coordinates of their inner
+    grooves (`arcs`), m: `directions` for a unit of its unknowns, `held_shift` by what it is held at."""
 
     azimuth: Float[Array, " ball"]
     ring: InnerRing
-    directions: Float[Array, "freedom 2 ball"]
-    held_shift: Float[Array, "2 ball"]
+    directions: Float[Array, "freedom p ball"]
+    held_shift: Float[Array, "p ball"]
     multiplicity: int
 
 
-def ring_directions(azimuth: Float[Array, " ball"]) -> Float[Array, "5 2 ball"]:
-    """Change of the inner groove centre, (axial, radial), for a unit of each of `RING_FREEDOMS`; a unit of tilt is
-    R_i."""
+def ring_directions(azimuth: Float[Array, " ball"], turning: Array | None = None) -> Float[Array, "5 p ball"]:
+    """Change of the coordinates of the inner groove (`arcs`) for a unit of each of `RING_FREEDOMS`; a unit of tilt is
+    R_i. **Arguments:** `turning`: e_i/R_i of an inner ring with two arcs."""
     zero, one = jnp.zeros_like(azimuth), jnp.ones_like(azimuth)
     cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
-    return jnp.stack(
-        [jnp.stack(pair) for pair in ((one, zero), (zero, cosine), (zero, sine), (cosine, zero), (sine, zero))]
-    )
+    changes = [(one, zero), (zero, cosine), (zero, sine), (cosine, zero), (sine, zero)]
+    if turning is None:
+        return jnp.stack([jnp.stack(pair) for pair in changes])
+    last = (zero, zero, zero, turning * cosine, turning * sine)
+    return jnp.stack([jnp.stack([*pair, third]) for pair, third in zip(changes, last, strict=True)])
 
 
 def ball_row(scene: BallBearing, ring: InnerRing | None = None) -> Row:
@@ -58,7 +65,8 @@ def ball_row(scene: BallBearing, ring: InnerRing | None = None) -> Row:
     azimuth = azimuths(geometry, geometry.n_balls, operation.symmetric and ring is None)
     if ring is None:
         ring = inner_ring(scene, geometry.groove_circle_radius)
-    every = ring_directions(azimuth)
+    apart = geometry.arcs.inner
+    every = ring_directions(azimuth, None if apart is None else apart / geometry.groove_circle_radius)
     held_shift = jnp.einsum("f,fcn->cn", ring.held, every)
     return Row(azimuth, ring, ring.of_unknown(every), held_shift, geometry.n_balls // azimuth.size)
 
@@ -76,6 +84,7 @@ def ball_grooves(scene: BallBearing, expansion: Float[Array, ""] | None = None) 
         lever=jnp.asarray(geometry.groove_circle_radius),
         groove_arm=jnp.asarray(geometry.conformity_inner * geometry.ball_diameter),
         expansion=expansion,
+        arcs=geometry.arcs,
     )
 
 
@@ -89,6 +98,7 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
     grooves = ball_grooves(scene, row.ring.expansion)
     density = jnp.asarray(scene.materials.balls.density)
     attitude, gyroscopic = scene.kinematics.attitude, scene.kinematics.gyroscopic
+    slipping = attitude == "linear_slip" or geometry.has_arcs
     return BallCore(
         kinematics=BallKinematics(
             jnp.asarray(operation.inner_speed),
@@ -106,57 +116,97 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
         gyroscopic=gyroscopic if isinstance(gyroscopic, AbstractGyroscopic) else None,
         couple_share=jnp.ones(()),
         multiplicity=row.multiplicity,
-        attitude="inner" if attitude == "inner" else "outer",
+        attitude="linear_slip" if slipping else "inner" if attitude == "inner" else "outer",
         exact=operation.tilts if exact is None else exact,
         common_orbit=scene.kinematics.orbit == "common",
+        spread=_spread(scene) if slipping else None,
     )
+
+
+def _spread(scene: BallBearing) -> Float[Array, "2"]:
+    """$(a^2 + c^2)/Q^{2/3}$ of the contacts on both races at the contact angle of the unloaded bearing, m^2/N^(2/3)."""
+    contacts = scene.geometry.free_contacts(reduced_modulus(scene.materials.rings, scene.materials.balls))
+    ellipse = contacts.ellipse(SPREAD_LOAD)
+    return (jnp.square(ellipse.rolling) + jnp.square(ellipse.transverse)) / SPREAD_LOAD ** (2.0 / 3.0)
 
 
 def _held_load(grooves: Grooves, row: Row) -> Float[Array, ""]:
     """Estimates the load that the given displacements of the ring ask for, N."""
-    rest = grooves.rest + row.held_shift
+    rest, _ = grooves.arcs.facing(grooves.of_ring + row.held_shift)
     approach = jnp.maximum(safe_norm(rest[0], rest[1]) - jnp.sum(grooves.offset), 0.0)
     load = together(grooves.stiffness) * approach**1.5 + FORCE_FLOOR
     return row.multiplicity * jnp.sum(load)
 
 
-def build_lubricated(scene: BallBearing, core: BallCore, guess: BallGuess | None = None) -> LubricatedBallSystem:
+def with_films(scene: BallBearing, core: BallCore) -> BallCore:
+    """The bearing without friction whose balls are larger by the films of its mean load: a better first guess where the
+    unknowns are places."""
+    assert scene.contact is not None
+    assert scene.oil is not None
+    geometry, motion, angle = scene.geometry, core.kinematics, core.grooves.free_angle
+    contacts = geometry.free_contacts(reduced_modulus(scene.materials.rings, scene.materials.balls)).shaped()
+    rolling = motion.rolling(angle, angle, motion.outer_control(angle))
+    speed = jnp.stack([motion.inner_race(rolling, angle).mean_speed, motion.outer_race(rolling, angle).mean_speed])
+    load = core.ball_scale() * jnp.ones(2)
+    inlet = jax.tree.map(lambda leaf: leaf[:, 0] if jnp.ndim(leaf) == 2 else leaf, oil_of_races(scene))
+    film = scene.contact.film_state(contacts, load, speed, jnp.zeros(2), scene.oil, inlet).separation
+    grooves = core.grooves._replace(offset=core.grooves.offset - jax.lax.stop_gradient(film))
+    return dataclasses.replace(core, grooves=grooves)
+
+
+def build_lubricated(
+    scene: BallBearing, core: BallCore, guess: BallGuess | None = None
+) -> LubricatedBallSystem | ArchedBallSystem:
     """The lubricated bearing of the same balls as `core`, to start from the first guess of that or from a given one."""
     assert scene.contact is not None
     assert scene.oil is not None
-    motion, angle = core.kinematics, core.grooves.free_angle
+    motion, angle, arcs = core.kinematics, core.grooves.free_angle, core.arcs
     reference = motion.rolling(angle, angle, 0.5 * (motion.outer_control(angle) + motion.inner_control(angle)))
-    return LubricatedBallSystem(
-        **{**core.shared_fields(), "attitude": scene.kinematics.attitude},
-        geometry=scene.geometry,
-        reduced_modulus=reduced_modulus(scene.materials.rings, scene.materials.balls),
-        laws=scene.contact,
-        oil=scene.oil,
-        inlet=oil_of_races(scene),
-        elsewhere=oil_elsewhere(scene),
-        **(_guesses(core, scene.slips) if guess is None else {"guess": guess}),
-        reference=reference,
-        orbit_unit=motion.orbit_scale(reference.orbital_speed),
-        resolved=isinstance(scene.kinematics.gyroscopic, ResolvedCouple),
-        cage=_cage_parts(scene) if scene.slips and scene.cage is not None else None,
-        drag=_drag(scene) if scene.slips and scene.drag is not None else None,
-        common_orbit=core.common_orbit,
-    )
+    inlet = oil_of_races(scene)
+    parts: dict[str, Any] = {
+        **core.shared_fields(),
+        **(_guesses(core, scene.slips, _guess if arcs.single else _places) if guess is None else {"guess": guess}),
+        "attitude": scene.kinematics.attitude,
+        "geometry": scene.geometry,
+        "reduced_modulus": reduced_modulus(scene.materials.rings, scene.materials.balls),
+        "laws": scene.contact,
+        "oil": scene.oil,
+        "inlet": inlet,
+        "elsewhere": oil_elsewhere(scene),
+        "reference": reference,
+        "orbit_unit": motion.orbit_scale(reference.orbital_speed),
+        "resolved": isinstance(scene.kinematics.gyroscopic, ResolvedCouple),
+        "cage": _cage_parts(scene) if scene.slips and scene.cage is not None else None,
+        "drag": _drag(scene) if scene.slips and scene.drag is not None else None,
+        "common_orbit": core.common_orbit,
+    }
+    if arcs.single:
+        return LubricatedBallSystem(**parts)
+    # balls of the core may be larger (`with_films`); the oil of the races gets a row for each contact
+    of_rows = lambda leaf: leaf[np.asarray(arcs.races)] if jnp.ndim(leaf) == 2 else leaf
+    parts |= {"grooves": ball_grooves(scene, core.grooves.expansion), "inlet": jax.tree.map(of_rows, inlet)}
+    return ArchedBallSystem(**parts, spread=_spread(scene))
 
 
-def _guesses(core: BallCore, slips: bool) -> dict[str, Any]:
+def _guesses(core: BallCore, slips: bool, guess_at: Callable[[BallCore, ArrowPoint], Any]) -> dict[str, Any]:
     """Makes the fields that say where the iteration starts.
 
     Balls that do not slide also get how much heavier the easiest load is, and the start under that."""
     guess, heavy = core.guesses()
     if slips:
-        return {"guess": _guess(core, guess)}
+        return {"guess": guess_at(core, guess)}
     easiest = core.ring.load * core.heavier
     loads, points = jax.tree.map(lambda a, b: jnp.stack([a, b]), (core.ring.load, guess), (easiest, heavy))
     under = lambda load: dataclasses.replace(core, ring=core.ring.under(load))
-    both = jax.vmap(lambda load, point: _guess(under(load), point))(loads, points)
+    both = jax.vmap(lambda load, point: guess_at(under(load), point))(loads, points)
     own, easy = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
     return {"guess": own, "heavy_guess": easy, "heavier": core.heavier}
+
+
+def _places(core: BallCore, point: ArrowPoint) -> BallPlaces:
+    state = core.at(point)
+    ring = point.globals[: len(core.freedoms)] * LENGTH_UNIT
+    return jax.lax.stop_gradient(BallPlaces(state.centre, ring, state.load, state.angle))
 
 
 def _guess(core: BallCore, point: ArrowPoint) -> BallGuess:

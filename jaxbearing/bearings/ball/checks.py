@@ -4,7 +4,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from ..facts import Contacts, Excess, RangeChecks, SolvedBearing
+from ..facts import LOADED, Contacts, Excess, RangeChecks, SolvedBearing
 from .scene import BallBearing
 
 
@@ -14,15 +14,34 @@ def _angles(result: SolvedBearing) -> Excess:
     def leaning(contacts: Contacts) -> Excess:
         if contacts.angle is None:
             return {}
-        # the groove of the model is a full circle
+        # each arc of the model is a full circle
         text = "a loaded ball touches the groove of {place} beyond 90°, where no groove is: it cannot run so"
         found = contacts.said(text, contacts.most(jnp.abs(contacts.angle)) - 0.5 * np.pi)
+        if scene.geometry.has_arcs:
+            return found | _cusps(scene, contacts)
         if scene.geometry.contact_angle is not None:
             text = "a loaded ball leans on the other shoulder of {place}: an angular-contact bearing has none there"
             found |= contacts.said(text, contacts.most(-contacts.angle) - 1e-9)
         return found
 
     return result.each(leaning)
+
+
+def _cusps(scene: BallBearing, contacts: Contacts) -> Excess:
+    """Contacts of rings with two arcs that have left their arc, and balls with more than two contacts."""
+    geometry, arcs = scene.geometry, scene.geometry.arcs
+    assert contacts.angle is not None
+    radii = (geometry.conformity_inner * geometry.ball_diameter, geometry.conformity_outer * geometry.ball_diameter)
+    found: Excess = {}
+    text = "a loaded ball touches {place} beyond the cusp between both arcs: the model is wrong there"
+    for k, (race, side) in enumerate(zip(arcs.races, arcs.sides, strict=True)):
+        apart = arcs[race]
+        if apart is not None:
+            past = contacts.most(jnp.arcsin(apart / radii[race]) - side * contacts.angle)
+            found[text.format(place=contacts.places[k])] = past[k]
+    carrying = jnp.sum(contacts.load > LOADED * jnp.max(contacts.load), axis=0, dtype=float)
+    text = "balls with more than two contacts under load slide: friction and wear rise, as with mainly radial load"
+    return found | {text: jnp.max(carrying) - 2.5}
 
 
 def missing_thrust(scene: BallBearing) -> Float[Array, ""]:
@@ -36,7 +55,8 @@ def missing_thrust(scene: BallBearing) -> Float[Array, ""]:
 def _thrust(scene: BallBearing) -> Excess:
     operation = scene.operation
     across = operation.radial_load is not None or operation.radial_load_lateral is not None
-    if scene.geometry.contact_angle is None or operation.displaced or not across:
+    no_side = scene.geometry.contact_angle is None or scene.geometry.has_arcs
+    if no_side or operation.displaced or not across:
         return {}
     text = (
         "axial load below 1.22 F_r tan(contact angle): fewer than half of the balls of this angular contact bearing "

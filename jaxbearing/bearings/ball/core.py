@@ -26,10 +26,11 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
 from ...numerics.arrow import ArrowPoint
-from ...numerics.safe import safe_norm
 from ..ring import LENGTH_UNIT
 from .kinematics import BallMotion
-from .start import CentrifugalProblem, free_centres, ring_estimate, start
+from .linear_slip import linear_slip, slip_weights
+from .springs import CentrifugalProblem
+from .start import free_centres, ring_estimate, start
 from .system import AbstractBallSystem
 
 FORCE_FLOOR = 1e-3
@@ -63,12 +64,13 @@ def orbit_row(totals: Float[Array, "2"], unit: Array) -> Array:
 
 
 class BallState(NamedTuple):
-    """Everything that happens at the balls for given unknowns; loads and angles (inner, outer) first."""
+    """Everything that happens at the balls for given unknowns; loads and angles have an axis of contacts
+    (`arcs`) first: inner, outer of rings with one arc each."""
 
-    load: Float[Array, "2 ball"]
-    angle: Float[Array, "2 ball"]
+    load: Float[Array, "contact ball"]
+    angle: Float[Array, "contact ball"]
     """Contact angles on the races: of the inner one against the tilted ring."""
-    direction: Float[Array, "2 ball"]
+    direction: Float[Array, "contact ball"]
     """Direction of the normal forces on the ball, from the radius towards the axis, in the fixed frame, rad."""
     centre: Float[Array, "2 ball"]
     """Centre of the ball, from the outer groove centre, m."""
@@ -83,7 +85,8 @@ class BallState(NamedTuple):
 
 
 class BallCore(AbstractBallSystem):
-    """Balls that roll without sliding, with the attitude of outer or inner race control.
+    """Balls that roll without sliding, with the attitude of outer or inner race control; or that slide as little as
+    their contacts allow (`linear_slip`).
 
     Its iteration begins at `guess`, and in an easier system (`parameter` > 0 of `homotopy`) at `heavy_guess`
     (`started`); where these are `None`, at estimates by formulas.
@@ -93,6 +96,8 @@ class BallCore(AbstractBallSystem):
     heavy_guess: ArrowPoint | None = None
     parameter: Float[Array, ""] | None = None
     common_orbit: bool = eqx.field(static=True, default=False)
+    spread: Float[Array, "2"] | None = None
+    """Of `linear_slip`; `None`: race control."""
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -176,7 +181,7 @@ class BallCore(AbstractBallSystem):
             return ArrowPoint(elements, ring)
         at_rest = jnp.append(ring, 0.0)
         state = self.balls(elements, jnp.broadcast_to(at_rest[:, None], (at_rest.size, elements.shape[1])))
-        away = orbit_totals(state.load[0], state.own_orbit, state.motion.orbital_speed)
+        away = orbit_totals(self.arcs.on_inner(state.load), state.own_orbit, state.motion.orbital_speed)
         return ArrowPoint(elements, at_rest.at[-1].set(-orbit_row(jnp.sum(away, axis=1), self.orbit_unit)))
 
     def _estimates(self) -> tuple[CentrifugalProblem, Float[Array, "2 2 ball"], Float[Array, "2 freedom"]]:
@@ -194,14 +199,24 @@ class BallCore(AbstractBallSystem):
             def better(turn: Array, last: tuple[Array, Array]) -> tuple[Array, Array]:
                 placed = turn == ESTIMATES  # the forces are known, and the balls are placed
                 centre, _ = free_centres(dataclasses.replace(problem, centrifugal=last[1]), groove, placed)
-                inner = groove - centre
-                angle = jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(centre[0], centre[1])])
+                inner, outer = core._loaded_side(groove, centre)
+                angle = jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(outer[0], outer[1])])
                 return centre, jnp.where(placed, last[1], core.outward_force(core.motion(angle)))
 
-            return *jax.lax.fori_loop(0, ESTIMATES + 1, better, (groove, problem.centrifugal)), ring
+            return *jax.lax.fori_loop(
+                0, ESTIMATES + 1, better, (jnp.zeros((2, groove.shape[1])), problem.centrifugal)
+            ), ring
 
         centres, forces, rings = jax.vmap(under)(jnp.stack([core.ring.load, core.heavier * core.ring.load]))
         return dataclasses.replace(first, centrifugal=forces[0]), centres, rings
+
+    def _loaded_side(self, groove: Array, centre: Array) -> tuple[Array, Array]:
+        """Arms of the contacts on the side towards which the inner ring has moved: from the ball centre to the inner
+        arc, and from the outer arc to the ball centre, m."""
+        pair, side = self.arcs.facing(groove)
+        if self.arcs.outer is not None and side is not None:
+            centre = centre.at[0].add(side * self.arcs.outer)
+        return pair - centre, centre
 
     def at_free_angle(self) -> CentrifugalProblem:
         """The convex problem at the centrifugal forces of the contact angle of the unloaded bearing."""
@@ -222,15 +237,20 @@ class BallCore(AbstractBallSystem):
             free_cosine=self.grooves.free_cosine,
             aligned=self.grooves.aligned,
             freedoms=self.freedoms,
+            arcs=self.arcs,
         )
 
-    def _groove_at_rest(self) -> Float[Array, "2 ball"]:
-        """Inner groove centres of the ring without displacement, at its misalignment, m."""
+    def _groove_at_rest(self) -> Float[Array, "p ball"]:
+        """Coordinates of the inner groove of the ring without displacement, at its misalignment, m."""
         shift = jnp.zeros((len(self.freedoms), self.azimuth.shape[0]))
         if not self.exact:
             return self.groove_centres(shift)
         centre = jnp.broadcast_to(self.free_centre(), (2, self.azimuth.shape[0]))
-        return centre + self.inner_arm(shift, centre).in_plane
+        places = [centre + arm.in_plane for arm in self.inner_arms(shift, centre)]
+        if len(places) == 1:
+            return places[0]
+        front, back = places
+        return jnp.concatenate([0.5 * (front + back), 0.5 * (back[1:] - front[1:])])
 
     @property
     def lanes_together(self) -> bool:
@@ -272,7 +292,7 @@ class BallCore(AbstractBallSystem):
         state = self.balls(unknowns, shared)
         totals = state.on_ring
         if self.common_orbit:
-            speeds = orbit_totals(state.load[0], state.own_orbit, state.motion.orbital_speed)
+            speeds = orbit_totals(self.arcs.on_inner(state.load), state.own_orbit, state.motion.orbital_speed)
             totals = jnp.concatenate([totals, self.multiplicity * speeds])
         return state.balance / self.ball_scale(), totals, state
 
@@ -285,10 +305,6 @@ class BallCore(AbstractBallSystem):
 
     # -- physics --------------------------------------------------------------------------------------------------
 
-    def free_centre(self) -> Float[Array, "2 1"]:
-        """Centre of an unloaded ball at the free contact angle, m."""
-        return self.grooves.offset[1] * self.grooves.free_normal
-
     def outward_force(self, motion: BallMotion) -> Array:
         """Centrifugal force with `FORCE_FLOOR`, N."""
         return self.centrifugal(motion.orbital_speed) + FORCE_FLOOR
@@ -299,44 +315,41 @@ class BallCore(AbstractBallSystem):
 
     def balls(self, unknowns: Float[Array, "2 ball"], shared: Float[Array, "g ball"]) -> BallState:
         centre = self.free_centre() + LENGTH_UNIT * unknowns[:2]
-        shift = shared[: len(self.freedoms)]
-        arm, on_ring = self.reach(shift, centre)
-        apart = jnp.stack([arm.length, safe_norm(centre[0], centre[1])])
-        direction = angle = jnp.stack([jnp.arctan2(*arm.in_plane), jnp.arctan2(centre[0], centre[1])])
-        if arm.turned is not None:
-            angle = direction.at[0].add(-arm.turned)
-        load = self.loads(apart)
-        motion = self.motion(angle, load[0] > 0)
+        touch = self.touch(shared[: len(self.freedoms)], centre)
+        load = self.loads(touch.apart)
+        motion = self.rolling(touch.angle, load)
         own_orbit = motion.orbital_speed
         if self.common_orbit:
             motion = motion._replace(orbital_speed=self.free_orbit() + self.orbit_unit * shared[len(self.freedoms)])
-        friction = None
-        if self.gyroscopic is not None:
-            parts = self.gyroscopic.friction(self.couple(motion), self.kinematics.ball_diameter, load[0], load[1])
-            friction = self.gyroscopic.sign * jnp.stack(parts)
-        pressing = load.at[0].multiply(arm.share) if self.exact else load
-        axial, radial, moment = self.with_friction(pressing, direction, friction)
-        sideways = () if arm.along is None else (load[0] * arm.along / arm.length,)
+        push = self.push(touch, load, self.couple_friction(motion, load))
         return BallState(
             load=load,
-            angle=angle,
-            direction=direction,
+            angle=touch.angle,
+            direction=touch.direction,
             centre=centre,
             motion=motion,
             own_orbit=own_orbit,
-            balance=jnp.stack([axial[1] - axial[0], radial[1] - radial[0] - self.outward_force(motion)]),
-            on_ring=on_ring(jnp.stack([axial[0], radial[0], *sideways]), moment),
+            balance=jnp.stack([push.axial, push.outward - self.outward_force(motion)]),
+            on_ring=push.on_ring,
         )
 
-    def loads(self, apart: Float[Array, "2 ball"]) -> Float[Array, "2 ball"]:
+    def loads(self, apart: Float[Array, "contact ball"]) -> Float[Array, "contact ball"]:
         """Hertz loads from the distances of the centres, N; 0 and without slope where a contact is open."""
-        approach = apart - self.grooves.offset[:, None]
+        approach = apart - self.arcs.of_contacts(self.grooves.offset)[:, None]
         closed = approach > 0
         power = jnp.where(closed, approach, 0.0) * jnp.sqrt(jnp.where(closed, approach, 1.0))
-        return self.grooves.stiffness[:, None] * power
+        return self.arcs.of_contacts(self.grooves.stiffness)[:, None] * power
+
+    def rolling(self, angle: Float[Array, "contact ball"], load: Float[Array, "contact ball"]) -> BallMotion:
+        """The motion at contact angles, rad, under loads, N."""
+        if self.spread is None:
+            return self.motion(angle, load[0] > 0)
+        weight = slip_weights(load, self.arcs, FORCE_FLOOR)
+        return linear_slip(self.kinematics, angle, weight, self.spread, self.arcs.races)
 
     def motion(self, angle: Float[Array, "2 ball"], touching: Bool[Array, " ball"] | None = None) -> BallMotion:
-        """Rolling without sliding, with the attitude of the controlling race.
+        """Rolling of two contacts without sliding, with the attitude of the controlling race. Of `linear_slip`, for
+        which it only makes estimates, that is the outer one.
 
         Of a ball that does not touch the inner race (not `touching`) the direction of the inner groove's centre stands
         for the contact angle, up to `STEEPEST`.
@@ -347,6 +360,6 @@ class BallCore(AbstractBallSystem):
         return self.kinematics.rolling(inner, outer, self._attitude(inner, outer))
 
     def _attitude(self, inner: Array, outer: Array) -> Array:
-        if self.attitude == "outer":
-            return self.kinematics.outer_control(outer)
-        return self.kinematics.inner_control(inner)
+        if self.attitude == "inner":
+            return self.kinematics.inner_control(inner)
+        return self.kinematics.outer_control(outer)

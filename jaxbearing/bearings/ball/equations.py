@@ -2,7 +2,8 @@ r"""Equations of the steady lubricated ball bearing, as a block-arrow system.
 
 Unknowns of each ball:
 
-- ln Qi and the inner contact angle, always;
+- two of its contacts, which say where it is: `pairs` has ln Qi and the inner contact angle of balls with two contacts,
+  `arched` the place of the centre of balls with more;
 - with traction the spin and, with `attitude="min_power"`, the attitude beta. With `"equilibrium"` they are the axial
   and the radial part of the spin instead, because polar coordinates are singular where the spin of a skidding ball
   passes through 0;
@@ -12,17 +13,20 @@ Unknowns of each ball:
 Global unknowns: the displacements of the ring; with a cage its speed, with which all balls orbit; without traction, on
 request, one orbital speed for all balls.
 
-`frictionless` has the contacts without traction and the two equations that keep the centre of a ball compatible with
-both races; `friction` has the friction on the balls and the equations of their motion.
+`pairs` and `arched` have the contacts without traction and their two equations; `friction` has the friction on the
+balls and the equations of their motion.
 
-The massless cage transmits the pocket forces to its lands. If the inner ring guides it, they enter the balance of that
-ring, $F_r = \sum p_r\cos\psi + W_{FCi}\cos\chi$, $W_{FCi}\cos\chi = \sum(F_{C2} - F_{C1})\cos\psi$ (source eqs.
-(18)-(19), (22)): the radial friction of each pocket is added to the radial force of its ball on the ring, and has no
-moment. The tangential forces, those of the pockets through the lands and $F_{ti}$ of the balls, cancel along the load
-line where the balls on both sides of it run alike. The balances of the ring, and its stiffness, leave out both.
+The cage has no mass and transmits the pocket forces to its lands. If the inner ring guides the cage, these forces enter
+the balance of that ring, $F_r = \sum p_r\cos\psi + W_{FCi}\cos\chi$, $W_{FCi}\cos\chi = \sum(F_{C2} - F_{C1})\cos\psi$
+(source eqs. (18)-(19), (22)). The radial friction of each pocket is therefore added to the radial force of its ball on
+the ring; it has no moment. The tangential forces are those of the pockets, which act through the lands, and $F_{ti}$ of
+the balls. They cancel along the load line if the balls on both sides of it run alike. The balances and the stiffness of
+the ring leave out the tangential forces.
 """
 
 import dataclasses
+from collections.abc import Callable
+from typing import ClassVar, NamedTuple
 
 import equinox as eqx
 import jax
@@ -34,73 +38,87 @@ from ..land import LandState, guided_land
 from ..ring import LENGTH_UNIT
 from .core import orbit_row, orbit_totals
 from .friction import with_traction
-from .frictionless import AbstractLubricatedBallSystem
+from .kinematics import BallMotion
+from .lubricated import AbstractLubricatedBallSystem
 from .state import BallsState
 
-LOG_LOAD_RANGE = (-200.0, 18.0)
-"""ln(load / 1 N) that an iterate may take."""
 EASIEST_SLIDE = 1e-3
 """Factor on the sliding speed in the traction law of the easiest system."""
 THINNEST_FILM = 1e-3
 """Factor on the films of the easiest system."""
 WIDEST_START = 0.3
-"""Sliding speed over which boundary friction starts in the easiest system, m/s."""
+"""Width of the range of sliding speeds in which boundary friction develops in the easiest system, m/s."""
 
 
-class LubricatedBallSystem(AbstractLubricatedBallSystem):
+OWN_EQUATIONS = {
+    "spin": "moment about the bearing axis on a ball",
+    "axial spin": "moment about the bearing axis on a ball",
+    "radial spin": "moment about the radius on a ball",
+    "attitude": "least spin power of a ball",
+    "orbit": "tangential force on a ball",
+    "outward": "radial pocket friction on a ball",
+    "transverse": "moment about the tangent on a ball",
+    "carried": "transverse friction at the inner race of a ball",
+}
+"""Names of the equations that belong to the unknowns of a ball's motion."""
+
+
+class OfContacts(NamedTuple):
+    """The two unknowns of the contacts of a ball: names of their equations, largest steps and bounds, scaled."""
+
+    names: tuple[str, str]
+    caps: tuple[float, float]
+    lowest: tuple[float, float]
+    highest: tuple[float, float]
+
+
+class AbstractBallEquations(AbstractLubricatedBallSystem):
     """Lubricated ball bearing; see the module."""
+
+    of_contacts: ClassVar[OfContacts]
 
     # -- solver contract ------------------------------------------------------------------------------------------
 
     def equation_names(self) -> tuple[str, ...]:
-        text = {
-            "spin": "moment about the bearing axis on a ball",
-            "axial spin": "moment about the bearing axis on a ball",
-            "radial spin": "moment about the radius on a ball",
-            "attitude": "least spin power of a ball",
-            "orbit": "tangential force on a ball",
-            "outward": "radial pocket friction on a ball",
-            "transverse": "moment about the tangent on a ball",
-            "carried": "transverse friction at the inner race of a ball",
-        }
-        own = tuple(text[name] for name in self.own_unknowns)
+        own = tuple(OWN_EQUATIONS[name] for name in self.own_unknowns)
         orbit = "common orbital speed" if self.cage is None else "moment balance of the cage"
-        return (
-            "approach of the rings at a ball",
-            "direction of the contacts of a ball",
-            *own,
-            *self.ring.equation_names(),
-            *((orbit,) if self.global_orbit else ()),
-        )
+        last = (orbit,) if self.global_orbit else ()
+        return (*self.of_contacts.names, *own, *self.ring.equation_names(), *last)
 
     def step_caps(self) -> ArrowPoint:
         caps = dict.fromkeys(("spin", "axial spin", "radial spin", "orbit"), 0.15)
         caps |= {"attitude": 0.3, "outward": 1.0, "transverse": 0.02, "carried": 1.0}
-        elements = [12.0, 0.2, *(caps[name] for name in self.own_unknowns)]
+        elements = [*self.of_contacts.caps, *(caps[name] for name in self.own_unknowns)]
         ring = [5.0] * len(self.freedoms) + [0.15] * self.global_orbit
         return ArrowPoint(jnp.asarray(elements)[:, None], jnp.asarray(ring))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        low, high = LOG_LOAD_RANGE
         own = len(self.own_unknowns)
-        lowest, highest = [low, -1.6] + [-50.0] * own, [high, 1.6] + [50.0] * own
+        lowest, highest = [*self.of_contacts.lowest] + [-50.0] * own, [*self.of_contacts.highest] + [50.0] * own
         ring = jnp.asarray([1e5] * len(self.freedoms) + [3.0] * self.global_orbit)
         return ArrowPoint(jnp.asarray(lowest)[:, None], -ring), ArrowPoint(jnp.asarray(highest)[:, None], ring)
 
-    def initial(self) -> ArrowPoint:
-        guess, reference = self.guess, self.reference
-        zeros = jnp.zeros_like(guess.log_load)
-        inner = guess.angle
-        outer = self._outer_contact(guess.log_load, inner, self.centrifugal(reference.orbital_speed), None)[1]
-        rolling = self.kinematics.rolling(inner, outer, guess.attitude)
+    def _started(
+        self,
+        contacts: tuple[Array, Array],
+        ring: Float[Array, " freedom"],
+        load: Float[Array, " ball"],
+        rolling: BallMotion,
+        held: Callable[[Array], BallMotion],
+    ) -> ArrowPoint:
+        """First unknowns, from those of the contacts.
+
+        **Arguments:** `ring`: its displacements, m; `load`: of each ball, N; `rolling`: motion of the balls where each
+        has its own orbital speed; `held`: that motion at an orbital speed for all, rad/s.
+        """
+        reference, zeros = self.reference, jnp.zeros_like(load)
         orbit = common = (rolling.orbital_speed - reference.orbital_speed) / self.orbit_unit
         if self.global_orbit:
-            weights = jnp.exp(guess.log_load)
-            common = jnp.sum(weights * orbit) / jnp.sum(weights)
-            rolling = self.kinematics.held(self.orbit(common), inner, outer, guess.attitude)
+            common = jnp.sum(load * orbit) / jnp.sum(load)
+            rolling = held(self.orbit(common))
         start = {
             "spin": (rolling.spin_speed - reference.spin_speed) / self.spin_unit(),
-            "attitude": guess.attitude,
+            "attitude": rolling.attitude,
             "orbit": orbit,
             "outward": zeros,
             "transverse": zeros,
@@ -108,21 +126,19 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
         }
         parts = zip(self._spin_parts(rolling), self._spin_parts(reference), strict=True)
         start |= {name: (value - ref) / self.spin_unit() for (name, value), (_, ref) in parts}
-        elements = jnp.stack([guess.log_load, inner, *(start[name] for name in self.own_unknowns)])
-        ring = guess.ring / LENGTH_UNIT
-        if self.global_orbit:
-            ring = jnp.append(ring, common)
-        return ArrowPoint(elements, ring)
+        elements = jnp.stack([*contacts, *(start[name] for name in self.own_unknowns)])
+        scaled = ring / LENGTH_UNIT
+        return ArrowPoint(elements, jnp.append(scaled, common) if self.global_orbit else scaled)
 
     @property
     def increasing(self) -> bool:
-        """False: at a root, a pivot can be negative if a ball has nearly lost its inner race."""
+        """False: a pivot at a root can be negative if a ball has almost lost contact with the inner race."""
         return False
 
     @property
     def rounding(self) -> float:
-        """In slow, heavily loaded contacts the round-off of a speed changes the friction by up to 1e-8 of its scale,
-        which is 1 % of the load of a ball."""
+        """In slow, heavily loaded contacts the round-off of a speed changes the friction by up to 1e-8 of the friction
+        scale. That scale is 1 % of the load of a ball."""
         return 100.0
 
     @property
@@ -135,12 +151,12 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
         return self.slips and self.laws.mixed is not None
 
     def homotopy(self, parameter, path):
-        """With traction, the easier systems slide more slowly in the traction law, which then saturates less. If
+        """With traction, the easier systems have less sliding in the traction law, so the traction saturates less. If
         traction has to carry the gyroscopic couple, the first path lowers that couple and the second the sliding.
-        Of rough balls a path before these widens the range of sliding speeds in which boundary friction starts. The
-        narrower this range is, the closer to rolling a ball must stay on the way to its root.
+        For rough balls an additional first path widens the range of sliding speeds in which boundary friction develops.
+        The narrower this range is, the closer to rolling a ball must stay on the way to its root.
         Without traction, the first path raises the load until the contacts are stiffer than the films, and the second
-        thins the films, because those of lightly loaded balls are much thicker than their contacts are deflected."""
+        thins the films. The films of lightly loaded balls are much thicker than the deflection of their contacts."""
         if self.heavier is not None:
             of_load, of_films = jnp.where(path == 0, parameter, 0.0), jnp.where(path == 0, 0.0, parameter)
             guess = jax.tree.map(lambda a, b: jnp.where(of_load > 0, a, b), self.heavy_guess, self.guess)
@@ -159,7 +175,7 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
         return eqx.tree_at(lambda system: system.laws.mixed.slide_width, self, width)
 
     def _slower(self, parameter, path):
-        """Traction laws that see less sliding, or less of a couple that traction has to carry."""
+        """The system with less sliding in the traction laws, or with a smaller gyroscopic couple."""
         slide = EASIEST_SLIDE**parameter
         if not self.resolved:
             return dataclasses.replace(self, slide_share=slide)
@@ -168,7 +184,7 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
 
     @property
     def extra_totals(self) -> int:
-        # moment on the cage, and two components of the force for one global; weighted speeds and weights
+        # common orbit: weighted speeds and weights for one global; cage: its moment and two force components for one
         return 1 if self.common_orbit else 0 if self.cage is None else 2
 
     def element(self, unknowns, shared):
@@ -177,7 +193,7 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
         if state.cage_moment is not None and state.cage_force is not None:
             totals += [self.multiplicity * state.cage_moment[None, :], state.cage_force]
         if self.common_orbit:
-            own = self.kinematics.rolling(state.angle[0], state.angle[1], state.motion.attitude).orbital_speed
+            own = self.free_rolling(state)
             totals.append(self.multiplicity * orbit_totals(state.load[0], own, state.motion.orbital_speed))
         local = jnp.concatenate([state.fit, *(row[None, :] for row in state.rows)])
         return local, jnp.concatenate(totals), jnp.maximum(jnp.max(state.film.residual), state.orbit_residual)
@@ -191,7 +207,7 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
             return ring, jnp.zeros(())
         land = self.land(self.orbit(globals_[d]), totals[d + 1], totals[d + 2])
         scale = self.friction_scale() * 0.5 * self.kinematics.pitch_diameter * self.ball_count
-        # the moment falls with the cage speed
+        # the moment falls with the cage speed, so its sign is changed
         return jnp.concatenate([ring, -(totals[d] + land.cage_torque)[None] / scale]), land.residual
 
     # -- physics --------------------------------------------------------------------------------------------------

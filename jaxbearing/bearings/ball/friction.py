@@ -27,7 +27,6 @@ which is what $\int\tau\cdot\Delta u\,dA$ has beside sliding of the centre and s
 
 import jax
 import jax.numpy as jnp
-import numpy as np
 from jaxtyping import Array, Float
 
 from ...contacts.distributed import Traction
@@ -35,11 +34,15 @@ from ...contacts.mixed import MixedState
 from ...contacts.shear import Sliding
 from ...gaps.ball_pocket import BallPocketFilm
 from ...numerics.roots import monotone_root
-from .frictionless import AbstractLubricatedBallSystem
+from ...numerics.safe import smooth_abs
+from .arcs import Arcs, added
+from .lubricated import AbstractLubricatedBallSystem
 from .state import BallsState, RaceState
 
-SIDES = np.array([[1.0], [-1.0]])
-"""Inner, outer: the sense of the contact's x axis along the orbit."""
+SIDES = Arcs().senses
+"""Of balls with two contacts, inner, outer: the sense of the contact's x axis along the orbit."""
+FADING_LOAD = 1e-3
+"""Load of a contact at which its traction fades where balls have more than two, N."""
 PART_TOLERANCE = 1e-12
 """Tolerance of the attitude of least spin power, as a part of the way from outer to inner control."""
 
@@ -48,9 +51,9 @@ def with_traction(system: AbstractLubricatedBallSystem, state: BallsState) -> Ba
     """The state with all friction on the balls, and the equations of their motion."""
     motion = state.motion
     shear, rolling, curvature = race_friction(system, state)
-    forward, about = jnp.asarray(-SIDES * shear.rolling), -shear.moment
+    forward, about = jnp.asarray(-system.arcs.senses * shear.rolling), -shear.moment
     axis, radius = _moments(system, state.angle, forward, about, (rolling, curvature))
-    tangential, drag_force, pocket = forward[0] + forward[1], None, None
+    tangential, drag_force, pocket = added(system.arcs.by_race(forward)), None, None
     if system.drag is not None:
         speed = 0.5 * system.kinematics.pitch_diameter * motion.orbital_speed
         drag_force = system.drag.force(speed, system.oil_of("drag").viscosity)
@@ -78,34 +81,46 @@ def with_traction(system: AbstractLubricatedBallSystem, state: BallsState) -> Ba
 def race_friction(
     system: AbstractLubricatedBallSystem, state: BallsState | RaceState
 ) -> tuple[Traction, Array | None, Array | None]:
-    """Traction of both contacts; moments against the roll by the film's pressure and by Heathcote slip, N m;
+    """Traction of all contacts; moments against the roll by the film's pressure and by Heathcote slip, N m;
     `None`: not modelled."""
     races = state.races
     bend = 0.5 / _patch_radius(system) if system.laws.heathcote else None
     sliding = _sliding(system, state, bend)
     shear = system.laws.shear(state.contact, state.load, state.film, races.mean_speed, sliding, system.oil)
-    turn = SIDES * races.roll
+    if not system.arcs.single:
+        shear = _fading(shear, state.load)
+    turn = system.arcs.senses * races.roll
     rolling = system.laws.rolling_moment(state.contact, state.load, state.film, races.mean_speed, turn, system.inlet)
     curvature = None if bend is None or shear.curvature is None else -bend * shear.curvature
     return shear, rolling, curvature
 
 
+def _fading(shear: Traction, load: Float[Array, "contact ball"]) -> Traction:
+    r"""Traction times $Q/\sqrt{Q^2 + Q_\epsilon^2}$.
+
+    The patch of a contact levels off near load 0, and an open one would pull at its ball."""
+    share = load / smooth_abs(load, FADING_LOAD)
+    more = {} if shear.curvature is None else {"curvature": share * shear.curvature}
+    names = ("rolling", "transverse", "moment", "power")
+    return shear._replace(**{name: share * getattr(shear, name) for name in names}, **more)
+
+
 def _sliding(system: AbstractLubricatedBallSystem, state: BallsState | RaceState, bend: Array | None = None) -> Sliding:
     """Speed of the ball over both races, in the axes of the traction law. **Arguments:** `bend`: half the curvature of
     the surface in which they meet, 1/m, where it counts."""
-    races, slide = state.races, system.slide_share * SIDES
+    races, slide = state.races, system.slide_share * system.arcs.senses
     transverse = slide * races.transverse if system.resolved else None
     curved = None if bend is None else bend * slide * races.roll
     return Sliding(slide * races.rolling, transverse, system.slide_share * races.spin, curved)
 
 
 def mixed_state(system: AbstractLubricatedBallSystem, state: BallsState) -> MixedState | None:
-    """Mixed friction of both contacts, forces of the races on the balls along the orbit; `None`: not modelled."""
+    """Mixed friction of all contacts, forces of the races on the balls along the orbit; `None`: not modelled."""
     shear = state.traction
     assert shear is not None
     sliding, speed = _sliding(system, state), state.races.mean_speed
     found = system.laws.mixed_state(state.contact, state.load, state.film, speed, sliding, shear, system.oil)
-    return None if found is None else found._replace(boundary=jnp.asarray(-SIDES * found.boundary))
+    return None if found is None else found._replace(boundary=jnp.asarray(-system.arcs.senses * found.boundary))
 
 
 def _moments(
@@ -117,16 +132,21 @@ def _moments(
 ) -> tuple[Array, Array]:
     """Moments on each ball about the bearing's axis and about the radius, over half of the ball's diameter, N.
 
-    **Arguments:** on the ball, races first: `forward`, force along the orbit, N; `about`, moment about the normal,
+    **Arguments:** on the ball at each contact: `forward`, force along the orbit, N; `about`, moment about the normal,
     and `resistances`, moments against the roll, N m.
     """
     sine, cosine, arm = jnp.sin(angle), jnp.cos(angle), 2.0 / system.kinematics.ball_diameter
-    axis = forward[1] * cosine[1] - forward[0] * cosine[0] + arm * (about[1] * sine[1] - about[0] * sine[0])
-    radius = forward[0] * sine[0] - forward[1] * sine[1] + arm * (about[1] * cosine[1] - about[0] * cosine[0])
+    by_race = system.arcs.by_race
+    (pushed, held), (turned, braked) = by_race(forward * cosine), by_race(about * sine)
+    axis = held - pushed + arm * (braked - turned)
+    (pushed, held), (turned, braked) = by_race(forward * sine), by_race(about * cosine)
+    radius = pushed - held + arm * (braked - turned)
     for resistance in resistances:
         if resistance is not None:
-            axis = axis + arm * (resistance[1] * cosine[1] + resistance[0] * cosine[0])
-            radius = radius - arm * (resistance[1] * sine[1] + resistance[0] * sine[0])
+            inner, outer = by_race(resistance * cosine)
+            axis = axis + arm * (outer + inner)
+            inner, outer = by_race(resistance * sine)
+            radius = radius - arm * (outer + inner)
     return axis, radius
 
 
@@ -162,17 +182,18 @@ def _rows(
         rows["outward"] = (state.pocket_force + (pocket.friction_front - pocket.friction_rear)) / scale
     if system.resolved:
         assert state.friction is not None
-        sideways = state.friction - SIDES * shear.transverse
-        rows["transverse"], rows["carried"] = (sideways[0] + sideways[1]) / scale, sideways[0] / scale
+        sideways = state.friction - system.arcs.senses * shear.transverse
+        rows["transverse"], rows["carried"] = added(system.arcs.by_race(sideways)) / scale, sideways[0] / scale
     if system.attitude == "min_power":
         rows["attitude"] = state.motion.attitude - _least_power(system, state)
     return tuple(rows[name] for name in system.own_unknowns)
 
 
-def _patch_radius(system: AbstractLubricatedBallSystem) -> Float[Array, "2 1"]:
-    """R_k = 2 f_k D/(2 f_k + 1): of the surface in which ball and race meet, across rolling, (inner, outer), m."""
+def _patch_radius(system: AbstractLubricatedBallSystem) -> Float[Array, "contact 1"]:
+    """R_k = 2 f_k D/(2 f_k + 1): of the surface in which ball and race meet, across rolling, m."""
     conformities = jnp.stack([jnp.asarray(system.geometry.conformity_inner), system.geometry.conformity_outer])
-    return (2.0 * conformities * system.geometry.ball_diameter / (2.0 * conformities + 1.0))[:, None]
+    radii = 2.0 * conformities * system.geometry.ball_diameter / (2.0 * conformities + 1.0)
+    return system.arcs.of_contacts(radii)[:, None]
 
 
 def _least_power(system: AbstractLubricatedBallSystem, state: BallsState) -> Array:

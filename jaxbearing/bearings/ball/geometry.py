@@ -1,9 +1,10 @@
 """Geometry of a ball bearing: grooves, contact angle, centres of curvature."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import ClassVar
 
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from ..._scene import number, optional_number
@@ -13,6 +14,10 @@ from ...numerics.checks import Checked, demand, numbers_or_none
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import count
 from ..parts import FIRST_ELEMENT, check_row_fits
+from .arcs import Arcs, added
+
+LEAST_SHIM = 1.0
+"""Least shim angle of a ring with two arcs, degrees. With less, both contacts of a ring are one and count twice."""
 
 
 class BallGeometry(Checked):
@@ -24,6 +29,9 @@ class BallGeometry(Checked):
     - `conformity_inner`, `conformity_outer`: groove radius over ball diameter, > 0.5.
     - `contact_angle`: of the unloaded bearing, rad, at least 0 and below pi/2.
     - `diametral_clearance`: DIAMETRAL internal clearance of the unloaded bearing, m; negative: radial preload.
+    - `shim_inner`, `shim_outer`: shim angle of a ring with two groove arcs, rad, at least 1 degree: the contact angle
+      of a ball that touches both arcs of the ring; not given: one arc. `contact_angle` is then that of two contacts,
+      and `diametral_clearance` that between all contacts.
     - `shoulder_angle_inner`, `shoulder_angle_outer`: angle at which the groove ends, rad; not given: no check.
     - `first_element_angle`: azimuth of the first ball, rad; not given: 0, and the load line is a line of symmetry.
     - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, for what knows its seats.
@@ -38,6 +46,8 @@ class BallGeometry(Checked):
     conformity_outer: Scalar = number(bound="above 0.5 and at most 1", unit="1")
     contact_angle: Scalar | None = optional_number(bound=">= 0 and below 90 degrees", unit="rad")
     diametral_clearance: Scalar | None = optional_number(unit="m")
+    shim_inner: Scalar | None = optional_number(bound="above 0 and below 90 degrees", unit="rad")
+    shim_outer: Scalar | None = optional_number(bound="above 0 and below 90 degrees", unit="rad")
     shoulder_angle_inner: Scalar | None = optional_number(bound="above 0 and below 90 degrees", unit="rad")
     shoulder_angle_outer: Scalar | None = optional_number(bound="above 0 and below 90 degrees", unit="rad")
     first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
@@ -57,6 +67,8 @@ class BallGeometry(Checked):
                 f"geometry.contact_angle: found {found} diametral_clearance, expected one of the two: each follows "
                 "from the other"
             )
+        for name in ("shim_inner", "shim_outer"):
+            yield from self._shim_problems(name)
         sizes = numbers_or_none(
             self.diametral_clearance, self.ball_diameter, self.conformity_inner, self.conformity_outer
         )
@@ -66,6 +78,20 @@ class BallGeometry(Checked):
                 "geometry.diametral_clearance must be less than that of balls that leave the grooves",
                 sizes[0] < 2.0 * (sizes[2] + sizes[3] - 1.0) * sizes[1],
                 lambda: f"geometry.diametral_clearance: {float(sizes[0]):g} m is more than the grooves hold",
+            )
+
+    def _shim_problems(self, name: str) -> Iterator[str | ValueError]:
+        found = numbers_or_none(getattr(self, name))
+        if found is not None:
+            angle = found[0]
+            yield from refusals_of(
+                demand,
+                f"geometry.{name} must be at least {LEAST_SHIM:g} degree",
+                angle >= np.radians(LEAST_SHIM),
+                lambda: (
+                    f"geometry.{name}: found {np.degrees(float(angle)):.3g} degrees, expected at least "
+                    f"{LEAST_SHIM:g}, or no shim angle: both contacts of this ring would be one"
+                ),
             )
 
     @property
@@ -84,9 +110,31 @@ class BallGeometry(Checked):
         return (self.conformity_outer - 0.5) * jnp.asarray(self.ball_diameter)
 
     @property
+    def has_arcs(self) -> bool:
+        """True if a ring has two groove arcs."""
+        return self.shim_inner is not None or self.shim_outer is not None
+
+    @property
+    def arcs(self) -> Arcs:
+        r"""Distances $e = g\sin a$ of the circles of groove centres from the middle planes of their rings."""
+        inner = None if self.shim_inner is None else self.inner_offset * jnp.sin(self.shim_inner)
+        outer = None if self.shim_outer is None else self.outer_offset * jnp.sin(self.shim_outer)
+        return Arcs(inner, outer)
+
+    @property
+    def lift(self) -> Array | None:
+        r"""See `Arcs.lift`, $\sum 2g\sin^2(a/2)$, m; `None` if each ring has one arc."""
+        shims = ((self.inner_offset, self.shim_inner), (self.outer_offset, self.shim_outer))
+        parts = [2.0 * g * jnp.square(jnp.sin(0.5 * a)) for g, a in shims if a is not None]
+        return added(parts) if parts else None
+
+    @property
     def free_clearance(self) -> Scalar | None:
-        """Diametral clearance from which the contact angle follows, m; `None`: the contact angle is given."""
-        return self.diametral_clearance
+        """Diametral clearance from which the contact angle follows, m; `None`: the contact angle is given. Of rings
+        with two arcs it is that of a bearing with one arc each, whose circles of groove centres are as far apart."""
+        if self.diametral_clearance is None or self.lift is None:
+            return self.diametral_clearance
+        return self.diametral_clearance + 2.0 * self.lift
 
     @property
     def free_cosine(self) -> Array:
@@ -111,10 +159,11 @@ class BallGeometry(Checked):
     def aligned(self) -> Array:
         """Axial displacement of the inner ring at which the planes of the grooves coincide, m.
 
-        A bearing given by its clearance has its zero there, in the middle of the play. One given by its contact angle
-        has its zero at first contact of balls and races, with the inner ring pushed along $+e_x$.
+        A bearing given by its clearance has its zero there, in the middle of the play. So has one with two arcs
+        on a ring. Another one that is given by its contact angle has its zero at first contact of balls and races, with
+        the inner ring pushed along $+e_x$.
         """
-        if self.contact_angle is None:
+        if self.contact_angle is None or self.has_arcs:
             return jnp.zeros(())
         return -self.centre_distance * self.free_sine
 
@@ -130,12 +179,24 @@ class BallGeometry(Checked):
 
     def contacts(self, inner_cosine: Values, outer_cosine: Values, reduced_modulus: Values) -> PointContact:
         """Both contacts, races first (inner, outer), at given contact angles: shape (2, ...)."""
+        return self.contacts_on((inner_cosine, outer_cosine), (0, 1), reduced_modulus)
+
+    def contacts_on(
+        self, cosines: Sequence[Values] | Array, races: tuple[int, ...], reduced_modulus: Values
+    ) -> PointContact:
+        """Contacts at given contact angles, shape (contact, ...). **Arguments:** `races`: of each contact, 0 inner."""
         ratio = self.ball_diameter / self.pitch_diameter
         half = 0.5 * jnp.asarray(self.ball_diameter)
-        rolling = jnp.stack([half * (1.0 - ratio * inner_cosine), half * (1.0 + ratio * outer_cosine)])
+        rolling = jnp.stack(
+            [
+                half * (1.0 - ratio * cosine) if race == 0 else half * (1.0 + ratio * cosine)
+                for cosine, race in zip(cosines, races, strict=True)
+            ]
+        )
         groove = lambda f: f * self.ball_diameter / (2.0 * f - 1.0)
-        transverse = jnp.stack([jnp.asarray(groove(f)) for f in (self.conformity_inner, self.conformity_outer)])
-        return PointContact(rolling, transverse.reshape((2,) + (1,) * (rolling.ndim - 1)), reduced_modulus)
+        conformities = (self.conformity_inner, self.conformity_outer)
+        transverse = jnp.stack([jnp.asarray(groove(conformities[race])) for race in races])
+        return PointContact(rolling, transverse.reshape((len(races),) + (1,) * (rolling.ndim - 1)), reduced_modulus)
 
     def free_contacts(self, reduced_modulus: Values) -> PointContact:
         """Both contacts at the free contact angle, shape (2,)."""

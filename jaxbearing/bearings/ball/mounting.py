@@ -15,6 +15,7 @@ from jaxtyping import Array, Float
 from ..._scene import number
 from ..._types import Scalar
 from ..growth import Growth, Play
+from .arcs import added
 from .geometry import BallGeometry
 
 
@@ -23,7 +24,7 @@ class RunningBallGeometry(BallGeometry):
     what is made for the nominal bearing, such as its ratings.
 
     **Arguments:** those of `BallGeometry`, and
-    - `running_clearance`: diametral, m; negative: radial preload.
+    - `running_clearance`: diametral, m; negative: radial preload. Of rings with two arcs it is `free_clearance`.
     - `axial_rest`: axial distance of the grooves' planes where displacements count from, m: that of first contact on
       the drawing, 0 of a bearing given by its clearance. It does not change with the clearance, so that displacements
       are smooth where that passes 0.
@@ -42,11 +43,13 @@ class RunningBallGeometry(BallGeometry):
 
 
 class _Grooves(NamedTuple):
-    """Radii of both grooves and of the circles of their centres, diameter of the balls, m."""
+    """Radii of both grooves and of the circles of their centres, diameter of the balls, m. `shims`: shim angles,
+    rad, `None` of rings with one arc."""
 
     radii: tuple[Array, Array]
     circles: tuple[Array, Array]
     ball: Array
+    shims: tuple[Scalar | None, Scalar | None] = (None, None)
 
     @property
     def distance(self) -> Array:
@@ -59,7 +62,16 @@ class _Grooves(NamedTuple):
 
     @property
     def clearance(self) -> Array:
+        """Diametral clearance of a bearing with one arc each and the same circles, m."""
         return 2.0 * (self.distance - self.across)
+
+    @property
+    def play(self) -> Array:
+        """Diametral clearance between all contacts, m."""
+        pairs = [(r - 0.5 * self.ball, a) for r, a in zip(self.radii, self.shims, strict=True) if a is not None]
+        if not pairs:
+            return self.clearance
+        return self.clearance - added([4.0 * g * jnp.square(jnp.sin(0.5 * a)) for g, a in pairs])
 
 
 def groove_bottoms(geometry: BallGeometry) -> tuple[Float[Array, ""], Float[Array, ""]]:
@@ -78,7 +90,8 @@ def _grown(geometry: BallGeometry, growth: Growth) -> _Grooves:
         geometry.conformity_outer * geometry.ball_diameter * (1.0 + growth.outer_strain),
     )
     circles = (0.5 * (inner + growth.inner) + radii[0], 0.5 * (outer + growth.outer) - radii[1])
-    return _Grooves(radii, circles, geometry.ball_diameter * (1.0 + growth.element_strain))
+    ball = geometry.ball_diameter * (1.0 + growth.element_strain)
+    return _Grooves(radii, circles, ball, (geometry.shim_inner, geometry.shim_outer))
 
 
 def running_geometry(geometry: BallGeometry, growth: Growth) -> RunningBallGeometry:
@@ -94,6 +107,8 @@ def running_geometry(geometry: BallGeometry, growth: Growth) -> RunningBallGeome
         conformity_outer=grooves.radii[1] / grooves.ball,
         contact_angle=geometry.contact_angle,
         diametral_clearance=geometry.diametral_clearance,
+        shim_inner=geometry.shim_inner,
+        shim_outer=geometry.shim_outer,
         shoulder_angle_inner=geometry.shoulder_angle_inner,
         shoulder_angle_outer=geometry.shoulder_angle_outer,
         first_element_angle=geometry.first_element_angle,
@@ -111,4 +126,4 @@ def running_play(geometry: BallGeometry, growth: Growth) -> Play:
     sine = jnp.where(open_, jnp.sqrt(jnp.where(open_, lift * (2.0 - lift), 1.0)), 0.0)
     angle = jnp.arctan2(sine, jnp.where(open_, 1.0 - lift, 1.0))
     shift = grooves.distance * sine - geometry.centre_distance * geometry.free_sine
-    return Play(grooves.clearance, angle, shift, grooves.across > 0.0)
+    return Play(grooves.play, angle, shift, grooves.across > 0.0)

@@ -18,13 +18,22 @@ def ball_outline(scene: BallBearing, of: Callable[[str], float] | None) -> Outli
     diameter, half = 1e3 * float(geometry.ball_diameter), 500.0 * float(geometry.ball_diameter)
     # of a bearing that is given by its clearance: in the middle of its play
     free = 0.0 if geometry.contact_angle is None else float(geometry.contact_angle)
+    if geometry.has_arcs:
+        free = math.atan2(float(geometry.free_sine), float(geometry.free_cosine))
     contacts: dict[str, tuple[Point, Point]] = {}
     rings = []
     for side, sign in (("outer", 1.0), ("inner", -1.0)):
         angle = free if of is None else of(f"contact_angle_{side}")
         direction = sign * math.sin(angle), sign * math.cos(angle)
-        rings.append(_groove(diameter, float(getattr(geometry, f"conformity_{side}")), direction, sign))
+        conformity, apart = float(getattr(geometry, f"conformity_{side}")), getattr(geometry.arcs, side)
         contacts[side] = moved((0.0, 0.0), direction, half), direction
+        if apart is None:
+            rings.append(_groove(diameter, conformity, direction, sign))
+            continue
+        rings.append(_two_arcs(diameter, conformity, direction, sign, 1e3 * float(apart)))
+        back = -free if of is None else of(f"contact_angle_{side}_second")
+        direction = sign * math.sin(back), sign * math.cos(back)
+        contacts[f"{side}_second"] = moved((0.0, 0.0), direction, half), direction
     point = lambda sign, at: (sign * half * math.sin(at), sign * half * math.cos(at))
     labels = {
         "ball_diameter": (-0.6 * half, 0.0),
@@ -54,5 +63,24 @@ def _groove(diameter: float, conformity: float, direction: Point, sign: float) -
     start = math.atan2(sign * (shoulder - cy), reach)
     angles = np.linspace(math.pi - start, start, 40)
     arc = [(cx + radius * math.cos(a), cy + sign * radius * math.sin(a)) for a in angles]
+    end, back = (0.5 + RING_SIDE) * diameter, sign * (0.5 + RING_THICKNESS) * diameter
+    return [(-end, shoulder), *arc, (end, shoulder), (end, back), (-end, back)]
+
+
+def _two_arcs(diameter: float, conformity: float, direction: Point, sign: float, apart: float) -> list[Point]:
+    """A ring with two groove arcs, whose first one touches the ball in this direction; see `_groove`.
+
+    **Arguments:** `apart`: distance of the centres of the arcs from the middle plane of the ring, mm."""
+    radius = conformity * diameter
+    cx, cy = moved((0.0, 0.0), direction, (0.5 - conformity) * diameter)
+    shoulder = sign * _SHOULDER * diameter
+    reach = math.sqrt(max(radius * radius - (shoulder - cy) ** 2, 0.0))
+    middle, other = cx + sign * apart, cx + 2.0 * sign * apart
+    arc = []
+    for x in np.linspace(
+        min(cx + sign * reach, other - sign * reach), max(cx + sign * reach, other - sign * reach), 61
+    ):
+        centre = cx if sign * (x - middle) >= 0.0 else other
+        arc.append((float(x), cy + sign * math.sqrt(max(radius * radius - (x - centre) ** 2, 0.0))))
     end, back = (0.5 + RING_SIDE) * diameter, sign * (0.5 + RING_THICKNESS) * diameter
     return [(-end, shoulder), *arc, (end, shoulder), (end, back), (-end, back)]

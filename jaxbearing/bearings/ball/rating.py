@@ -12,9 +12,9 @@ from .build import build_core
 from .scene import BallBearing
 
 
-def linear_tilt_loads(scene: BallBearing, options: NewtonOptions | None = None) -> Float[Array, "2 ball"]:
-    r"""Loads on the inner and outer race, N, where a tilt moves the inner grooves along the axis only, by
-    $R_i\theta\cos\psi$.
+def linear_tilt_loads(scene: BallBearing, options: NewtonOptions | None = None) -> Float[Array, "contact ball"]:
+    r"""Loads on the contacts (`arcs`; first those on the inner race), N, where a tilt moves the inner grooves to first
+    order, along the axis by $R_i\theta\cos\psi$.
 
     This is what ISO 16281 and software built on it compute with; the motion $R_i(1 - \cos\theta)\cos^2\psi$ towards
     the axis is left out. Films and friction are left out too; centrifugal forces are those of the scene. NaN where the
@@ -26,12 +26,22 @@ def linear_tilt_loads(scene: BallBearing, options: NewtonOptions | None = None) 
     return jnp.where(result.converged, load, jnp.nan)
 
 
+def _by_flank(
+    scene: BallBearing, load: Float[Array, "contact ball"]
+) -> tuple[Array, Array, tuple[Array | None, Array | None]]:
+    """Loads on the first flanks of both races, and on the second ones."""
+    arcs = scene.geometry.arcs
+    second = (None if arcs.inner is None else load[1], None if arcs.outer is None else load[-1])
+    return load[0], load[arcs.first_outer], second
+
+
 def rated_contacts(scene: BallBearing, elements: Any, force: Float[Array, " freedom"] | None = None) -> RatedContacts:
     """**Arguments:** `elements`: `BallResults` of a solution; `force`: its `force`."""
     geometry = scene.geometry
     inner, outer = elements.load_inner, elements.load_outer
+    second = elements.load_inner_second, elements.load_outer_second
     if scene.rated_to_first_order:
-        inner, outer = linear_tilt_loads(running_scene(scene)[0])
+        inner, outer, second = _by_flank(scene, linear_tilt_loads(running_scene(scene)[0]))
     radial, axial = sizes_of_loads(scene.operation, force)
     return RatedContacts(
         n_elements=geometry.n_balls,
@@ -44,6 +54,7 @@ def rated_contacts(scene: BallBearing, elements: Any, force: Float[Array, " free
         inner=inner,
         outer=outer,
         conformities=(geometry.conformity_inner, geometry.conformity_outer),
+        second=second,
         radial_load=radial,
         axial_load=axial,
     )

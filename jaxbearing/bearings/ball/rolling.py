@@ -26,30 +26,31 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from .core import orbit_totals
-from .equations import LubricatedBallSystem
+from .equations import AbstractBallEquations
 from .state import BallsState
 
 
 class RollingBalance(NamedTuple):
-    """Resistances of each ball, races first: M_r against the roll, N m, of the sign that `friction` gives
-    them, and the constraint forces F_t along the orbit, N, and moments M_s about the normals, N m."""
+    """Constraint forces F_t along the orbit, N, and moments M_s about the normals, N m, of each ball, races first."""
 
-    resistance: Float[Array, "2 ball"]
     forward: Float[Array, "2 ball"]
     about: Float[Array, "2 ball"]
 
 
-def rolling_balance(system: LubricatedBallSystem, state: BallsState) -> RollingBalance | None:
-    """See the module; `None` where the scene models no rolling resistance."""
-    side = jnp.asarray([[1.0], [-1.0]])
-    cosines = jnp.cos(state.angle)
-    contact = system.geometry.contacts(cosines[0], cosines[1], system.reduced_modulus)
-    resistance = system.laws.rolling_moment(
-        contact, state.load, state.film, state.races.mean_speed, side * state.races.roll, system.inlet
-    )
-    if resistance is None:
-        return None
+def rolling_resistance(system: AbstractBallEquations, state: BallsState) -> Float[Array, "contact ball"] | None:
+    """Moments M_r against the roll, N m, of the sign that `friction` gives them; `None` where the scene models none."""
+    turn = system.arcs.senses * state.races.roll
+    contact = state.contact
+    if system.arcs.single:
+        cosines = jnp.cos(state.angle)
+        contact = system.geometry.contacts(cosines[0], cosines[1], system.reduced_modulus)
+    return system.laws.rolling_moment(contact, state.load, state.film, state.races.mean_speed, turn, system.inlet)
+
+
+def rolling_balance(
+    system: AbstractBallEquations, state: BallsState, resistance: Float[Array, "2 ball"]
+) -> RollingBalance:
+    """See the module; of balls with two contacts."""
     inner, outer = resistance
     turned = state.angle[1] - state.angle[0]
     cosine, sine = jnp.cos(turned), jnp.sin(turned)
@@ -60,25 +61,21 @@ def rolling_balance(system: LubricatedBallSystem, state: BallsState) -> RollingB
     else:
         push = arm * (inner + cosine * outer) / (1.0 + cosine)
         about = jnp.stack([sine * (inner - outer) / (1.0 + cosine), zero])
-    return RollingBalance(resistance, jnp.stack([push, -push]), about)
+    return RollingBalance(jnp.stack([push, -push]), about)
 
 
-def common_orbit_torques(
-    system: LubricatedBallSystem, state: BallsState, resistance: Float[Array, "2 ball"]
+def constraint_torques(
+    system: AbstractBallEquations, state: BallsState, resistance: Float[Array, "contact ball"]
 ) -> tuple[Float[Array, ""], Float[Array, ""]]:
-    """Torques on the rings where all balls orbit at one speed, N m; see the module. **Arguments:** `resistance`: of
-    each ball, N m."""
-    inner_angle, outer_angle = state.angle
+    """Torques on the rings, N m, of balls whose motion is a linear function of the speeds of the rings; see the module.
+    **Arguments:** `resistance`: of each contact, N m."""
 
     def power(inner_speed: Array, outer_speed: Array) -> Array:
         """Power of the given resistances, W, as the rings turn."""
         motion = dataclasses.replace(system.kinematics, inner_speed=inner_speed, outer_speed=outer_speed)
-        rolling = motion.rolling(inner_angle, outer_angle, state.motion.attitude)
-        own = rolling.orbital_speed
-        less, weight = jnp.sum(orbit_totals(state.load[0], own, jnp.zeros_like(own)), axis=1)
-        together = rolling._replace(orbital_speed=jnp.full_like(own, -less / weight))
-        rolls = motion.inner_race(together, inner_angle).roll, motion.outer_race(together, outer_angle).roll
-        return system.multiplicity * jnp.sum(resistance[0] * rolls[0] - resistance[1] * rolls[1])
+        turning = dataclasses.replace(system, kinematics=motion)
+        rolls = turning.races_of(turning.constrained(state), state.angle).roll
+        return system.multiplicity * jnp.sum(system.arcs.senses * resistance * rolls)
 
     inner, outer = jax.grad(power, argnums=(0, 1))(system.kinematics.inner_speed, system.kinematics.outer_speed)
     return inner, outer

@@ -7,7 +7,8 @@ from ..ring import levers, shift_matrix
 from ..row import AbstractRow, HeldRow, free_ring
 from .build import build_core
 from .scene import BallBearing
-from .start import CentrifugalProblem, force_at, hold
+from .springs import CentrifugalProblem
+from .start import force_at, hold
 
 
 class BallRow(AbstractRow):
@@ -22,7 +23,7 @@ class BallRow(AbstractRow):
     distance: Float[Array, ""]
 
     def initial(self, displacement: Float[Array, "5"]) -> Float[Array, "m element"]:
-        return jnp.zeros_like(self.problem.groove)
+        return jnp.zeros((2, self.problem.groove.shape[1]))
 
     def hold(self, displacement: Float[Array, "5"], elements: Float[Array, "m element"]) -> HeldRow:
         arm, shift = levers(self.lever), shift_matrix(self.distance)

@@ -95,14 +95,16 @@ class BallAttitude(eqx.Module):
 
     **Arguments:**
     - `attitude`: closure for the direction of a ball's spin: "outer" or "inner" race control (no spin there),
-      "min_power" (least spin power), "equilibrium" (moment balance of the ball under its traction).
+      "linear_slip" (moment balance under tractions proportional to pressure and sliding: of dry bearings, and of
+      rings with two groove arcs without traction), "min_power" (least spin power), "equilibrium" (moment balance of
+      the ball under its traction).
     - `gyroscopic`: what carries the gyroscopic couple: `None` (off), an `AbstractGyroscopic`, or `ResolvedCouple()`.
     - `orbit`: speed about the bearing axis of balls that roll without sliding: "own", of each ball from its contact
       angles, or "common", the mean of these weighted by the inner loads.
     """
 
-    attitude: Literal["outer", "inner", "min_power", "equilibrium"] = choice(
-        "kinematics.attitude", ("outer", "inner", "min_power", "equilibrium"), "equilibrium"
+    attitude: Literal["outer", "inner", "linear_slip", "min_power", "equilibrium"] = choice(
+        "kinematics.attitude", ("outer", "inner", "linear_slip", "min_power", "equilibrium"), "equilibrium"
     )
     gyroscopic: AbstractGyroscopic | ResolvedCouple | None = None
     orbit: Literal["own", "common"] = choice("kinematics.orbit", ("own", "common"), "own")
@@ -195,11 +197,7 @@ class BallBearing(AbstractMovingBearing):
         yield from mounting_problems(self)
         yield from thermal_problems(self)
         yield from supply_problems(self)
-        if not self.slips and self.kinematics.attitude not in ("outer", "inner"):
-            yield (
-                f"kinematics.attitude: '{self.kinematics.attitude}' needs traction (contact.traction); without "
-                "friction the attitude is that of 'outer' or 'inner' race control"
-            )
+        yield from self._attitude_problems()
         if self.slips and self.kinematics.orbit == "common":
             yield (
                 "kinematics.orbit: 'common' is for balls that roll without sliding; with contact.traction they orbit "
@@ -219,6 +217,42 @@ class BallBearing(AbstractMovingBearing):
             yield (
                 f"contact.film: {type(self.contact.film).__name__} holds for oils whose viscosity rises with pressure, "
                 "not for an isoviscous one"
+            )
+
+    def _attitude_problems(self) -> Iterator[str]:
+        found = self.kinematics.attitude
+        if self.geometry.has_arcs:
+            yield from self._arc_problems()
+            return
+        if not self.slips and found not in ("outer", "inner", "linear_slip"):
+            yield (
+                f"kinematics.attitude: '{found}' needs traction (contact.traction); without "
+                "friction the attitude is that of 'outer' or 'inner' race control"
+            )
+        if self.contact is not None and found == "linear_slip":
+            yield (
+                "kinematics.attitude: 'linear_slip' is for bearings without films and friction; leave out [contact] or "
+                "choose another attitude"
+            )
+
+    def _arc_problems(self) -> Iterator[str]:
+        """Problems of rings with two groove arcs."""
+        name = "shim_outer" if self.geometry.shim_inner is None else "shim_inner"
+        if isinstance(self.simulation, Simulation):
+            yield (
+                f"geometry.{name}: found beside [simulation] without [thermal], expected one of the two: balls in "
+                "motion have two contacts"
+            )
+        expected, traction = ("equilibrium", "with") if self.slips else ("linear_slip", "without")
+        if self.kinematics.attitude != expected:
+            yield (
+                f"kinematics.attitude: found '{self.kinematics.attitude}', expected '{expected}' with geometry.{name} "
+                f"and {traction} traction (contact.traction): race control is for balls with two contacts"
+            )
+        if self.contact is not None and self.kinematics.orbit == "common":
+            yield (
+                f"kinematics.orbit: found 'common' beside geometry.{name} and [contact], expected 'own': such balls "
+                "orbit each at its own speed"
             )
 
     def solve_ring(
@@ -295,7 +329,10 @@ class BallBearing(AbstractMovingBearing):
     @property
     def port_distance(self) -> Array:
         r"""Distance of the plane of the inner groove centres, where `ring` counts, from that of the unloaded balls,
-        m: $(f_i - \frac12)D\sin\alpha$ at the contact angle of the unloaded bearing."""
+        m: $(f_i - \frac12)D\sin\alpha$ at the contact angle of the unloaded bearing. Of rings with two
+        groove arcs both planes are the middle one."""
+        if self.geometry.has_arcs:
+            return jnp.zeros(())
         return self.geometry.inner_offset * self.geometry.free_sine
 
     def unused_parts(self) -> tuple[str, ...]:
@@ -336,6 +373,11 @@ class BallBearing(AbstractMovingBearing):
             said.append(
                 f"kinematics.attitude = '{self.kinematics.attitude}' is a hypothesis: the moments about the radius do "
                 "not balance, and the losses do not add up to the drive power"
+            )
+        if self.kinematics.attitude == "linear_slip":
+            said.append(
+                "kinematics.attitude = 'linear_slip': speeds of the balls are those of tractions proportional to "
+                "pressure and sliding; no loss of sliding is computed from them"
             )
         if self.rating is not None:
             said += self.rating.groove_assumptions()

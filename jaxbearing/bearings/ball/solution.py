@@ -12,7 +12,7 @@ from .scene import BallOperation
 
 if TYPE_CHECKING:
     from .core import BallCore, BallState
-    from .equations import LubricatedBallSystem
+    from .equations import AbstractBallEquations
     from .state import BallsState
 
 _Values = Float[Array, " element"]
@@ -21,9 +21,14 @@ _Values = Float[Array, " element"]
 class SolvedBalls(NamedTuple):
     """Converged state of the balls. **Arguments:** `films`: the `state` of balls with films, `None` of others."""
 
-    system: "BallCore | LubricatedBallSystem"
+    system: "BallCore | AbstractBallEquations"
     state: "BallState | BallsState"
     films: "BallsState | None" = None
+
+    @property
+    def angle(self) -> tuple[Array, Array]:
+        """Contact angles inner and outer, rad: of rings with two arcs those of the flanks for thrust along +e_x."""
+        return self.state.angle[0], self.state.angle[self.system.arcs.first_outer]
 
 
 def _result(unit: str, description: str) -> Any:
@@ -31,8 +36,7 @@ def _result(unit: str, description: str) -> Any:
 
 
 def _control(at: SolvedBalls) -> Array:
-    inner, outer = at.state.angle
-    return at.system.kinematics.raceway_control(inner, outer, at.state.motion.attitude)
+    return at.system.kinematics.raceway_control(*at.angle, at.state.motion.attitude)
 
 
 def _computed(unit: str, description: str, of: Callable[[SolvedBalls], Array | None], **default: None) -> Any:
@@ -44,7 +48,9 @@ def _optional(unit: str, description: str) -> Any:
 
 
 class BallResults(eqx.Module):
-    """Arrays over the balls; what is not modelled is `None`. Speeds are positive in normal running."""
+    """Arrays over the balls; what is not modelled is `None`. Speeds are positive in normal running. Of a ring with two
+    groove arcs, loads, angles and pressures are those of its flank for thrust along +e_x, and beside them stand those
+    of the second flank."""
 
     azimuth: _Values = _result("rad", "azimuth from the load line")
     load_inner: _Values = _result("N", "normal load on the inner raceway")
@@ -60,12 +66,12 @@ class BallResults(eqx.Module):
     control_angle_inner: _Values = _computed(
         "rad",
         "attitude of the spin under inner race control, beta_i",
-        lambda at: at.system.kinematics.inner_control(at.state.angle[0]),
+        lambda at: at.system.kinematics.inner_control(at.angle[0]),
     )
     control_angle_outer: _Values = _computed(
         "rad",
         "attitude of the spin under outer race control, beta_o",
-        lambda at: at.system.kinematics.outer_control(at.state.angle[1]),
+        lambda at: at.system.kinematics.outer_control(at.angle[1]),
     )
     centrifugal_force: _Values = _computed(
         "N", "centrifugal force on the ball", lambda at: at.system.centrifugal(at.state.motion.orbital_speed)
@@ -102,6 +108,51 @@ class BallResults(eqx.Module):
     boundary_outer: _Values | None = _optional("N", "boundary friction along rolling, outer raceway")
     flash_inner: _Values | None = _optional("K", "flash temperature, inner raceway")
     flash_outer: _Values | None = _optional("K", "flash temperature, outer raceway")
+    load_inner_second: _Values | None = _optional("N", "normal load on the second flank of the inner raceway")
+    load_outer_second: _Values | None = _optional("N", "normal load on the second flank of the outer raceway")
+    contact_angle_inner_second: _Values | None = _optional("rad", "contact angle on the second flank, inner")
+    contact_angle_outer_second: _Values | None = _optional("rad", "contact angle on the second flank, outer")
+    pressure_inner_second: _Values | None = _optional("Pa", "Hertz (peak) pressure on the second flank, inner raceway")
+    pressure_outer_second: _Values | None = _optional("Pa", "Hertz (peak) pressure on the second flank, outer raceway")
+    film_inner_second: _Values | None = _optional("m", "central film on the second flank of the inner raceway")
+    film_outer_second: _Values | None = _optional("m", "central film on the second flank of the outer raceway")
+    temperature_rise_inner_second: _Values | None = _optional("K", "inlet heating on the second flank, inner")
+    temperature_rise_outer_second: _Values | None = _optional("K", "inlet heating on the second flank, outer")
+    sliding_inner_second: _Values | None = _optional("m/s", "sliding along rolling on the second flank, inner")
+    sliding_outer_second: _Values | None = _optional("m/s", "sliding along rolling on the second flank, outer")
+    traction_inner_second: _Values | None = _optional(
+        "N", "force of the second flank of the inner race on the ball along the orbit"
+    )
+    traction_outer_second: _Values | None = _optional(
+        "N", "force of the second flank of the outer race on the ball along the orbit"
+    )
+    spin_moment_inner_second: _Values | None = _optional(
+        "N m", "moment that brakes the spin on the second flank, inner"
+    )
+    spin_moment_outer_second: _Values | None = _optional(
+        "N m", "moment that brakes the spin on the second flank, outer"
+    )
+    film_ratio_inner_second: _Values | None = _optional(
+        "1", "film over roughness (lambda), second flank of the inner raceway"
+    )
+    film_ratio_outer_second: _Values | None = _optional(
+        "1", "film over roughness (lambda), second flank of the outer raceway"
+    )
+    load_share_inner_second: _Values | None = _optional(
+        "1", "part of the load that asperities carry, second flank of the inner raceway"
+    )
+    load_share_outer_second: _Values | None = _optional(
+        "1", "part of the load that asperities carry, second flank of the outer raceway"
+    )
+    boundary_inner_second: _Values | None = _optional(
+        "N", "boundary friction along rolling, second flank of the inner raceway"
+    )
+    boundary_outer_second: _Values | None = _optional(
+        "N", "boundary friction along rolling, second flank of the outer raceway"
+    )
+    flash_inner_second: _Values | None = _optional("K", "flash temperature, second flank of the inner raceway")
+    flash_outer_second: _Values | None = _optional("K", "flash temperature, second flank of the outer raceway")
+    loaded_contacts: _Values | None = _optional("1", "contacts of the ball that carry load")
 
 
 _Power = Float[Array, ""]

@@ -1,20 +1,24 @@
 r"""First guess of a ball bearing's equilibrium: without friction, at frozen centrifugal forces, it is a convex problem.
 
-$\Pi = \sum_j[\frac25K_o\delta_{o+}^{5/2} + \frac25K_i\delta_{i+}^{5/2} - F_CW] - F\cdot q$: each $\delta$ is the norm
-of an affine map minus a constant, and the power is convex and increasing. Two nested damped Newton iterations, on each
-ball for a given ring and on the ring with every ball in equilibrium, both accepting a step only where the potential
-falls. Only `force_at` is differentiated: the rest is the start of an iteration.
+$\Pi = \sum_j[\sum\frac25K_o\delta_{o+}^{5/2} + \sum\frac25K_i\delta_{i+}^{5/2} - F_CW] - F\cdot q$, with sums over the
+arcs of each ring (`arcs`): each $\delta$ is the norm of an affine map minus a constant, and the power is convex and
+increasing. Two nested damped Newton iterations, on each ball for a given ring and on the ring with every ball in
+equilibrium, both accepting a step only where the potential falls. Only `force_at` is differentiated: the rest is the
+start of an iteration.
 """
 
+import functools
+import operator
 from typing import NamedTuple
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
 from ...numerics.safe import safe_norm
 from ...numerics.small_linear import solve_blocks, solve_dense
+from .arcs import added
+from .springs import CentrifugalProblem, Forces, forces_at, inner_springs, together
 
 RING_TOLERANCE = 2e-2
 """Tolerance of the ring's balance, relative to the load: sufficient for a start of the full equations."""
@@ -28,33 +32,6 @@ ARMIJO = 1e-4
 """Part of the promised decrease that a step must bring."""
 SHORTEST = 1e-6
 """Fraction of a step at which it is taken as it is: the decrease is lost in round-off."""
-NO_APPROACH = 1e-300
-"""Approach of bodies that do not touch, m: their force is 0, and the root of it has a derivative."""
-
-
-class CentrifugalProblem(eqx.Module):
-    """Balls between two grooves under given forces. Units m, N; (inner, outer) or (axial, radial) first.
-
-    `groove`: inner groove centre of every ball with the ring at rest; `directions`: its change for a unit of every
-    ring freedom (a length each); `ring_load`: on them; `held_load`: of `InnerRing`; `aligned`: axial
-    displacement at which the planes of the grooves coincide; `multiplicity`: balls that each ball stands for.
-    """
-
-    offset: Float[Array, "2"]
-    stiffness: Float[Array, "2"]
-    groove: Float[Array, "2 ball"]
-    directions: Float[Array, "freedom 2 ball"]
-    ring_load: Float[Array, " freedom"]
-    held_load: Float[Array, ""] | None
-    centrifugal: Float[Array, " ball"]
-    centre_distance: Float[Array, ""]
-    free_cosine: Float[Array, ""]
-    aligned: Float[Array, ""]
-    multiplicity: int = eqx.field(static=True)
-    freedoms: tuple[str, ...] = eqx.field(static=True)
-
-    def groove_at(self, ring: Float[Array, " freedom"]) -> Float[Array, "2 ball"]:
-        return self.groove + jnp.einsum("f,fcn->cn", ring, self.directions)
 
 
 class Start(NamedTuple):
@@ -63,39 +40,6 @@ class Start(NamedTuple):
     centre: Float[Array, "2 ball"]
     ring: Float[Array, " freedom"]
     steps: Int[Array, ""]
-
-
-class _Forces(NamedTuple):
-    """Energy, forces and stiffness of the two springs at a ball, for given centres of ball and inner groove."""
-
-    energy: Float[Array, " ball"]
-    balance: Float[Array, "2 ball"]
-    """d energy / d centre."""
-    inner: Float[Array, "2 ball"]
-    """d energy / d groove centre: force on the inner ring."""
-    stiffness_outer: Float[Array, "2 2 ball"]
-    stiffness_inner: Float[Array, "2 2 ball"]
-
-
-def _spring(arm: Float[Array, "2 ball"], offset: Array, constant: Array) -> tuple[Array, Array, Array]:
-    """Energy, force and stiffness of one contact, whose centres are `arm` apart."""
-    length = safe_norm(arm[0], arm[1], 1e-30)
-    approach = jnp.maximum(length - offset, NO_APPROACH)
-    root = jnp.sqrt(approach)
-    load = constant * approach * root
-    normal = arm / length[None]
-    along = normal[:, None] * normal[None, :]
-    across = jnp.eye(2)[:, :, None] - along
-    stiffness = (1.5 * constant * root)[None, None] * along + (load / length)[None, None] * across
-    return 0.4 * load * approach, load[None] * normal, stiffness
-
-
-def _forces(problem: CentrifugalProblem, centre: Array, groove: Array) -> _Forces:
-    inner_energy, inner, inner_stiffness = _spring(groove - centre, problem.offset[0], problem.stiffness[0])
-    outer_energy, outer, outer_stiffness = _spring(centre, problem.offset[1], problem.stiffness[1])
-    push = jnp.stack([jnp.zeros_like(problem.centrifugal), problem.centrifugal])
-    energy = inner_energy + outer_energy - problem.centrifugal * centre[1]
-    return _Forces(energy, outer - inner - push, inner, outer_stiffness, inner_stiffness)
 
 
 def free_centres(
@@ -107,6 +51,9 @@ def free_centres(
     groove. Where the ring has not followed yet, contact angles of the equilibrium are nearer to those without.
     """
     compliance = problem.stiffness ** (-2.0 / 3.0)
+    arcs = problem.arcs
+    every = arcs.inner_centres(groove)
+    groove, flank = arcs.facing(groove)
     length = safe_norm(groove[0], groove[1], 1e-30)
     load = together(problem.stiffness) * jnp.maximum(length - jnp.sum(problem.offset), 0.0) ** 1.5
     axial, radial = load * groove[0] / length, load * groove[1] / length + problem.centrifugal
@@ -118,12 +65,28 @@ def free_centres(
     swing = (jnp.square(reach) + jnp.square(length) - jnp.square(inner)) / (2.0 * reach * length)
     stopped = side * angle - jnp.arccos(jnp.clip(swing, -1.0, 1.0))
     stopped = jnp.where(blocked, stopped, -jnp.inf)
+    if arcs.outer is not None:
+        # nor through the other arc of the outer ring
+        stopped = jnp.maximum(stopped, jnp.arcsin(arcs.outer / problem.offset[1]))
     angle = side * jnp.maximum(side * jnp.arctan2(axial, radial), stopped)
-    centre = reach[None] * jnp.stack([jnp.sin(angle), jnp.cos(angle)])
-    alone = problem.offset[1] + compliance[1] * problem.centrifugal ** (2.0 / 3.0)
-    lost = safe_norm(groove[0], groove[1] - alone) <= problem.offset[0]
+    centre = arcs.moved_out(reach[None] * jnp.stack([jnp.sin(angle), jnp.cos(angle)]), flank)
+    alone = _resting(problem, compliance[1])
+    lost = functools.reduce(
+        operator.and_, [safe_norm(place[0], place[1] - alone) <= problem.offset[0] for place in every]
+    )
     resting = jnp.stack([jnp.zeros_like(length), alone])
     return jnp.where(lost[None], resting, centre), lost
+
+
+def _resting(problem: CentrifugalProblem, compliance: Array) -> Float[Array, " ball"]:
+    """Distance of a ball that touches the outer ring only from its groove centre, outward, m; between two arcs to first
+    order in the deformation."""
+    offset, force, apart = problem.offset[1], problem.centrifugal, problem.arcs.outer
+    if apart is None:
+        return offset + compliance * force ** (2.0 / 3.0)
+    height = jnp.sqrt(jnp.square(offset) - jnp.square(apart))
+    cosine = height / offset
+    return height + compliance * (force / (2.0 * cosine)) ** (2.0 / 3.0) / cosine
 
 
 class _Balls(NamedTuple):
@@ -140,8 +103,8 @@ def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: 
     """Ball centres that minimise each ball's potential for given inner grooves."""
     first, lost = free_centres(problem, groove)
 
-    def propose(centre: Array, forces: _Forces):
-        matrix = forces.stiffness_outer + forces.stiffness_inner + SOFTEST * jnp.eye(2)[:, :, None]
+    def propose(centre: Array, forces: Forces):
+        matrix = forces.stiffness + SOFTEST * jnp.eye(2)[:, :, None]
         step = -solve_blocks(matrix, forces.balance[:, None, :])[:, 0]
         step = step * jnp.minimum(1.0, cap / safe_norm(step[0], step[1], 1e-30))[None]
         small = jnp.max(jnp.abs(forces.balance), axis=0) <= BALL_TOLERANCE * scale
@@ -149,7 +112,7 @@ def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: 
 
     def advance(state: _Balls) -> _Balls:
         trial = state.centre + state.fraction[None] * state.step
-        forces = _forces(problem, trial, groove)
+        forces = forces_at(problem, trial, groove)
         enough = forces.energy <= state.energy + ARMIJO * state.fraction * state.slope
         # near the minimum the decrease is lost in the round-off of the energy
         near = jnp.abs(state.slope) <= 1e-12 * jnp.abs(forces.energy) + 1e-18
@@ -169,18 +132,18 @@ def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: 
 
     # the first trial is the start itself, taken in any case
     zeros = jnp.zeros_like(first[0])
-    begin = _Balls(first, jnp.zeros_like(first), zeros + jnp.inf, zeros, zeros + 1.0, lost, jnp.asarray(0))
+    # between two arcs of the outer ring the guess of a ball at rest is not exact
+    done = lost if problem.arcs.outer is None else jnp.zeros_like(lost)
+    begin = _Balls(first, jnp.zeros_like(first), zeros + jnp.inf, zeros, zeros + 1.0, done, jnp.asarray(0))
     going = lambda state: (state.trials < BALL_STEPS) & ~jnp.all(state.done)
     return jax.lax.while_loop(going, advance, begin).centre
 
 
-def _on_ring(problem: CentrifugalProblem, forces: _Forces) -> tuple[Float[Array, " freedom"], Array]:
+def _on_ring(problem: CentrifugalProblem, forces: Forces) -> tuple[Float[Array, " freedom"], Array]:
     """Forces that hold the ring, and their derivatives with every ball in equilibrium."""
-    # stiffness of a ball in equilibrium: the two springs in series
-    series = forces.stiffness_outer + forces.stiffness_inner + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
-    reduced = forces.stiffness_inner - jnp.einsum(
-        "ijn,jkn->ikn", forces.stiffness_inner, solve_blocks(series, forces.stiffness_inner)
-    )
+    # stiffness of a ball in equilibrium: springs in series
+    series = forces.stiffness + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
+    reduced = forces.of_groove - jnp.einsum("jin,jkn->ikn", forces.coupling, solve_blocks(series, forces.coupling))
     force = problem.multiplicity * jnp.einsum("fcn,cn->f", problem.directions, forces.inner)
     matrix = problem.multiplicity * jnp.einsum("fan,abn,gbn->fg", problem.directions, reduced, problem.directions)
     return force, matrix
@@ -200,10 +163,11 @@ def hold(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> HeldBal
     """The balls for a given displacement of the ring, m; not differentiated."""
     problem, ring = jax.lax.stop_gradient((problem, ring))
     groove = problem.groove_at(ring)
-    depth = jnp.maximum(safe_norm(groove[0], groove[1], 1e-30) - jnp.sum(problem.offset), 0.0)
+    pair, _ = problem.arcs.facing(groove)
+    depth = jnp.maximum(safe_norm(pair[0], pair[1], 1e-30) - jnp.sum(problem.offset), 0.0)
     scale = together(problem.stiffness) * jnp.max(depth) ** 1.5 + problem.centrifugal
     centre = _equilibrium(problem, groove, scale, 0.5 * problem.centre_distance)
-    forces = _forces(problem, centre, groove)
+    forces = forces_at(problem, centre, groove)
     force, matrix = _on_ring(problem, forces)
     return HeldBalls(problem.multiplicity * jnp.sum(forces.energy), force, matrix, centre)
 
@@ -216,13 +180,11 @@ def force_at(
     **Arguments:** `centre`: that `hold` found.
     """
     centre, groove = jax.lax.stop_gradient(centre), problem.groove_at(ring)
-    forces = _forces(problem, centre, groove)
-    matrix = (
-        jax.lax.stop_gradient(forces.stiffness_outer + forces.stiffness_inner) + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
-    )
+    forces = forces_at(problem, centre, groove)
+    matrix = jax.lax.stop_gradient(forces.stiffness) + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
     step = solve_blocks(matrix, forces.balance[:, None, :])[:, 0]
-    inner = _spring(groove - centre + step, problem.offset[0], problem.stiffness[0])[1]
-    return problem.multiplicity * jnp.einsum("fcn,cn->f", problem.directions, inner)
+    inner = inner_springs(problem, centre - step, groove)[1]
+    return problem.multiplicity * jnp.einsum("fcn,cn->f", problem.directions, inner.force)
 
 
 class _Ring(NamedTuple):
@@ -249,7 +211,7 @@ def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
     def evaluate(ring: Array):
         groove = problem.groove_at(ring)
         centre = _equilibrium(problem, groove, scale, cap)
-        forces = _forces(problem, centre, groove)
+        forces = forces_at(problem, centre, groove)
         force, matrix = _on_ring(problem, forces)
         balance = force - problem.ring_load
         step = -solve_dense(matrix + SOFTEST * jnp.eye(matrix.shape[0]), balance)
@@ -280,7 +242,15 @@ def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
 
     none, one = jnp.asarray(0), jnp.ones(())
     begin = _Ring(
-        ring, jnp.zeros_like(problem.groove), jnp.zeros_like(ring), one * jnp.inf, 0.0 * one, one, none > 0, none, none
+        ring,
+        jnp.zeros((2, problem.groove.shape[1])),
+        jnp.zeros_like(ring),
+        one * jnp.inf,
+        0.0 * one,
+        one,
+        none > 0,
+        none,
+        none,
     )
     going = lambda state: (state.trials < RING_STEPS) & ~state.done
     end = jax.lax.while_loop(going, advance, begin)
@@ -294,11 +264,6 @@ def _scale(problem: CentrifugalProblem) -> tuple[Array, int]:
     if problem.held_load is not None:
         size = size + problem.held_load
     return size + 1e-3 * count, count
-
-
-def together(stiffness: Float[Array, "2"]) -> Float[Array, ""]:
-    """Constant of both contacts of a ball, one behind the other, N/m^(3/2)."""
-    return jnp.sum(stiffness ** (-2.0 / 3.0)) ** -1.5
 
 
 def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
@@ -336,11 +301,16 @@ def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
     angle = jax.lax.fori_loop(0, 12, deeper, jnp.minimum(free + 0.3, 1.45))
     depth = distance * jnp.sin(angle - free) / jnp.cos(angle)
     pushed = jnp.where(axial < 0, -1.0, 1.0)
+    first, play = distance * sine, distance * (1.0 - cosine)
+    if not problem.arcs.single:
+        # the arcs are nearer to contact along the axis and across it
+        first = first - added([offset for offset in problem.arcs if offset is not None])
+        play = play - problem.arcs.lift(problem.offset)
     mixed = 1.0 - 0.6 * jnp.minimum(1.0, radial * tangent / jnp.maximum(jnp.abs(axial), 1e-3))
     alone = (jnp.abs(axial) + tilting) <= 1e-9 * total
-    inward = jnp.where(alone, problem.aligned, problem.aligned + pushed * (distance * sine + depth * mixed))
+    inward = jnp.where(alone, problem.aligned, problem.aligned + pushed * (first + depth * mixed))
     moved = (5.0 * radial / (count * cosine * both)) ** (2.0 / 3.0)
-    moved = moved + jnp.where(alone, distance * (1.0 - cosine), 0.0)
+    moved = moved + jnp.where(alone, play, 0.0)
     along = moved * across / jnp.where(radial > 0, radial, 1.0)
     guesses = {"axial": inward, "radial": along[0], "lateral": along[1]}
     return jnp.stack([guesses.get(name, zero) for name in problem.freedoms])

@@ -43,11 +43,21 @@ class BallGuess(NamedTuple):
     ring: Float[Array, " freedom"]
 
 
-class BallsState(NamedTuple):
-    """Everything that happens at every ball, for given unknowns; arrays over balls, (inner, outer) first where two."""
+class BallPlaces(NamedTuple):
+    """Start of the iteration of balls with more than two contacts: centres and displacements of the ring, m, and loads
+    and contact angles, N and rad, of the bearing without friction."""
 
-    load: Float[Array, "2 ball"]
-    angle: Float[Array, "2 ball"]
+    centre: Float[Array, "2 ball"]
+    ring: Float[Array, " freedom"]
+    load: Float[Array, "contact ball"]
+    angle: Float[Array, "contact ball"]
+
+
+class BallsState(NamedTuple):
+    """Everything that happens at every ball, for given unknowns; arrays over balls, contacts first (`arcs`)."""
+
+    load: Float[Array, "contact ball"]
+    angle: Float[Array, "contact ball"]
     """Contact angles on the races: of the inner one against the tilted ring."""
     centre: Float[Array, "2 ball"]
     """Centre of the ball, from the outer groove centre, m."""
@@ -55,20 +65,21 @@ class BallsState(NamedTuple):
     contact: PointContact
     """The contacts at these angles, with the shapes of their ellipses."""
     races: RaceMotion
-    friction: Float[Array, "2 ball"] | None
+    friction: Float[Array, "contact ball"] | None
     film: PointFilm
     orbit_residual: Float[Array, ""]
     """Gives how far centrifugal forces of balls that roll without sliding are off, over their loads; 0 for others."""
     traction: Traction | None
-    rolling: Float[Array, "2 ball"] | None
+    rolling: Float[Array, "contact ball"] | None
     """Moment of the film's pressure against the roll, N m."""
-    curvature: Float[Array, "2 ball"] | None
+    curvature: Float[Array, "contact ball"] | None
     """Moment of Heathcote slip against the roll, N m."""
     pocket_force: Float[Array, " ball"] | None
     """Outward force of the pocket's friction on the ball in the balance of forces, N."""
     pocket: BallPocketFilm | None
     drag_force: Float[Array, " ball"] | None
     fit: Float[Array, "2 ball"]
+    """Residuals of the two equations of the contacts."""
     rows: tuple[Array, ...]
     """Residuals of the ball's motion, in the order of its unknowns."""
     on_ring: Float[Array, "freedom ball"]

@@ -1,37 +1,40 @@
 """Steady state of a ball bearing: from the scene to the equations, and from the roots to the results."""
 
 import dataclasses
-from typing import Any, TypeVar
+from collections.abc import Callable
+from typing import TypeVar
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from ...contacts import PointContact
 from ...contacts.point_laws import PointFilm
 from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowJacobian, ArrowPoint, assembled, element_tangents, shared_by_elements
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results, assemble
-from ..computed import computed_results
-from ..facts import MEAN_OF_POINT, RACEWAYS, Contacts, Facts
+from ..facts import Facts
 from ..interactions import Costs, Interaction, costs, of_land
 from ..land import LandState
 from ..mixed import boundary_power, mixed_results
 from ..parts import azimuths
 from ..ring import InnerRing, Port
 from ..solution import RING_FREEDOMS, TILTS, CageState, FailureCause, RacewayPower, Solution
-from .build import build_core, build_lubricated, ring_directions
+from .arched import ArchedBallSystem
+from .build import build_core, build_lubricated, ring_directions, with_films
+from .contact_results import ball_results, contacts_at
 from .core import BallCore, BallState
-from .equations import LubricatedBallSystem
-from .friction import SIDES, mixed_state
-from .rolling import common_orbit_torques, rolling_balance
+from .equations import AbstractBallEquations
+from .friction import mixed_state
+from .pairs import LubricatedBallSystem
+from .rolling import constraint_torques, rolling_balance, rolling_resistance
 from .scene import BallBearing
-from .solution import BallPowerLoss, BallResults, SolvedBalls
+from .solution import BallPowerLoss, BallResults
 from .state import BallsState
 
-Balls = TypeVar("Balls", BallCore, LubricatedBallSystem)
+Balls = TypeVar("Balls", BallCore, LubricatedBallSystem, ArchedBallSystem)
+Seen = TypeVar("Seen")
 
 
 def solve_ball(
@@ -41,7 +44,10 @@ def solve_ball(
 
     **Arguments:** `ring`: instead of that of the scene's operating point; `exact`: of `build_core`.
     """
-    core, steps = build_core(scene, exact, ring).started()
+    core = build_core(scene, exact, ring)
+    if scene.contact is not None and scene.geometry.has_arcs:
+        core = with_films(scene, core)
+    core, steps = core.started()
     if scene.contact is None:
         system, result = newton_solve(core, options)
         port, balls = _dry_port(scene, system, result)
@@ -118,97 +124,34 @@ def overload(scene: BallBearing) -> Float[Array, ""]:
     return equivalent / (0.2 * geometry.n_balls * jnp.cos(angle) * ball)
 
 
-def _every(scene: BallBearing, values: Array) -> Float[Array, " ball"]:
-    """One value a ball, also where one ball was solved for all."""
-    return jnp.broadcast_to(values, (scene.geometry.n_balls,))
-
-
-def _ball_results(
-    scene: BallBearing,
-    system: BallCore | LubricatedBallSystem,
-    state: BallState | BallsState,
-    contact: PointContact,
-    films: BallsState | None = None,
-    **more: Any,
-) -> tuple[BallResults, Contacts]:
-    """Loads, angles and motion; and the contacts for the checks, as far as geometry goes."""
-    geometry, kinematics = scene.geometry, system.kinematics
-    load, angle, motion = state.load, state.angle, state.motion
-    ellipse = contact.ellipse(load)
-    pressure = jnp.where(load > 0, ellipse.pressure, 0.0)
-    races = (kinematics.inner_race(motion, angle[0]), kinematics.outer_race(motion, angle[1]))
-    rolling = jnp.abs(kinematics.inner_speed - kinematics.outer_speed) / kinematics.ratio
-    ratios = [race.spin / jnp.sqrt(jnp.square(race.roll) + jnp.square(1e-12 * rolling) + 1e-24) for race in races]
-    more |= computed_results(BallResults, SolvedBalls(system, state, films))
-    others: dict[str, Any] = {name: _every(scene, one) for name, one in more.items() if one is not None}
-    elements = BallResults(
-        azimuth=azimuths(geometry, geometry.n_balls),
-        load_inner=_every(scene, load[0]),
-        load_outer=_every(scene, load[1]),
-        contact_angle_inner=_every(scene, angle[0]),
-        contact_angle_outer=_every(scene, angle[1]),
-        pressure_inner=_every(scene, pressure[0]),
-        pressure_outer=_every(scene, pressure[1]),
-        orbital_speed=_every(scene, motion.orbital_speed),
-        spin_speed=_every(scene, motion.spin_speed),
-        attitude_angle=_every(scene, motion.attitude),
-        spin_to_roll_inner=_every(scene, jnp.abs(ratios[0])),
-        spin_to_roll_outer=_every(scene, jnp.abs(ratios[1])),
-        **others,
-    )
-    contacts = Contacts(RACEWAYS, load, pressure, MEAN_OF_POINT, angle=angle)
-    return elements, _at_shoulders(scene, contacts, jnp.abs(angle), ellipse.transverse)
-
-
-def _at_shoulders(scene: BallBearing, contacts: Contacts, angle: Array, transverse: Array) -> Contacts:
-    """The contacts, with how far they pass the shoulders that the scene gives."""
-    geometry = scene.geometry
-    limits = (geometry.shoulder_angle_inner, geometry.shoulder_angle_outer)
-    if limits == (None, None):
-        return contacts
-    radius = jnp.stack([jnp.asarray(f * geometry.ball_diameter) for f in _conformities(scene)])[:, None]
-    limit = jnp.stack([jnp.asarray(0.0 if value is None else value) for value in limits])[:, None]
-    names = ("the inner ring's shoulder", "the outer ring's shoulder")
-    edges = tuple(None if value is None else name for value, name in zip(limits, names, strict=True))
-    return contacts._replace(past_edge=angle + transverse / radius - limit, edges=edges)
-
-
-def _conformities(scene: BallBearing) -> tuple[Any, Any]:
-    return scene.geometry.conformity_inner, scene.geometry.conformity_outer
-
-
-def _contact(scene: BallBearing, cosine: Array) -> PointContact:
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
-    return scene.geometry.contacts(cosine[0], cosine[1], modulus)
-
-
 def _dry_results(scene: BallBearing, system: BallCore, state: BallState) -> Results[BallResults, BallPowerLoss]:
-    contact = _contact(scene, jnp.cos(state.angle))
-    elements, contacts = _ball_results(scene, system, state, contact)
+    contact = contacts_at(scene, state.angle, system.arcs.races)
+    elements, contacts = ball_results(scene, system, state, contact)
     return Results(elements, Costs(BallPowerLoss()), Facts((contacts,)))
 
 
 def _lubricated(
-    scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, state: BallsState
+    scene: BallBearing, system: AbstractBallEquations, result: NewtonResult, state: BallsState
 ) -> Results[BallResults, BallPowerLoss]:
-    motion = system.kinematics
-    film, shear, pocket = state.film, state.traction, state.pocket
-    more: dict[str, Array | None] = {"film_inner": film.film[0], "film_outer": film.film[1]}
+    film, shear, pocket, arcs = state.film, state.traction, state.pocket, system.arcs
+    found: dict[str, Array] = {"film": film.film}
     if film.rise is not None:
-        more |= {"temperature_rise_inner": film.rise[0], "temperature_rise_outer": film.rise[1]}
+        found["temperature_rise"] = film.rise
     if shear is not None:
-        forward = -SIDES * shear.rolling
-        more |= {"sliding_inner": state.races.rolling[0], "sliding_outer": state.races.rolling[1]}
-        more |= {"traction_inner": forward[0], "traction_outer": forward[1]}
-        more |= {"spin_moment_inner": shear.moment[0], "spin_moment_outer": shear.moment[1]}
+        found |= {
+            "sliding": state.races.rolling,
+            "traction": jnp.asarray(-arcs.senses * shear.rolling),
+            "spin_moment": shear.moment,
+        }
+    more: dict[str, Array | None] = {**arcs.named(found)}
     mixed = None if shear is None else mixed_state(system, state)
-    more |= mixed_results(mixed)
+    more |= mixed_results(mixed, arcs.names)
     if system.resolved:
         more["transverse_spin"] = state.motion.transverse
     if pocket is not None:
         more |= {"pocket_film_front": pocket.film_front, "pocket_film_rear": pocket.film_rear}
         more |= {"pocket_load_front": pocket.load_front, "pocket_load_rear": pocket.load_rear}
-    elements, contacts = _ball_results(scene, system, state, state.contact, state, **more)
+    elements, contacts = ball_results(scene, system, state, state.contact, state, **more)
     contacts = contacts._replace(
         laws=system.laws,
         inlet=system.inlet,
@@ -222,67 +165,72 @@ def _lubricated(
     land = None if system.cage is None else system.land_at(result.point, state)
     if shear is None:
         return _rolling_alone(system, state, elements, facts)
-    cage = None
-    if land is not None:
-        orbit = system.orbit(result.point.globals[-1])
-        free = motion.rolling(state.angle[0], state.angle[1], state.motion.attitude).orbital_speed
-        weight = state.load[0] / jnp.sum(state.load[0])
-        mean = jnp.sum(weight * free)
-        unit = system.orbit_unit
-        slip = (mean - orbit) * mean / (jnp.square(mean) + jnp.square(1e-8 * unit))
-        alone = system.multiplicity > 1  # all balls alike: the cage is concentric
-        eccentricity = jnp.zeros(()) if alone else land.eccentricity_ratio
-        cage = CageState(orbit, slip, eccentricity, land.attitude_angle)
+    cage = None if land is None else _cage_state(system, result, state, land)
     parts = _raceway_power(system, state)
-    cost = costs(BallPowerLoss, _interactions(system, state, land), motion)
-    boundary = boundary_power(mixed, system.multiplicity)
+    cost = costs(BallPowerLoss, _interactions(system, state, land), system.kinematics)
+    boundary = boundary_power(mixed, system.multiplicity, races=arcs.races)
     return Results(elements, cost, facts, cage=cage, raceway_power=parts, boundary_power=boundary)
 
 
+def _cage_state(system: AbstractBallEquations, result: NewtonResult, state: BallsState, land: LandState) -> CageState:
+    orbit = system.orbit(result.point.globals[-1])
+    load, free = system.arcs.on_inner(state.load), system.free_rolling(state)
+    weight = load / jnp.sum(load)
+    mean = jnp.sum(weight * free)
+    unit = system.orbit_unit
+    slip = (mean - orbit) * mean / (jnp.square(mean) + jnp.square(1e-8 * unit))
+    alone = system.multiplicity > 1  # all balls alike: the cage is concentric
+    eccentricity = jnp.zeros(()) if alone else land.eccentricity_ratio
+    return CageState(orbit, slip, eccentricity, land.attitude_angle)
+
+
 def _rolling_alone(
-    system: LubricatedBallSystem, state: BallsState, elements: BallResults, facts: Facts
+    system: AbstractBallEquations, state: BallsState, elements: BallResults, facts: Facts
 ) -> Results[BallResults, BallPowerLoss]:
     """Results of balls that roll without sliding: what rolling costs, where the scene models it."""
-    balance, found = rolling_balance(system, state), []
-    if balance is not None:
-        power = system.multiplicity * jnp.sum(SIDES * balance.resistance * state.races.roll)
-        if system.common_orbit:
-            torques = common_orbit_torques(system, state, balance.resistance)
+    resistance, found = rolling_resistance(system, state), []
+    if resistance is not None:
+        power = system.multiplicity * jnp.sum(system.arcs.senses * resistance * state.races.roll)
+        if system.common_orbit or isinstance(system, ArchedBallSystem):
+            torques = constraint_torques(system, state, resistance)
         else:
-            torques = _ball_torques(system, state, balance.forward, balance.about, (balance.resistance,))
-        found = [Interaction("rolling_resistance", power, *torques, _by_race(system, state, balance.resistance))]
+            balance = rolling_balance(system, state, resistance)
+            torques = _ball_torques(system, state, balance.forward, balance.about, (resistance,))
+        found = [Interaction("rolling_resistance", power, *torques, _by_race(system, state, resistance))]
     cost = costs(BallPowerLoss, found, system.kinematics)
     return Results(elements, cost, facts)
 
 
-def _raceway_power(system: LubricatedBallSystem, state: BallsState) -> RacewayPower:
+def _raceway_power(system: AbstractBallEquations, state: BallsState) -> RacewayPower:
     shear, races = state.traction, state.races
     assert shear is not None
-    total = lambda power: system.multiplicity * jnp.sum(power, axis=-1)
-    spin, rolling = total(shear.moment * races.spin), total(shear.rolling * (SIDES * races.rolling))
-    transverse = total(shear.transverse * (SIDES * races.transverse))
+    senses, by_race = system.arcs.senses, system.arcs.by_race
+    total = lambda power: [system.multiplicity * jnp.sum(one) for one in by_race(power)]
+    spin, rolling = total(shear.moment * races.spin), total(shear.rolling * (senses * races.rolling))
+    transverse = total(shear.transverse * (senses * races.transverse))
     parts = RacewayPower(spin[0], rolling[0], transverse[0], spin[1], rolling[1], transverse[1])
     if state.curvature is None:
         return parts
-    curved = total(SIDES * state.curvature * races.roll)
+    curved = total(senses * state.curvature * races.roll)
     return dataclasses.replace(parts, inner_curvature=curved[0], outer_curvature=curved[1])
 
 
-def _interactions(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> list[Interaction]:
+def _interactions(system: AbstractBallEquations, state: BallsState, land: LandState | None) -> list[Interaction]:
     """The friction of sliding balls: one interaction each, with its own force and its own speed."""
     shear, pocket, motion = state.traction, state.pocket, state.motion
     assert shear is not None
     total = lambda power: system.multiplicity * jnp.sum(power)
-    curved = () if state.curvature is None else (state.curvature,)
-    inner, outer = _ball_torques(system, state, jnp.asarray(-SIDES * shear.rolling), -shear.moment, curved)
+    curved, senses = () if state.curvature is None else (state.curvature,), system.arcs.senses
+    sheared = system.arcs.by_race(shear.power)
+    inner, outer = _ball_torques(system, state, jnp.asarray(-senses * shear.rolling), -shear.moment, curved)
     found = [
-        Interaction("inner_raceway", total(shear.power[0]), inner_torque=inner),
-        Interaction("outer_raceway", total(shear.power[1]), outer_torque=outer),
+        Interaction("inner_raceway", total(sheared[0]), inner_torque=inner),
+        Interaction("outer_raceway", total(sheared[1]), outer_torque=outer),
     ]
     if state.rolling is not None:
         nothing = jnp.zeros_like(state.rolling)
         torques = _ball_torques(system, state, nothing, nothing, (state.rolling,))
-        power = total(SIDES * state.rolling * state.races.roll)
+        power = total(senses * state.rolling * state.races.roll)
         found.append(Interaction("rolling_resistance", power, *torques, _by_race(system, state, state.rolling)))
     if pocket is not None:
         radius = 0.5 * system.kinematics.ball_diameter
@@ -296,24 +244,25 @@ def _interactions(system: LubricatedBallSystem, state: BallsState, land: LandSta
     return found
 
 
-def _by_race(system: LubricatedBallSystem, state: BallsState, resistance: Array) -> Float[Array, "2"]:
+def _by_race(system: AbstractBallEquations, state: BallsState, resistance: Array) -> Float[Array, "2"]:
     """Power of the rolling resistance of each race, W. **Arguments:** of each ball, N m."""
-    return system.multiplicity * jnp.sum(SIDES * resistance * state.races.roll, axis=1)
+    power = system.arcs.by_race(jnp.asarray(system.arcs.senses * resistance * state.races.roll))
+    return system.multiplicity * jnp.sum(jnp.stack(power), axis=1)
 
 
 def _ball_torques(
-    system: LubricatedBallSystem, state: BallsState, forward: Array, about: Array, resistances: tuple[Array, ...]
+    system: AbstractBallEquations, state: BallsState, forward: Array, about: Array, resistances: tuple[Array, ...]
 ) -> tuple[Array, Array]:
     """Torques on the rings against the balls, N m. **Arguments:** on each ball, races first: force along the orbit, N,
     moments about the normals and against the roll, N m."""
-    motion = system.kinematics
+    motion, senses = system.kinematics, system.arcs.senses
     sine, cosine = jnp.sin(state.angle), jnp.cos(state.angle)
-    radius = 0.5 * motion.pitch_diameter * (1.0 - SIDES * motion.ratio * cosine)
+    radius = 0.5 * motion.pitch_diameter * (1.0 - senses * motion.ratio * cosine)
     # n_i . e_x = -sin, n_o . e_x = sin; b_i . e_x = -cos, b_o . e_x = cos
-    torque = forward * radius - SIDES * about * sine
+    torque = forward * radius - senses * about * sine
     for resistance in resistances:
-        torque = torque + SIDES * (SIDES * resistance) * cosine
-    inner, outer = system.multiplicity * jnp.sum(torque, axis=1)
+        torque = torque + senses * (senses * resistance) * cosine
+    inner, outer = (system.multiplicity * jnp.sum(one) for one in system.arcs.by_race(torque))
     return inner, outer
 
 
@@ -323,10 +272,10 @@ def _released(scene: BallBearing, system: Balls, result: NewtonResult) -> tuple[
     azimuth = azimuths(scene.geometry, count)
     full = dataclasses.replace(
         system,
-        directions=ring_directions(azimuth),
+        directions=ring_directions(azimuth, system.grooves.turning),
         azimuth=azimuth,
         ring=system.ring.released(system.load_scale()),
-        held_shift=jnp.zeros((2, count)),
+        held_shift=jnp.zeros((system.arcs.coordinates, count)),
         multiplicity=1,
     )
     globals_ = system.ring.released_unknowns(result.point.globals)
@@ -341,14 +290,30 @@ def _dry_port(scene: BallBearing, system: BallCore, result: NewtonResult) -> tup
     """The reaction and the stiffness of all five freedoms of the ring, and the state of all balls, from one
     evaluation."""
     full, point = _released(scene, system, result)
-    values, tangents, state = element_tangents(full.seen, point.elements, shared_by_elements(point))
+    return _port_anew(full, point, full.seen, system.freedoms)
+
+
+def _port_anew(
+    full: Balls,
+    point: ArrowPoint,
+    element: Callable[[Array, Array], tuple[Array, Array, Seen]],
+    freedoms: tuple[str, ...],
+) -> tuple[Port, Seen]:
+    """The reaction and the stiffness of the ring with all its freedoms and all balls, from derivatives of `element`;
+    and the third result of that."""
+    values, tangents, seen = element_tangents(element, point.elements, shared_by_elements(point))
     equations, jacobian = assembled(full, point, values, tangents, jnp.zeros(()))
     force = equations.residual.globals[:5] * full.load_scale() + full.ring.load
-    return full.ring.port(jacobian, force, full.load_scale(), system.freedoms), state
+    return full.ring.port(jacobian, force, full.load_scale(), freedoms), seen
 
 
-def _port(scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, film: PointFilm) -> Port:
+def _port(
+    scene: BallBearing, system: LubricatedBallSystem | ArchedBallSystem, result: NewtonResult, film: PointFilm
+) -> Port:
     """The reaction and the stiffness of all five freedoms of the ring."""
+    if isinstance(system, ArchedBallSystem):
+        every, point = _released(scene, system, result)
+        return _port_anew(every, point, every.element, system.freedoms)[0]
     full, point = _released(scene, system, result)
     # a ring that cannot tilt moves the groove centres only: at given unknowns of the balls the films stay
     kept = None if full.exact else jax.tree.map(lambda values: _wide(values, scene.geometry.n_balls), film)

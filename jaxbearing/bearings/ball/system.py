@@ -12,11 +12,12 @@ from ...numerics.arrow import AbstractArrowSystem
 from ...numerics.convex import anchored
 from ...numerics.safe import safe_norm
 from ..ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
+from .arcs import Arcs, added
 from .groove_motion import RingFrame, inner_arm, length_of, ring_frame
-from .gyroscopic import AbstractGyroscopic
+from .gyroscopic import NO_LOAD, AbstractGyroscopic
 from .kinematics import BallKinematics, BallMotion
 
-Attitude = Literal["outer", "inner", "min_power", "equilibrium"]
+Attitude = Literal["outer", "inner", "linear_slip", "min_power", "equilibrium"]
 
 
 class Grooves(NamedTuple):
@@ -37,6 +38,7 @@ class Grooves(NamedTuple):
 
     expansion: Float[Array, ""] | None = None
     """See `InnerRing.expansion`."""
+    arcs: Arcs = Arcs()
 
     @property
     def free_angle(self) -> Float[Array, ""]:
@@ -52,7 +54,18 @@ class Grooves(NamedTuple):
     def rest(self) -> Float[Array, "2 1"]:
         """Inner groove centre (axial, radial) from the outer one, of the ring without displacement, m."""
         radial = self.centre_distance * self.free_cosine
-        return jnp.stack([-self.aligned, radial if self.expansion is None else radial + self.expansion])[:, None]
+        radial = radial if self.expansion is None else radial + self.expansion
+        return jnp.stack([-self.aligned, radial])[:, None]
+
+    @property
+    def of_ring(self) -> Float[Array, "p 1"]:
+        """Coordinates of the inner groove (`arcs`) of the ring without displacement, m."""
+        return self.rest if self.arcs.inner is None else jnp.concatenate([self.rest, jnp.zeros((1, 1))])
+
+    @property
+    def turning(self) -> Array | None:
+        """e_i/R_i; `None` if the inner ring has one arc."""
+        return None if self.arcs.inner is None else self.arcs.inner / self.lever
 
 
 class InnerArm(NamedTuple):
@@ -73,25 +86,54 @@ class InnerArm(NamedTuple):
         return length_of(self.in_plane) / self.length
 
 
-OnRing: TypeAlias = Callable[[Float[Array, "component ball"], Float[Array, " ball"]], Float[Array, "freedom ball"]]
-"""Contributions of every ball to the forces on the ring's freedoms, N (moments in units of R_i), from its force on the
-ring, axial, outward and, of an `exact` system, along the orbit, N, and its moment in the half-plane, N m."""
+OnRing: TypeAlias = Callable[
+    [tuple[Float[Array, "component ball"], ...], Float[Array, " ball"]], Float[Array, "freedom ball"]
+]
+"""Contributions of every ball to the forces on the ring's freedoms, N (moments in units of R_i), from its forces on the
+arcs of the ring, axial, outward and, of an `exact` system, along the orbit, N, and its moment in the half-plane, N m.
+"""
+
+
+class Touch(NamedTuple):
+    """Contacts of the balls for given places of their centres, before any load is known.
+
+    - `apart`: distances of the groove centres from the ball centre, m.
+    - `direction`: of the normal forces on the ball, from the radius towards the axis, in the fixed frame, rad; `angle`:
+      contact angles, on the inner race against the tilted ring.
+    - `arms`: from the ball centres to the inner groove centres; `on_ring`: of `AbstractBallSystem.reach`.
+    """
+
+    apart: Float[Array, "contact ball"]
+    direction: Float[Array, "contact ball"]
+    angle: Float[Array, "contact ball"]
+    arms: tuple[InnerArm, ...]
+    on_ring: OnRing
+
+
+class Push(NamedTuple):
+    """Forces of the contacts: on the outer ring less those on the inner one, axial and outward, N, and what they
+    contribute to the forces on the ring's freedoms, N."""
+
+    axial: Float[Array, " ball"]
+    outward: Float[Array, " ball"]
+    on_ring: Float[Array, "freedom ball"]
 
 
 class AbstractBallSystem(AbstractArrowSystem):
     """Balls between two grooved rings; globals: first the displacements of the inner ring.
 
-    `directions[f]` are the changes of the inner groove centre (axial, radial) at every ball for a unit of freedom f, to
-    first order; the lever of the `ring` is R_i. `held_shift`: their changes by what the ring is held at, m. `exact`:
-    whether the grooves move with the exact rotation of the ring (`groove_motion`).
+    `directions[f]` are the changes of the coordinates of the inner groove (`arcs`; of one arc its centre, axial and
+    radial) at every ball for a unit of freedom f, to first order; the lever of the `ring` is R_i. `held_shift`: their
+    changes by what the ring is held at, m. `exact`: whether the grooves move with the exact rotation of the ring
+    (`groove_motion`).
     """
 
     kinematics: BallKinematics
     grooves: Grooves
-    directions: Float[Array, "freedom 2 ball"]
+    directions: Float[Array, "freedom p ball"]
     azimuth: Float[Array, " ball"]
     ring: InnerRing
-    held_shift: Float[Array, "2 ball"]
+    held_shift: Float[Array, "p ball"]
     mass: Float[Array, ""]
     inertia: Float[Array, ""]
     gyroscopic: AbstractGyroscopic | None
@@ -119,24 +161,38 @@ class AbstractBallSystem(AbstractArrowSystem):
         balance = totals - self.ring.load
         return balance + anchored(unknowns, ANCHOR * LENGTH_UNIT) if self.ring.asks else balance
 
-    def groove_centres(self, shift: Float[Array, "freedom ball"]) -> Float[Array, "2 ball"]:
-        """Centres of the inner groove at every ball, (axial, radial) from those of the outer one, m, for displacements
-        of the ring in units of `LENGTH_UNIT`; to first order."""
+    @property
+    def arcs(self) -> Arcs:
+        return self.grooves.arcs
+
+    def free_centre(self) -> Float[Array, "2 1"]:
+        """Centre of an unloaded ball at the free contact angle, m."""
+        return self.grooves.offset[1] * self.grooves.free_normal
+
+    def groove_centres(self, shift: Float[Array, "freedom ball"]) -> Float[Array, "p ball"]:
+        """Coordinates of the inner groove at every ball (`arcs`; axial and radial from the centre of the outer one), m,
+        for displacements of the ring in units of `LENGTH_UNIT`; to first order."""
         moved = LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shift, self.directions)
-        return self.grooves.rest + moved + self.held_shift
+        return self.grooves.of_ring + moved + self.held_shift
 
     def ring_frame(self, shift: Float[Array, "freedom ball"]) -> RingFrame:
         """The displaced ring of an `exact` system, for displacements in units of `LENGTH_UNIT`."""
         return ring_frame(self.ring.moved(shift) * self.ring.units[:, None], self.azimuth)
 
-    def inner_arm(self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]) -> InnerArm:
-        """From ball centres, counted from the outer groove centre (axial, radial), m, to the inner groove centres."""
+    def inner_arms(self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]) -> tuple[InnerArm, ...]:
+        """From ball centres, counted from the outer groove centre (axial, radial), m, to the centres of each inner
+        arc."""
         if not self.exact:
-            arm = self.groove_centres(shift) - centre
-            return InnerArm(arm, None, safe_norm(arm[0], arm[1]), None)
+            arms = [groove - centre for groove in self.arcs.inner_centres(self.groove_centres(shift))]
+            return tuple(InnerArm(arm, None, safe_norm(arm[0], arm[1]), None) for arm in arms)
         grooves, frame = self.grooves, self.ring_frame(shift)
-        arm = inner_arm(frame, centre - grooves.rest, grooves.lever)
-        return InnerArm(arm[:2], arm[2], length_of(arm), frame.turned)
+        place = centre - grooves.rest
+        found = []
+        for side in self.arcs.inner_sides:
+            offset = 0.0 if self.arcs.inner is None else side * self.arcs.inner
+            arm = inner_arm(frame, place, grooves.lever, offset)
+            found.append(InnerArm(arm[:2], arm[2], length_of(arm), frame.turned))
+        return tuple(found)
 
     def centrifugal(self, orbital_speed: Array) -> Array:
         """N, of balls on the pitch circle."""
@@ -148,44 +204,95 @@ class AbstractBallSystem(AbstractArrowSystem):
         return self.couple_share * self.inertia * spin
 
     def with_friction(
-        self, load: Float[Array, "2 ball"], angle: Float[Array, "2 ball"], friction: Float[Array, "2 ball"] | None
+        self,
+        load: Float[Array, "contact ball"],
+        angle: Float[Array, "contact ball"],
+        friction: Float[Array, "contact ball"] | None,
     ) -> tuple[Array, Array, Array]:
-        """Axial and radial force (both contacts) and moment (of the inner one, about the circle of groove centres) that
-        normal loads and the friction that carries the couple make on the ring, N and N m."""
+        """Axial and radial force (all contacts) and moment (of the inner ones, about their groove centres) that normal
+        loads and the friction that carries the couple make on the ring, N and N m."""
         sine, cosine = jnp.sin(angle), jnp.cos(angle)
         axial, radial = load * sine, load * cosine
         if friction is None:
             return axial, radial, jnp.zeros_like(load[0])
-        moment = -friction[0] * self.grooves.groove_arm
+        moment = -self.arcs.on_inner(friction) * self.grooves.groove_arm
         return axial + friction * cosine, radial - friction * sine, moment
 
-    def reach(self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]) -> tuple[InnerArm, OnRing]:
-        r"""From ball centres, counted from the outer groove centre (axial, radial), m, to the inner groove centres; and
-        what forces there contribute to those on the ring's freedoms.
+    def couple_friction(
+        self, motion: BallMotion, load: Float[Array, "contact ball"]
+    ) -> Float[Array, "contact ball"] | None:
+        """Friction of each contact that carries the gyroscopic couple, with its sign, N; `None` where no law says. The
+        contacts of a ring with two arcs share in proportion to their loads, N."""
+        if self.gyroscopic is None:
+            return None
+        loads = self.arcs.on_inner(load), self.arcs.on_outer(load)
+        parts = self.gyroscopic.friction(self.couple(motion), self.kinematics.ball_diameter, *loads)
+        if self.arcs.single:
+            return self.gyroscopic.sign * jnp.stack(parts)
+        shares = [parts[race] * load[k] / (loads[race] + NO_LOAD) for k, race in enumerate(self.arcs.races)]
+        return self.gyroscopic.sign * jnp.stack(shares)
+
+    def reach(
+        self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]
+    ) -> tuple[tuple[InnerArm, ...], OnRing]:
+        r"""From ball centres, counted from the outer groove centre (axial, radial), m, to the inner arcs' centres;
+        and what forces there contribute to those on the ring's freedoms.
 
         The contributions are conjugate to the displacements: force times the motion of the nearest groove centre,
         moment times the turning of the groove. To second order the moment is
         $R_i(p_x\cos t\cos\psi - p_r\sin t\cos^2\psi)$.
         """
         if not self.exact:
-            return self.inner_arm(shift, centre), self._to_first_order
+            return self.inner_arms(shift, centre), self._to_first_order
 
-        def move(shift: Array) -> tuple[Array, InnerArm]:
-            arm = self.inner_arm(shift, centre)
-            assert arm.turned is not None
-            assert arm.along is not None
-            return jnp.concatenate([arm.in_plane, jnp.stack([arm.along, arm.turned])]), arm
+        def move(shift: Array) -> tuple[Array, tuple[InnerArm, ...]]:
+            arms, parts = self.inner_arms(shift, centre), []
+            for arm in arms:
+                assert arm.along is not None
+                parts += [arm.in_plane, arm.along[None]]
+            turned = arms[0].turned
+            assert turned is not None
+            return jnp.concatenate([*parts, turned[None]]), arms
 
-        _, pull, arm = jax.vjp(move, shift, has_aux=True)
+        _, pull, arms = jax.vjp(move, shift, has_aux=True)
 
-        def on_ring(force: Array, moment: Array) -> Array:
-            return (self.multiplicity / LENGTH_UNIT) * pull(jnp.concatenate([force, moment[None]]))[0]
+        def on_ring(forces: tuple[Array, ...], moment: Array) -> Array:
+            return (self.multiplicity / LENGTH_UNIT) * pull(jnp.concatenate([*forces, moment[None]]))[0]
 
-        return arm, on_ring
+        return arms, on_ring
 
-    def _to_first_order(self, force: Array, moment: Array) -> Array:
+    def touch(self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]) -> Touch:
+        """The contacts of balls whose centres are known, m from the middle of the outer arcs (axial, radial)."""
+        arms, on_ring = self.reach(shift, centre)
+        rests = self.arcs.from_outer(centre)
+        apart = jnp.stack([*(arm.length for arm in arms), *(safe_norm(rest[0], rest[1]) for rest in rests)])
+        leaning = [*(arm.in_plane for arm in arms), *rests]
+        direction = angle = jnp.stack([jnp.arctan2(one[0], one[1]) for one in leaning])
+        for k, arm in enumerate(arms):
+            if arm.turned is not None:
+                angle = angle.at[k].add(-arm.turned)
+        return Touch(apart, direction, angle, arms, on_ring)
+
+    def push(
+        self, touch: Touch, load: Float[Array, "contact ball"], friction: Float[Array, "contact ball"] | None
+    ) -> Push:
+        """The forces of all contacts. **Arguments:** `load`, N; `friction`: of `couple_friction`, N."""
+        pressing = load
+        for k, arm in enumerate(touch.arms):
+            if arm.turned is not None:
+                pressing = pressing.at[k].multiply(arm.share)
+        axial, radial, moment = self.with_friction(pressing, touch.direction, friction)
+        forces = []
+        for k, arm in enumerate(touch.arms):
+            sideways = () if arm.along is None else (load[k] * arm.along / arm.length,)
+            forces.append(jnp.stack([axial[k], radial[k], *sideways]))
+        (pushed, held), (raised, lowered) = self.arcs.by_race(axial), self.arcs.by_race(radial)
+        return Push(held - pushed, lowered - raised, touch.on_ring(tuple(forces), moment))
+
+    def _to_first_order(self, forces: tuple[Array, ...], moment: Array) -> Array:
         if not self.freedoms:
             return jnp.zeros((0, self.azimuth.shape[0]))
+        force = self._on_coordinates(forces)
         rows = []
         for direction, name in zip(self.directions, self.freedoms, strict=True):
             row = jnp.sum(force * direction, axis=0)
@@ -194,6 +301,13 @@ class AbstractBallSystem(AbstractArrowSystem):
                 row = row + moment * direction[0] / self.grooves.lever
             rows.append(self.multiplicity * row)
         return jnp.stack(rows)
+
+    def _on_coordinates(self, forces: tuple[Array, ...]) -> Float[Array, "p ball"]:
+        """Forces on the coordinates of the inner groove, N, from those on its arcs, axial and outward."""
+        if self.arcs.inner is None:
+            return forces[0]
+        turning = added([-side * force[1] for side, force in zip(self.arcs.inner_sides, forces, strict=True)])
+        return jnp.concatenate([added(forces), turning[None]])
 
     def shared_fields(self) -> dict[str, Any]:
         """Arguments of another system of the same balls."""

@@ -227,12 +227,10 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         return dataclasses.replace(self, geometry=running_geometry(self.geometry, growth))
 
     def row(self, expansion: Array) -> AbstractRow:
-        if self._shaped:
-            from .in_plane_row import InPlaneRow
-
-            return InPlaneRow(self, expansion)
         from .row import TiltingRow
 
+        if self._shaped:
+            raise ValueError(f"{self._shaped[0]}: a row of a set or of a shaft has rigid, round rings in this version")
         return TiltingRow(self, expansion)
 
     def range_checks(self) -> RangeChecks:

@@ -184,14 +184,14 @@ def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions, ring: 
         result,
         results,
         system.ring.displacement(result.point.globals),
-        port_of(system, result, results.elements.load_inner),
+        _port(system, result, results.elements.load_inner),
         ring_freedom=scene.shown_freedoms if ring is None else IN_PLANE,
         stiffness_freedom=IN_PLANE if system.ring.asks else None,
         equation_names=system.equation_names() or NOTHING_UNKNOWN,
     )
 
 
-def port_of(
+def _port(
     system: DryRollerSystem | LubricatedRollerSystem, result: NewtonResult, load: Float[Array, " roller"]
 ) -> Port:
     """The reaction and the stiffness of the ring, everything else in equilibrium; `load`: on the inner race, N.

@@ -22,7 +22,8 @@ class Simulation(Checked):
     - `load`: radial and lateral load over those of the operating point, as a function of time; of ball bearings all
       loads and moments.
     - `rotating_load`: a further, turning load; it frees the ring across the load line too.
-    - `solver`: one of `numerics.integrator.SOLVERS`; of a run of the rollers tsit5 where not given.
+    - `solver`: one of `numerics.integrator.SOLVERS`; of a run of the rollers tsit5 where not given; "auto" chooses
+      between tsit5 and kvaerno5 by the stiffness that it measures.
     - `tolerance`: relative tolerance, and absolute one in the units of the state.
     - `entrainment_smoothing`: smoothing of the mean surface speed's modulus in the films of the raceways, m/s: what
       film is left where a roller's surface passes through rest.

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...bearings.solution import Solution
-from ..colours import INNER, LOSS, OUTER, RIB
+from ..colours import INNER, INNER_SECOND, LOSS, OUTER, OUTER_SECOND, RIB
 from ..diagrams import Diagram
 from ..display import axis_unit, digits
 from ..panels import Axis, Bars, Curves, Numbers, Panel, Polar, Series, constant, log_ticks
@@ -19,6 +19,8 @@ from .ring_panels import ring_panels
 SIDES = (
     ("outer", OUTER, "square", "outer race"),
     ("inner", INNER, "circle", "inner race"),
+    ("outer_second", OUTER_SECOND, "diamond", "outer, second"),
+    ("inner_second", INNER_SECOND, "triangle-down", "inner, second"),
     ("flange", RIB, "triangle-up", "rib"),
 )
 LOG_FROM = 20.0
@@ -152,7 +154,7 @@ def _series(x: np.ndarray, values: dict[str, np.ndarray]) -> list[Series]:
 
 
 def _by_side(solution: Solution, name: str) -> dict[str, np.ndarray]:
-    """Values of raceways and rib, as far as the scene models them and some contact has results."""
+    """Values of raceways, their second flanks and rib, as far as the scene models them and some contact has results."""
     found = {side: getattr(solution.elements, f"{name}_{side}", None) for side, *_ in SIDES}
     arrays = {side: np.asarray(value) for side, value in found.items() if value is not None}
     return {side: array for side, array in arrays.items() if np.any(np.isfinite(array))}

@@ -38,6 +38,8 @@ _LOSS_BAR, _LOAD_BAR = 40, 18
 _COLUMNS = {
     "load_inner": "Q inner",
     "load_outer": "Q outer",
+    "load_inner_second": "Q inner, second",
+    "load_outer_second": "Q outer, second",
     "pressure_inner": "p inner",
     "pressure_outer": "p outer",
     "film_inner": "h inner",
@@ -164,7 +166,7 @@ def _print_loads(solution: Solution, console: Console, full: bool) -> None:
     largest = float(np.max(load))
     loaded = load > LOADED * largest if largest > 0.0 else np.zeros(load.shape, dtype=bool)
     azimuth = signed_degrees(elements.azimuth)
-    shown = {name: title for name, title in _COLUMNS.items() if getattr(elements, name) is not None}
+    shown = {name: title for name, title in _COLUMNS.items() if getattr(elements, name, None) is not None}
     print_rule("Loads round the bearing", console)
     if full:
         _print_load_table(solution, np.flatnonzero(loaded), list(shown.items()), console)

@@ -39,7 +39,9 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
         geometry=lambda: BallGeometry(**table.geometry.model_dump()),
         materials=lambda: BallMaterials(**solids(table, "rings", "balls", "cage")),
         operation=lambda: BallOperation(**table.operation.model_dump(exclude_none=True)),
-        kinematics=lambda: _kinematics(table.kinematics, slips()),
+        kinematics=lambda: _kinematics(
+            table.kinematics, slips(), table.geometry.shim_inner is not None or table.geometry.shim_outer is not None
+        ),
         oil=oil,
         contact=lambda: None if table.contact is None else _laws(table.contact, oil()),
         cage=lambda: cage(BallCage, table.cage),
@@ -60,11 +62,12 @@ def _run(table: BallBearingTable) -> Simulation | WarmUpSimulation | None:
     return simulation(table.simulation, table.operation.inner_speed, given[0] if len(given) == 1 else 0.0)
 
 
-def _kinematics(table: KinematicsTable | None, slips: bool) -> BallAttitude:
-    """Left out: in equilibrium with traction, without it outer race control."""
+def _kinematics(table: KinematicsTable | None, slips: bool, arcs: bool) -> BallAttitude:
+    """Left out: in equilibrium with traction, without it outer race control, or with two groove arcs on a ring
+    (`arcs`) the least sliding under linear traction."""
     attitude = None if table is None else table.attitude
     if attitude is None:
-        attitude = "equilibrium" if slips else "outer"
+        attitude = "equilibrium" if slips else "linear_slip" if arcs else "outer"
     if table is None:
         return BallAttitude(attitude)
     return BallAttitude(attitude, _gyroscopic(table, attitude), table.orbit)

@@ -105,8 +105,8 @@ def test_an_orbital_speed_that_was_not_found_is_no_result():
 @pytest.mark.parametrize("load", [1000.0, np.nan])
 def test_a_lane_without_numbers_is_given_up_at_once(load, monkeypatch):
     """Where lanes are solved at once, all wait for the slowest: one with an invalid input took 2 400 trials."""
-    forces, calls = ball_start._forces, []
-    monkeypatch.setattr(ball_start, "_forces", lambda *given: calls.append(None) or forces(*given))
+    forces, calls = ball_start.forces_at, []
+    monkeypatch.setattr(ball_start, "forces_at", lambda *given: calls.append(None) or forces(*given))
     problem = dataclasses.replace(PROBLEM, ring_load=load * jnp.ones_like(PROBLEM.ring_load))
     with jax.disable_jit():
         found = ball_start.start(problem, ball_start.ring_estimate(problem))

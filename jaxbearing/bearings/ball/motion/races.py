@@ -12,9 +12,9 @@ from ....contacts.distributed import Traction
 from ....contacts.point_laws import PointFilm
 from ....numerics.roots import monotone_root
 from ....numerics.safe import safe_norm
-from ..equations import LubricatedBallSystem
 from ..friction import SIDES, race_friction
 from ..kinematics import RaceMotion
+from ..pairs import LubricatedBallSystem
 from ..state import RaceState
 from .speeds import Meridian
 

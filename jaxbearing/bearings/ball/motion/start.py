@@ -23,8 +23,8 @@ from ...ring import inner_ring
 from ...solution import RING_FREEDOMS
 from ..build import build_core, build_lubricated
 from ..core import BallCore
-from ..equations import LubricatedBallSystem
 from ..gyroscopic import ResolvedCouple
+from ..pairs import LubricatedBallSystem
 from ..scene import BallAttitude, BallBearing
 from ..state import BallGuess, BallsState
 from .bodies import MovingCage, MovingRing, TurningBody
@@ -127,6 +127,7 @@ def build_dynamics(scene: BallBearing, simulation: Simulation, reference_speed: 
     zero = jnp.zeros_like(core.azimuth)
     # its equations are not solved, so that it needs no place to start from
     system = build_lubricated(resolved, core, BallGuess(zero, zero, zero, jnp.zeros(len(core.freedoms))))
+    assert isinstance(system, LubricatedBallSystem)
     geometry, grooves = running.geometry, core.grooves
     share = grooves.offset[1] / grooves.centre_distance
     drag = system.drag

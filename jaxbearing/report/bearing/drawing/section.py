@@ -32,12 +32,13 @@ def section(scene: Any, solution: Solution) -> str:
     for side, (place, direction) in contacts.items():
         length = _LONGEST * diameter * loads[side] / largest if largest > 0.0 else 0.0
         end = moved(place, direction, length)
-        colour = {"inner": INNER, "outer": OUTER, "flange": RIB}[side]
+        race = side.removesuffix("_second")
+        colour = {"inner": INNER, "outer": OUTER, "flange": RIB}[race]
         drawing.arrow(place, end, colour, width=3.0, data_load=loads[side])
         # that of the rib stands beside the ring
         gap, anchor = (0.45 * diameter, "end") if side == "flange" else (18.0 / drawing.scale, "middle")
         beside = moved(end, direction, gap)
-        drawing.text(beside, f"{_SAID[side]} {digits(loads[side])} N", anchor=anchor, fill=colour)
+        drawing.text(beside, f"{_SAID[race]} {digits(loads[side])} N", anchor=anchor, fill=colour)
         lowest = beside[1] if side == "inner" else lowest
     _axial_load(drawing, solution, contacts["inner"][0][0], lowest, diameter)
     return drawing.markup()

@@ -1,4 +1,6 @@
-r"""Lubricated balls without traction: loads, contact angles, motion and films for given unknowns.
+r"""Equations of lubricated balls with one contact on each ring.
+
+Unknowns of each ball: $\ln Q_i$ and the inner contact angle, and those of its motion (`equations`).
 
 The force of the inner race, the centrifugal force and the pocket's friction along the radius, $F_{C2} - F_{C1}$, give
 load and angle of the outer contact, so that both force balances of a ball hold identically (source eqs. (14)-(15)), and
@@ -7,100 +9,51 @@ $t = (\cos\alpha, -\sin\alpha)$ and $l_k = g_k + (Q_k/K_k)^{2/3} - h_k$, $l_in_i
 $n_i$ as the logarithm of the ratio of the positive terms on its two sides.
 """
 
-import equinox as eqx
+from typing import ClassVar
+
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ..._types import Scalar
-from ...contacts.point_laws import PointFilm, PointLaws
-from ...lubricants import InletOil, Lubricant
-from ...numerics.precision import as_float
+from ...contacts.point_laws import PointFilm
+from ...numerics.arrow import ArrowPoint
 from ...numerics.safe import safe_norm
-from ..inlet import AbstractOils, OilElsewhere
-from .geometry import BallGeometry
+from .core import orbit_totals
+from .equations import AbstractBallEquations, OfContacts
 from .kinematics import BallMotion
-from .state import BallCageParts, BallDrag, BallGuess, BallsState
-from .system import AbstractBallSystem, InnerArm, OnRing
+from .state import BallGuess, BallsState
+from .system import InnerArm, OnRing
 
 ROLLING_PASSES = 5
 """Newton steps for the orbital speed of a ball that rolls without sliding, with the outer contact angle that goes with
 it. Light balls between fast rings that turn against each other take all of them, usual ones two."""
 FRICTION_PASSES = 3
 """Load and angle of the outer contact under the friction that carries the couple: the error falls as fast."""
+LOG_LOAD_RANGE = (-200.0, 18.0)
+"""ln(load / 1 N) that an iterate may take."""
 
 
-class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
-    """Geometry, laws and parts of lubricated balls, and what they do without traction; see the module."""
+class LubricatedBallSystem(AbstractBallEquations):
+    """Lubricated balls with two contacts; see the module."""
 
-    geometry: BallGeometry
-    reduced_modulus: Float[Array, ""]
-    laws: PointLaws
-    oil: Lubricant
-    inlet: InletOil
-    guess: BallGuess
-    reference: BallMotion
-    """Rolling at the free contact angle, half way between outer and inner control."""
-    orbit_unit: Float[Array, ""]
-    """Scale of orbital speeds, rad/s; not 0 while a ring turns."""
-    resolved: bool = eqx.field(static=True, default=False)
-    cage: BallCageParts | None = None
-    drag: BallDrag | None = None
-    common_orbit: bool = eqx.field(static=True, default=False)
-    """True if balls that roll without sliding have one orbital speed."""
-    slide_share: Scalar = eqx.field(converter=as_float, default=1.0)
-    """Part of the sliding that the traction law sees: 1, less in an easier system."""
-    heavy_guess: BallGuess | None = None
-    """The easiest system starts here; only balls that do not slide have it."""
-    heavier: Float[Array, ""] | None = None
-    """The easiest load over the load on the ring."""
-    film_share: Scalar = eqx.field(converter=as_float, default=1.0)
-    """Part of the films that keeps the surfaces apart: 1, less in an easier system."""
-    elsewhere: OilElsewhere | None = None
-    """Oil of the other interactions where it is not that of the raceways, `inlet`."""
+    of_contacts: ClassVar[OfContacts] = OfContacts(
+        names=("approach of the rings at a ball", "direction of the contacts of a ball"),
+        caps=(12.0, 0.2),
+        lowest=(LOG_LOAD_RANGE[0], -1.6),
+        highest=(LOG_LOAD_RANGE[1], 1.6),
+    )
 
-    # -- structure ------------------------------------------------------------------------------------------------
-
-    @property
-    def slips(self) -> bool:
-        return self.laws.traction is not None
-
-    @property
-    def own_unknowns(self) -> tuple[str, ...]:
-        """Names of a ball's unknowns beside load and angle."""
-        if not self.slips:
-            return ()
-        names = ["spin"]
-        if self.attitude == "equilibrium":
-            names = ["axial spin", "radial spin"]
-        elif self.attitude == "min_power":
-            names.append("attitude")
-        names.append("orbit" if self.cage is None else "outward")
-        if self.resolved:
-            names += ["transverse", "carried"]
-        return tuple(names)
-
-    @property
-    def global_orbit(self) -> bool:
-        return self.cage is not None or self.common_orbit
-
-    # -- scales ---------------------------------------------------------------------------------------------------
-
-    def spin_unit(self) -> Array:
-        return self.orbit_unit / self.kinematics.ratio
-
-    def load_scale(self) -> Array:
-        return self.ring.size()
-
-    def friction_scale(self) -> Array:
-        """Scale of a ball's friction forces, N: 1 % of its share of the load and of its centrifugal force."""
-        force = self.centrifugal(self.reference.orbital_speed)
-        return 0.01 * (self.load_scale() / self.ball_count + force)
+    def initial(self) -> ArrowPoint:
+        guess = self.guess
+        assert isinstance(guess, BallGuess)
+        inner = guess.angle
+        outward = self.centrifugal(self.reference.orbital_speed)
+        outer = self._outer_contact(guess.log_load, inner, outward, None)[1]
+        rolling = self.kinematics.rolling(inner, outer, guess.attitude)
+        held = lambda orbit: self.kinematics.held(orbit, inner, outer, guess.attitude)
+        return self._started((guess.log_load, inner), guess.ring, jnp.exp(guess.log_load), rolling, held)
 
     # -- physics --------------------------------------------------------------------------------------------------
-
-    def orbit(self, scaled: Array) -> Array:
-        return self.reference.orbital_speed + self.orbit_unit * scaled
 
     def frictionless(
         self, unknowns: Float[Array, "m ball"], shared: Float[Array, "g ball"], film: PointFilm | None = None
@@ -134,7 +87,7 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
             forward = arm.in_plane[0] * jnp.sin(inner) + arm.in_plane[1] * jnp.cos(inner) > 0
             within = arm.length * arm.share
             sideways = (load[0] * arm.along / jnp.where(forward, within, -within),)
-        on_ring = on_ring(jnp.stack([axial[0], radial[0], *sideways]), moment)
+        on_ring = on_ring((jnp.stack([axial[0], radial[0], *sideways]),), moment)
         if pocket is not None and self.cage is not None and self.cage.guidance == "inner_ring":
             on_ring = on_ring + self._through_land(pocket)
         return BallsState(
@@ -160,14 +113,14 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
             cage_force=None,
         )
 
-    def _through_land(self, pocket: Float[Array, " ball"]) -> Float[Array, "freedom ball"]:
-        """Gives the contributions of the pockets' outward friction, N, to the forces on the ring.
+    def free_rolling(self, state: BallsState) -> Float[Array, " ball"]:
+        return self.kinematics.rolling(state.angle[0], state.angle[1], state.motion.attitude).orbital_speed
 
-        They go through cage and land and act in the middle plane, hence without a moment."""
-        along = {"radial": jnp.cos(self.azimuth), "lateral": jnp.sin(self.azimuth)}
-        zero = jnp.zeros_like(pocket)
-        rows = [along.get(name, zero) * pocket for name in self.freedoms]
-        return self.multiplicity * jnp.stack(rows) if rows else zero[None][:0]
+    def constrained(self, state: BallsState) -> BallMotion:
+        rolling = self.kinematics.rolling(state.angle[0], state.angle[1], state.motion.attitude)
+        own = rolling.orbital_speed
+        less, weight = jnp.sum(orbit_totals(state.load[0], own, jnp.zeros_like(own)), axis=1)
+        return rolling._replace(orbital_speed=jnp.full_like(own, -less / weight))
 
     def _outer_contact(
         self, log_load: Array, inner: Array, outward: Array, friction: Array | None
@@ -229,36 +182,6 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
         start = jnp.broadcast_to(self.reference.orbital_speed, inner.shape)
         return jax.lax.fori_loop(0, ROLLING_PASSES, better, start)
 
-    def _motion(self, inner: Array, outer: Array, orbit: Array | None, own: dict[str, Array]) -> BallMotion:
-        reference, unit = self.reference, self.spin_unit()
-        if self.attitude == "equilibrium":
-            axial, radial = (ref + unit * own[name] for name, ref in self._spin_parts(reference))
-            sense = jnp.where(reference.spin_speed < 0, -1.0, 1.0)
-            spin = sense * safe_norm(axial, radial)
-            still = (axial == 0) & (radial == 0)
-            attitude = jnp.arctan2(sense * jnp.where(still, 0.0, radial), sense * jnp.where(still, sense, axial))
-        else:
-            attitude = self._assumed_attitude(inner, outer, own)
-            if not self.slips:
-                rolling = self.kinematics.rolling(inner, outer, attitude)
-                return rolling._replace(orbital_speed=orbit) if self.common_orbit and orbit is not None else rolling
-            spin = reference.spin_speed + unit * own["spin"]
-        assert orbit is not None
-        transverse = unit * own["transverse"] if self.resolved else jnp.zeros_like(spin)
-        return BallMotion(orbit, spin, attitude, transverse)
-
-    @staticmethod
-    def _spin_parts(motion: BallMotion) -> tuple[tuple[str, Array], ...]:
-        """Names of the unknowns of the spin in equilibrium, and their values, rad/s."""
-        return ("axial spin", motion.axial_spin), ("radial spin", motion.radial_spin)
-
-    def _assumed_attitude(self, inner: Array, outer: Array, own: dict[str, Array]) -> Array:
-        if self.attitude == "outer":
-            return self.kinematics.outer_control(outer)
-        if self.attitude == "inner":
-            return self.kinematics.inner_control(inner)
-        return own["attitude"]
-
     def _fit(
         self, load: Array, angle: Array, film: Array, shift: Array
     ) -> tuple[Float[Array, "2 ball"], Float[Array, "2 ball"], InnerArm, OnRing]:
@@ -271,7 +194,7 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
         compression = jnp.cbrt(jnp.square(load / grooves.stiffness[:, None]))
         reach = grooves.offset[1] + compression[1] - film[1]
         centre = reach[None] * jnp.stack([jnp.sin(angle[1]), jnp.cos(angle[1])])
-        arm, on_ring = self.reach(shift, centre)
+        (arm,), on_ring = self.reach(shift, centre)
         # the arm laid into the half-plane
         groove = centre + (arm.in_plane / arm.share[None] if self.exact else arm.in_plane)
         turned = angle[1] - angle[0]

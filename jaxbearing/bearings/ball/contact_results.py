@@ -1,0 +1,106 @@
+"""Results at the contacts of a solved ball bearing: loads, angles, pressures, motion, and what range checks look at."""
+
+from typing import Any
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ...contacts import PointContact
+from ...materials import reduced_modulus
+from ..computed import computed_results
+from ..facts import LOADED, MEAN_OF_POINT, RACEWAYS, Contacts
+from ..parts import azimuths
+from .arcs import Arcs
+from .core import BallCore, BallState
+from .equations import AbstractBallEquations
+from .scene import BallBearing
+from .solution import BallResults, SolvedBalls
+from .state import BallsState
+
+
+def _every(scene: BallBearing, values: Array) -> Float[Array, " ball"]:
+    """One value a ball, also where one ball was solved for all."""
+    return jnp.broadcast_to(values, (scene.geometry.n_balls,))
+
+
+def ball_results(
+    scene: BallBearing,
+    system: BallCore | AbstractBallEquations,
+    state: BallState | BallsState,
+    contact: PointContact,
+    films: BallsState | None = None,
+    **more: Any,
+) -> tuple[BallResults, Contacts]:
+    """Loads, angles and motion; and the contacts for the checks, as far as geometry goes."""
+    geometry, kinematics = scene.geometry, system.kinematics
+    load, angle, motion = state.load, state.angle, state.motion
+    ellipse = contact.ellipse(load)
+    pressure = jnp.where(load > 0, ellipse.pressure, 0.0)
+    arcs, first = system.arcs, (0, system.arcs.first_outer)
+    races = (kinematics.inner_race(motion, angle[0]), kinematics.outer_race(motion, angle[first[1]]))
+    rolling = jnp.abs(kinematics.inner_speed - kinematics.outer_speed) / kinematics.ratio
+    ratios = [race.spin / jnp.sqrt(jnp.square(race.roll) + jnp.square(1e-12 * rolling) + 1e-24) for race in races]
+    more |= computed_results(BallResults, SolvedBalls(system, state, films))
+    more |= _second(arcs, load, angle, pressure)
+    others: dict[str, Any] = {name: _every(scene, one) for name, one in more.items() if one is not None}
+    elements = BallResults(
+        azimuth=azimuths(geometry, geometry.n_balls),
+        load_inner=_every(scene, load[0]),
+        load_outer=_every(scene, load[first[1]]),
+        contact_angle_inner=_every(scene, angle[0]),
+        contact_angle_outer=_every(scene, angle[first[1]]),
+        pressure_inner=_every(scene, pressure[0]),
+        pressure_outer=_every(scene, pressure[first[1]]),
+        orbital_speed=_every(scene, motion.orbital_speed),
+        spin_speed=_every(scene, motion.spin_speed),
+        attitude_angle=_every(scene, motion.attitude),
+        spin_to_roll_inner=_every(scene, jnp.abs(ratios[0])),
+        spin_to_roll_outer=_every(scene, jnp.abs(ratios[1])),
+        **others,
+    )
+    contacts = Contacts(_places(arcs), load, pressure, MEAN_OF_POINT, angle=angle)
+    if not arcs.single:
+        most = jnp.stack([jnp.max(load[: arcs.first_outer]), jnp.max(load[arcs.first_outer :])])
+        contacts = contacts._replace(largest=arcs.of_contacts(most)[:, None])
+    return elements, _at_shoulders(scene, contacts, arcs, ellipse.transverse)
+
+
+def _places(arcs: Arcs) -> tuple[str, ...]:
+    """Names of the contacts of a ball."""
+    names = {0: "{}", 1: "{} (flank for thrust along +x)", -1: "{} (flank for thrust along -x)"}
+    return tuple(names[side].format(RACEWAYS[race]) for race, side in zip(arcs.races, arcs.sides, strict=True))
+
+
+def _second(arcs: Arcs, load: Array, angle: Array, pressure: Array) -> dict[str, Array | None]:
+    """Results of the contacts on the flanks for thrust along -e_x, of rings that have them."""
+    if arcs.single:
+        return {}
+    named = arcs.named({"load": load, "contact_angle": angle, "pressure": pressure})
+    carrying = jnp.sum(load > LOADED * jnp.max(load), axis=0, dtype=float)
+    return {"loaded_contacts": carrying, **{name: one for name, one in named.items() if name.endswith("_second")}}
+
+
+def _at_shoulders(scene: BallBearing, contacts: Contacts, arcs: Arcs, transverse: Array) -> Contacts:
+    """The contacts, with how far they pass the shoulders that the scene gives."""
+    geometry = scene.geometry
+    limits = (geometry.shoulder_angle_inner, geometry.shoulder_angle_outer)
+    if limits == (None, None):
+        return contacts
+    assert contacts.angle is not None
+    angle = jnp.abs(contacts.angle)
+    radius = jnp.stack([jnp.asarray(f * geometry.ball_diameter) for f in _conformities(scene)])
+    limit = jnp.stack([jnp.asarray(0.0 if value is None else value) for value in limits])
+    radius, limit = arcs.of_contacts(radius)[:, None], arcs.of_contacts(limit)[:, None]
+    names = ("the inner ring's shoulder", "the outer ring's shoulder")
+    edges = tuple(None if limits[race] is None else names[race] for race in arcs.races)
+    return contacts._replace(past_edge=angle + transverse / radius - limit, edges=edges)
+
+
+def _conformities(scene: BallBearing) -> tuple[Any, Any]:
+    return scene.geometry.conformity_inner, scene.geometry.conformity_outer
+
+
+def contacts_at(scene: BallBearing, angle: Array, races: tuple[int, ...]) -> PointContact:
+    """The contacts at contact angles, rad. **Arguments:** `races`: of each contact, 0 inner."""
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
+    return scene.geometry.contacts_on(jnp.cos(angle), races, modulus)

@@ -1,0 +1,71 @@
+r"""Motion of balls without friction and without a hypothesis of race control, for any number of contacts.
+
+Three contacts or more cannot all roll without sliding and spin (`docs/theory/four_point.md`). With tractions that are
+proportional to pressure and sliding, $\tau\propto p\,\Delta u$, the balance of the ball is the minimum of
+
+$$\sum_kQ_k[u_{tk}^2 + \tfrac15\omega_{sk}^2(a_k^2 + c_k^2)]$$
+
+over the orbital speed $\omega_m$ and the parts of the spin $\omega_x = \omega_R\cos\beta$,
+$\omega_z = \omega_R\sin\beta$ (semi-axes a, c of the ellipse; the mean of $x^2 + y^2$ with Hertz's pressure is
+$(a^2 + c^2)/5$). Sliding and spin are linear in these speeds:
+
+- $u_{ti} = \frac12D(\omega_x\cos\alpha + \omega_z\sin\alpha) - \frac12d_m(\omega_i - \omega_m)(1 - \gamma'\cos\alpha)$,
+  $u_{to} = \frac12d_m(\omega_m - \omega_o)(1 + \gamma'\cos\alpha) - \frac12D(\omega_x\cos\alpha + \omega_z\sin\alpha)$;
+- $\omega_{si} = (\omega_i - \omega_m)\sin\alpha + (\omega_x\sin\alpha - \omega_z\cos\alpha)$,
+  $\omega_{so} = (\omega_m - \omega_o)\sin\alpha - (\omega_x\sin\alpha - \omega_z\cos\alpha)$.
+
+The minimum is one system of three equations, smooth where contacts open. Two contacts roll without sliding, and share
+the spin in proportion to the stiffness of their patches.
+"""
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from ...numerics.safe import safe_norm
+from ...numerics.small_linear import solve_blocks
+from .arcs import Arcs
+from .kinematics import BallKinematics, BallMotion
+
+
+def slip_weights(load: Float[Array, "contact ball"], arcs: Arcs, floor: float) -> Float[Array, "contact ball"]:
+    r"""Loads that weigh the sliding of each contact, N: $Q_k + \varepsilon^2/(\varepsilon + \sum Q)$ with the sum over
+    the contacts of its ring. A ring without load weighs $\varepsilon$; at 1 kN the
+    addition is 1e-9 N.
+
+    **Arguments:** `floor`: $\varepsilon$, N.
+    """
+    on_ring = (arcs.on_inner(load), arcs.on_outer(load))
+    return jnp.stack([load[k] + floor**2 / (floor + on_ring[race]) for k, race in enumerate(arcs.races)])
+
+
+def linear_slip(
+    kinematics: BallKinematics,
+    angle: Float[Array, "contact ball"],
+    weight: Float[Array, "contact ball"],
+    spread: Float[Array, "2"],
+    races: tuple[int, ...],
+) -> BallMotion:
+    """The motion that minimises the sum above.
+
+    **Arguments:** `angle`: contact angles, rad; `weight`: of the sliding, N, > 0; `spread`: $(a^2 + c^2)/Q^{2/3}$ of
+    contacts on the inner and on the outer race, m^2/N^(2/3); `races`: of each contact, 0 inner.
+    """
+    race = np.asarray(races)
+    sense = np.where(race == 0, 1.0, -1.0)[:, None]
+    ratio, half = kinematics.ratio, 0.5 * kinematics.pitch_diameter
+    sine, cosine = jnp.sin(angle), jnp.cos(angle)
+    ring = jnp.stack([kinematics.inner_speed, kinematics.outer_speed])[race][:, None]
+    # u_t and omega_s up to their signs, over half the pitch diameter; unknowns omega_m, ratio omega_x, ratio omega_z
+    lever = 1.0 - sense * ratio * cosine
+    slide = jnp.stack([lever, sense * cosine, sense * sine])
+    spin = jnp.stack([sine, -sine / ratio, cosine / ratio])
+    of_spin = weight * 0.2 * spread[race][:, None] * jnp.cbrt(jnp.square(weight)) / jnp.square(half)
+    matrix = jnp.einsum("ikn,jkn,kn->ijn", slide, slide, weight) + jnp.einsum("ikn,jkn,kn->ijn", spin, spin, of_spin)
+    right = jnp.sum((weight * lever * ring)[None] * slide + (of_spin * sine * ring)[None] * spin, axis=1)
+    orbit, axial, radial = solve_blocks(matrix, right[:, None])[:, 0]
+    axial, radial = axial / ratio, radial / ratio
+    way = jnp.where(kinematics.inner_speed < kinematics.outer_speed, -1.0, 1.0)
+    still = (axial == 0) & (radial == 0)
+    attitude = jnp.arctan2(way * jnp.where(still, 0.0, radial), way * jnp.where(still, way, axial))
+    return BallMotion(orbit, way * safe_norm(axial, radial), attitude, jnp.zeros_like(orbit))

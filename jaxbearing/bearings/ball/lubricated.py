@@ -1,0 +1,150 @@
+"""Base of the equations of lubricated balls: laws and parts, scales, speeds, for any number of contacts of a ball."""
+
+import abc
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ..._types import Scalar
+from ...contacts.point_laws import PointLaws
+from ...lubricants import InletOil, Lubricant
+from ...numerics.precision import as_float
+from ...numerics.safe import safe_norm
+from ..inlet import AbstractOils, OilElsewhere
+from .geometry import BallGeometry
+from .kinematics import BallMotion, RaceMotion
+from .state import BallCageParts, BallDrag, BallGuess, BallPlaces, BallsState
+from .system import AbstractBallSystem
+
+
+class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
+    """Geometry, laws and parts of lubricated balls."""
+
+    geometry: BallGeometry
+    reduced_modulus: Float[Array, ""]
+    laws: PointLaws
+    oil: Lubricant
+    inlet: InletOil
+    guess: BallGuess | BallPlaces
+    reference: BallMotion
+    """Rolling at the free contact angle, half way between outer and inner control."""
+    orbit_unit: Float[Array, ""]
+    """Scale of orbital speeds, rad/s; not 0 while a ring turns."""
+    resolved: bool = eqx.field(static=True, default=False)
+    cage: BallCageParts | None = None
+    drag: BallDrag | None = None
+    common_orbit: bool = eqx.field(static=True, default=False)
+    """True if balls that roll without sliding have one orbital speed."""
+    slide_share: Scalar = eqx.field(converter=as_float, default=1.0)
+    """Part of the sliding that the traction law sees: 1, less in an easier system."""
+    heavy_guess: BallGuess | BallPlaces | None = None
+    """The easiest system starts here; only balls that do not slide have it."""
+    heavier: Float[Array, ""] | None = None
+    """The easiest load over the load on the ring."""
+    film_share: Scalar = eqx.field(converter=as_float, default=1.0)
+    """Part of the films that keeps the surfaces apart: 1, less in an easier system."""
+    elsewhere: OilElsewhere | None = None
+    """Oil of the other interactions where it is not that of the raceways, `inlet`."""
+
+    # -- structure ------------------------------------------------------------------------------------------------
+
+    @property
+    def slips(self) -> bool:
+        return self.laws.traction is not None
+
+    @property
+    def own_unknowns(self) -> tuple[str, ...]:
+        """Names of a ball's unknowns beside the two of its contacts."""
+        if not self.slips:
+            return ()
+        names = ["spin"]
+        if self.attitude == "equilibrium":
+            names = ["axial spin", "radial spin"]
+        elif self.attitude == "min_power":
+            names.append("attitude")
+        names.append("orbit" if self.cage is None else "outward")
+        if self.resolved:
+            names += ["transverse", "carried"]
+        return tuple(names)
+
+    @property
+    def global_orbit(self) -> bool:
+        return self.cage is not None or self.common_orbit
+
+    # -- scales ---------------------------------------------------------------------------------------------------
+
+    def spin_unit(self) -> Array:
+        return self.orbit_unit / self.kinematics.ratio
+
+    def load_scale(self) -> Array:
+        return self.ring.size()
+
+    def friction_scale(self) -> Array:
+        """Scale of a ball's friction forces, N: 1 % of its share of the load and of its centrifugal force."""
+        force = self.centrifugal(self.reference.orbital_speed)
+        return 0.01 * (self.load_scale() / self.ball_count + force)
+
+    # -- physics --------------------------------------------------------------------------------------------------
+
+    def orbit(self, scaled: Array) -> Array:
+        return self.reference.orbital_speed + self.orbit_unit * scaled
+
+    @abc.abstractmethod
+    def frictionless(self, unknowns: Float[Array, "m ball"], shared: Float[Array, "g ball"]) -> BallsState:
+        """All but what traction does."""
+
+    @abc.abstractmethod
+    def free_rolling(self, state: BallsState) -> Float[Array, " ball"]:
+        """Orbital speeds of the balls if they rolled, rad/s, to measure the slip of the cage by."""
+
+    @abc.abstractmethod
+    def constrained(self, state: BallsState) -> BallMotion:
+        """Motion of balls without traction that does not follow from each ball alone rolling without sliding: at one
+        orbital speed for all, or with more than two contacts."""
+
+    def races_of(self, motion: BallMotion, angle: Float[Array, "contact ball"]) -> RaceMotion:
+        """Motion of the balls over the race at each contact."""
+        over = (self.kinematics.inner_race, self.kinematics.outer_race)
+        each = [over[race](motion, angle[k]) for k, race in enumerate(self.arcs.races)]
+        return jax.tree.map(lambda *values: jnp.stack(values), *each)
+
+    def _through_land(self, pocket: Float[Array, " ball"]) -> Float[Array, "freedom ball"]:
+        """Gives the contributions of the pockets' outward friction, N, to the forces on the ring.
+
+        They go through cage and land and act in the middle plane, hence without a moment."""
+        along = {"radial": jnp.cos(self.azimuth), "lateral": jnp.sin(self.azimuth)}
+        zero = jnp.zeros_like(pocket)
+        rows = [along.get(name, zero) * pocket for name in self.freedoms]
+        return self.multiplicity * jnp.stack(rows) if rows else zero[None][:0]
+
+    def _motion(self, inner: Array, outer: Array, orbit: Array | None, own: dict[str, Array]) -> BallMotion:
+        reference, unit = self.reference, self.spin_unit()
+        if "axial spin" in own:
+            axial, radial = (ref + unit * own[name] for name, ref in self._spin_parts(reference))
+            sense = jnp.where(reference.spin_speed < 0, -1.0, 1.0)
+            spin = sense * safe_norm(axial, radial)
+            still = (axial == 0) & (radial == 0)
+            attitude = jnp.arctan2(sense * jnp.where(still, 0.0, radial), sense * jnp.where(still, sense, axial))
+        else:
+            attitude = self._assumed_attitude(inner, outer, own)
+            if not self.slips:
+                rolling = self.kinematics.rolling(inner, outer, attitude)
+                return rolling._replace(orbital_speed=orbit) if self.common_orbit and orbit is not None else rolling
+            spin = reference.spin_speed + unit * own["spin"]
+        assert orbit is not None
+        transverse = unit * own["transverse"] if self.resolved else jnp.zeros_like(spin)
+        return BallMotion(orbit, spin, attitude, transverse)
+
+    @staticmethod
+    def _spin_parts(motion: BallMotion) -> tuple[tuple[str, Array], ...]:
+        """Names of the unknowns of the spin in equilibrium, and their values, rad/s."""
+        return ("axial spin", motion.axial_spin), ("radial spin", motion.radial_spin)
+
+    def _assumed_attitude(self, inner: Array, outer: Array, own: dict[str, Array]) -> Array:
+        if self.attitude == "outer":
+            return self.kinematics.outer_control(outer)
+        if self.attitude == "inner":
+            return self.kinematics.inner_control(inner)
+        return own["attitude"]

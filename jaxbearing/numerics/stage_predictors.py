@@ -1,0 +1,76 @@
+"""First iterates of the stages of an implicit Runge-Kutta method, extrapolated from earlier stages.
+
+A stage takes the Lagrange polynomial through the rates of `MOST_NODES` earlier stages, of this step and then of the one
+before. A stage at the same place as an earlier one takes that one's rates. Without a step before, or after one that is
+much shorter, the weights are those of diffrax's tableau.
+"""
+
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from .._types import Scalar
+
+MOST_NODES = 4
+"""Stages from which the first iterate is extrapolated."""
+MOST_GROWTH = 2.0
+"""Growth of the step above which the stages of the step before are not extrapolated."""
+APART = 0.05
+"""Distance of two stages, over the step, below which only one of them is a node."""
+INSIDE = 0.95
+"""Place in the step before up to which a stage is a node; its end is the start of this step."""
+
+
+def stage_places(tableau: Any) -> np.ndarray:
+    """Places of the stages in the step, from 0."""
+    return np.concatenate([[0.0], tableau.c])
+
+
+def stage_predictors(tableau: Any, length: Scalar, before: Scalar) -> Float[Array, "stage both"]:
+    """Weights of the stages of the step before, and behind them of this step, in the first iterate of each stage.
+
+    **Arguments:** `tableau`: of diffrax; `length`, `before`: of this step and of the one before, s; `before` is 0 where
+    there is none.
+    """
+    places = stage_places(tableau)
+    count = len(places)
+    near = (before > 0) & (length < MOST_GROWTH * before)
+    rows = [jnp.zeros(2 * count)]
+    for stage in range(1, count):
+        plain = np.zeros(2 * count)
+        plain[count : count + stage] = tableau.a_predictor[stage - 1]
+        chosen = predictor_nodes(places, stage)
+        nodes = [places[j] if j >= 0 else (places[~j] - 1.0) * before / length for j in chosen]
+        row = jnp.zeros(2 * count)
+        for a, j in enumerate(chosen):
+            weight = jnp.ones(())
+            for b, node in enumerate(nodes):
+                if b != a:
+                    # the nodes of a step of length 0 coincide; `near` then leaves them out
+                    apart = jnp.where(near, nodes[a] - node, 1.0)
+                    weight = weight * (places[stage] - node) / apart
+            row = row.at[count + j if j >= 0 else ~j].set(weight)
+        rows.append(jnp.where(near, row, jnp.asarray(plain)))
+    return jnp.stack(rows)
+
+
+def predictor_nodes(places: np.ndarray, stage: int) -> list[int]:
+    """Stages that the first iterate of a stage is extrapolated from: j of this step, ~j of the one before."""
+    same = [j for j in range(stage) if places[j] == places[stage]]
+    if same:
+        return same[-1:]
+    own = _apart(places, list(reversed(range(stage))))
+    inside = [j for j in range(len(places)) if 0.0 < places[j] < INSIDE]
+    before = _apart(places, sorted(inside, key=lambda j: -places[j]))
+    return (own + [~j for j in before])[:MOST_NODES]
+
+
+def _apart(places: np.ndarray, candidates: list[int]) -> list[int]:
+    """The candidates that are no closer than `APART` to an earlier one."""
+    chosen: list[int] = []
+    for j in candidates:
+        if all(abs(places[j] - places[k]) > APART for k in chosen):
+            chosen.append(j)
+    return chosen
