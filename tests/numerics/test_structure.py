@@ -100,6 +100,9 @@ def test_words(name, path, word):
 
 PARTS = ("lubricants", "contacts", "gaps", "bearings", "machines", "ehl")
 INSIDE = (
+    "Equations",
+    "Dynamics",
+    "Levers",
     "System",
     "Core",
     "Problem",
