@@ -195,7 +195,8 @@ class BallSimulationTable(table_of(Simulation, leave_out=_SHARED, base=Simulatio
     """See `bearings.motion.settings.Simulation`, and with [thermal] `bearings.warming.settings.WarmUpSimulation`."""
 
     def of_other_run(self, warm: bool) -> Problems:
-        yield from super().of_other_run(warm)
+        # by its name: a draft of a file has the fields of this class, and is none of it
+        yield from SimulationTable.of_other_run(self, warm)
         for name in _NUMBERS_OF_BALLS if warm else ():
             if getattr(self, name) is not None:
                 expected = "none beside [thermal]: it belongs to a run of the balls"
