@@ -247,13 +247,13 @@ def _inside(name: str, model: type[BaseModel], tables: Iterable[str]) -> str:
     return found[0] if len(found) == 1 else ""
 
 
-_MOST_NAMES = 24
-"""Longest list of names that a message prints in full."""
+_MOST_NAMES, _MOST_LETTERS = 24, 340
+"""Longest list of names that a message prints in full, in names and in letters."""
 
 
 def one_of(names: Iterable[str]) -> str:
     """Valid names in words: "'a'", or "one of 'a', 'b'". Of a long list only the first three and the last are named."""
     quoted = [f"'{name}'" for name in names]
-    if len(quoted) > _MOST_NAMES:
+    if len(quoted) > _MOST_NAMES or len(", ".join(quoted)) > _MOST_LETTERS:
         return f"one of {', '.join(quoted[:3])}, ..., {quoted[-1]} ({len(quoted)} words)"
     return quoted[0] if len(quoted) == 1 else "one of " + ", ".join(quoted)
