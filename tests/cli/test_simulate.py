@@ -119,7 +119,7 @@ REFUSED = {
     "no pocket": ((*BASE, "--duration", "1 ms", "--set", "cage.pocket_clearance=none"), "cage.pocket_clearance"),
     "no table": ((*BASE, "--duration", "1 ms", "--set", "simulation.speed_table.file=gone.csv"), "gone.csv"),
     "an animation of another kind": ((*BASE, "--duration", "1 ms", "--animation", "run.avi"), ".gif"),
-    "a steady kind": (("simulate", "turbine_ball", "--duration", "1 ms"), "cylindrical"),
+    "a steady kind": (("simulate", "tapered_example", "--duration", "1 ms"), "cylindrical"),
     "an unknown solver": ((*BASE, "--duration", "1 ms", "--set", "simulation.solver=euler"), "tsit5"),
     "too many results": ((*BASE, "--duration", "1e9 s"), "--interval"),
     "a load from zero": (

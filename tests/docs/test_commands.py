@@ -150,9 +150,7 @@ def made_up(monkeypatch, one_process):
         return solution_of(scene), Sensitivities(numbers, numbers)
 
     run = lambda scene, duration, **_: history_of(scene, duration or scene.simulation.duration)
-    # names of the package that are looked up for the first time meanwhile would stay made up
-    for name in ("simulate", "sensitivities"):
-        getattr(jb, name)
+    monkeypatch.setattr(jb, "simulate", jb.simulate)  # a command that loads the verbs meanwhile takes what is made up
     monkeypatch.setattr(sys.modules["jaxbearing.solve"], "solve_once", solution_of)
     monkeypatch.setattr(sys.modules["jaxbearing.sensitivity"], "sensitivities", slopes)
     monkeypatch.setattr(sys.modules["jaxbearing.simulate"], "simulate", run)
@@ -171,6 +169,7 @@ def made_up(monkeypatch, one_process):
 def shortened(monkeypatch, one_process):
     """Solvers as they are; runs in time are short."""
     simulate = jb.simulate
+    monkeypatch.setattr(jb, "simulate", simulate)
     short = lambda scene, duration, **more: simulate(scene, min(duration or SHORT, SHORT), **more)
     monkeypatch.setattr(sys.modules["jaxbearing.simulate"], "simulate", short)
 

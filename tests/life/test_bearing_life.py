@@ -90,7 +90,9 @@ def test_laminae_of_the_rating_are_those_asked_for(case, asked, monkeypatch):
 def test_static_rating_of_ceramic_elements_in_every_kind_of_bearing(name, elements, power):
     """C0 at the same Hertz pressure: (E' of steel / E' of the pair)^2 of points, ^1 of lines; C is not concerned."""
     scene = jb.load_scene(name).replace({"materials.rings": STEEL, "rating": Rating()})
-    solid = SimpleNamespace(load_inner=jnp.ones(4), load_outer=jnp.ones(4))
+    solid = SimpleNamespace(
+        load_inner=jnp.ones(4), load_outer=jnp.ones(4), load_inner_second=None, load_outer_second=None
+    )
     laminae = SimpleNamespace(inner=jnp.ones((4, 30)), outer=jnp.ones((4, 30)), profiled=False)
 
     def rated(material):

@@ -114,6 +114,8 @@ def test_every_labelled_field_is_in_some_result():
             held[type(part)] = held.get(type(part), set()) | names
     for part in PARTS:
         there = {field.name for field in dataclasses.fields(part) if "unit" in field.metadata}
+        # a bearing has neighbours on a shaft only: tests/shafts/test_warm.py
+        there -= {"shaft_neighbours", "housing_neighbours"} if part is HeatPaths else set()
         assert there <= held[part], f"{part.__name__}: {there - held[part]}"
 
 

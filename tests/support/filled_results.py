@@ -41,6 +41,12 @@ SCENES = {
     "ball": lambda: jb.load_scene(
         "turbine_ball_mounted", {"kinematics.gyroscopic": "resolved", "contact.heathcote": "true", **_ROUGH, **_RATING}
     ),
+    "ball with four contacts": lambda: jb.load_scene(
+        "turbine_ball_mounted",
+        {"geometry.shim_inner": "10 deg", "geometry.shim_outer": "10 deg", "contact.heathcote": "true"}
+        | _ROUGH
+        | _RATING,
+    ),
     "dry ball": lambda: jb.load_scene("deep_groove_6205", {"operation.axial_load": "none"}),
     "roller": lambda: jb.load_scene(
         "turbine_roller", {"contact.rolling_resistance": "ertel_grubin", **_ROUGH, **_RATING}
