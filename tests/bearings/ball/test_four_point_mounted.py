@@ -9,6 +9,8 @@ from jaxbearing.shafts import MountedBearing, PointLoad, Shaft, ShaftSystem
 
 LOADS = {"axial_load": 3e3, "radial_load": 1e3, "moment": 10.0}
 SEATED = {
+    "materials.rings": "52100",
+    "materials.balls": "52100",
     "geometry.bore": "45 mm",
     "geometry.outside_diameter": "100 mm",
     "geometry.width": "25 mm",
@@ -48,7 +50,7 @@ def test_alone_on_a_rigid_shaft():
 @pytest.mark.slow
 def test_growth_closes_the_play():
     """A tight seat and a hotter inner ring take clearance between four contacts."""
-    seats = {name: value for name, value in SEATED.items() if name.startswith(("geometry", "fits"))}
+    seats = {name: value for name, value in SEATED.items() if name.startswith(("geometry", "fits", "materials"))}
     hot = {"temperatures.inner_ring": "80 degC", "temperatures.outer_ring": "60 degC"}
     plain = jb.solve(jb.load_scene("four_point_qj"))
     seated = jb.solve(jb.load_scene("four_point_qj", seats))
@@ -66,4 +68,5 @@ def test_thermal_state():
     total = float(found.power_loss.total)
     np.testing.assert_allclose(found.drive_power, total, rtol=1e-8)
     np.testing.assert_allclose(found.thermal.heat_to_oil + found.thermal.heat_to_ambient, total, rtol=1e-8)
-    assert float(found.thermal.temperatures.inner_ring) > 313.15
+    # between the ambient and what friction would heat it to: cold surroundings take more than friction gives here
+    assert 293.15 < float(found.thermal.temperatures.inner_ring) < 373.15

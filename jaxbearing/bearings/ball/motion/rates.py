@@ -31,6 +31,7 @@ from ....time_laws import AbstractTimeFactor, RotatingLoad, Steady
 from ...motion.family import AbstractDynamics
 from ...motion.frame import turning_frame
 from ...motion.history import Energy, Instant, PocketPeaks
+from ..arcs import Arcs
 from ..core import FORCE_FLOOR
 from ..kinematics import BallKinematics, BallMotion
 from ..state import BallDrag
@@ -129,6 +130,11 @@ class BallDynamics(AbstractDynamics):
         if self.rotating_load is None:
             return load
         return load.at[1:3].add(self.rotating_load.components(time))
+
+    @property
+    def arcs(self) -> Arcs:
+        """Rings of moving balls have one groove arc each."""
+        return Arcs()
 
     @property
     def work_unit(self) -> Float[Array, ""]:
