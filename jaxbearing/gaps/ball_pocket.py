@@ -14,7 +14,7 @@ SPIN_FLOOR = 1.0
 CUT_FILMS = 20.0
 """The friction integral reaches to this many central films, or to the clearance where that is more."""
 SUPERPOSITIONS = ("root_of_squares", "sum")
-"""How entrainments along and across the axis of a pocket give one load: exactly, or as in the source."""
+"""Rule by which the entrainments along and across the axis of a pocket give one load: exact, or as in the source."""
 
 
 class BallPocketFilm(NamedTuple):

@@ -97,7 +97,7 @@ class BallCore(AbstractBallSystem):
     parameter: Float[Array, ""] | None = None
     common_orbit: bool = eqx.field(static=True, default=False)
     spread: Float[Array, "2"] | None = None
-    """Of `linear_slip`; `None`: race control."""
+    """Weights of `linear_slip`; `None` under race control."""
 
     # -- scales ---------------------------------------------------------------------------------------------------
 

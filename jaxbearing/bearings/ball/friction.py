@@ -40,7 +40,7 @@ from .lubricated import AbstractLubricatedBallSystem
 from .state import BallsState, RaceState
 
 SIDES = Arcs().senses
-"""Of balls with two contacts, inner, outer: the sense of the contact's x axis along the orbit."""
+"""Sense of the contact's x axis along the orbit, at the inner and the outer contact of balls with two contacts."""
 FADING_LOAD = 1e-3
 """Load of a contact at which its traction fades where balls have more than two, N."""
 PART_TOLERANCE = 1e-12

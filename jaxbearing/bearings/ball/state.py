@@ -89,7 +89,7 @@ class BallsState(NamedTuple):
 
 
 class RaceState(NamedTuple):
-    """What friction on the raceways depends on; the fields are those of `BallsState`."""
+    """State on which the friction of the raceways depends; the fields are those of `BallsState`."""
 
     load: Float[Array, "2 ball"]
     contact: PointContact

@@ -148,7 +148,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
                     )
 
     def _shape_problems(self, moves: bool) -> Iterator[str | ValueError]:
-        """What rings that bend or are not round cannot be combined with."""
+        """Refusals of parts that cannot be combined with rings that bend or are not round."""
         for name in self._shaped:
             if self.tilts:
                 yield f"{name}: rollers that tilt or have a profile run between rigid, round rings in this version"

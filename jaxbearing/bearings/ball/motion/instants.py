@@ -31,7 +31,7 @@ from .speeds import PocketPlace
 
 
 class _Seen(NamedTuple):
-    """What the functions of `BallResults` take from the state of a steady bearing."""
+    """State that the functions of `BallResults` take, as a steady bearing has it."""
 
     angle: Float[Array, "2 ball"]
     motion: BallMotion

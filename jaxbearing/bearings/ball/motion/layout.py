@@ -24,7 +24,7 @@ GLOBAL_UNITS = (PLACE,) * 6 + (SLOW,) * 6 + (PLACE,) * 5 + (SLOW,) * 5
 
 
 class Places(NamedTuple):
-    """Where balls, cage and ring are.
+    """Places of balls, cage and ring.
 
     - `azimuth`: of each ball, `pockets`: of each pocket, rad.
     - `centre`: of each ball from the outer groove centre, (axial, outward), m.
@@ -43,7 +43,7 @@ class Places(NamedTuple):
 
 
 class Rates(NamedTuple):
-    """How fast they move: the generalised speeds, whose conjugates are the generalised forces.
+    """Generalised speeds of balls, cage and ring; their conjugates are the generalised forces.
 
     - `orbit`: speed of each ball about the axis, rad/s; `spin`: w_x, w_r, w_t of each ball relative to the orbiting
       frame, rad/s, of the signs of `BallMotion`; `centre`: axial and outward speed of each ball, m/s.

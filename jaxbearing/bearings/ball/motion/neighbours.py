@@ -21,8 +21,8 @@ STILL = 1e-9
 
 
 class NeighbourSpeeds(NamedTuple):
-    """Of each ball and the next one: rate of the distance of their centres, m/s, and sliding, m/s, in space (along the
-    axis, along azimuths 0 and 90 degrees)."""
+    """Relative motion of each ball and the next one: rate of the distance of their centres, m/s, and sliding, m/s, in
+    space (along the axis, along azimuths 0 and 90 degrees)."""
 
     apart: Float[Array, " ball"]
     sliding: Float[Array, "3 ball"]

@@ -159,7 +159,7 @@ class BallDynamics(AbstractDynamics):
         return state.elements * jnp.asarray(BALL_UNITS)[:, None], shared, works
 
     def moving(self, time: Scalar, state: ArrowPoint) -> tuple[Places, Rates]:
-        """Where everything is, and how fast it moves."""
+        """Places and speeds of all bodies."""
         balls, shared, _ = self.unscaled(state)
         turned, turning, _ = self.frame(time)
         pitch, ball = self.levers.pitch_radius, self.levers.ball_radius
@@ -281,7 +281,7 @@ class BallDynamics(AbstractDynamics):
     def ball_accelerations(
         self, now: MovingBalls
     ) -> tuple[Float[Array, " ball"], Float[Array, "3 ball"], Float[Array, "2 ball"]]:
-        """Of orbit and spin, rad/s^2, and of the centre in the plane of the groove, m/s^2."""
+        """Accelerations of orbit and spin, rad/s^2, and of the centre in the plane of the groove, m/s^2."""
         pulled, (radius, orbit) = now.generalised, (now.places.radius, now.rates.orbit)
         (_, w_r, w_t), outward = now.rates.spin, now.rates.centre[1]
         along = (pulled.orbit + pulled.spin[0]) / (self.mass * radius) - 2.0 * outward * orbit

@@ -88,8 +88,8 @@ def require_moving(scene: BallBearing) -> None:
 
 
 def free_freedoms(scene: BallBearing, simulation: Simulation) -> tuple[bool, ...]:
-    """Whether the ring moves along each of its freedoms: those that are unknown in the steady state, and the lateral
-    one with the radial one, as balls on their way are not symmetric about the load line."""
+    """True for each freedom along which the ring moves. These are the unknown ones of the steady state. The lateral one
+    goes with the radial one, because moving balls are not symmetric about the load line."""
     free = set(scene.unknown_freedoms)
     if simulation.rotating_load is not None:
         free |= {name for name in ("radial", "lateral") if scene.operation.held_at(name) is None}
