@@ -308,7 +308,7 @@ def scaled(lengths: tuple[str, ...], floor: float = 0.0, limit: float = 1e-7) ->
     loads that the package adds and does not scale, N."""
     powers = {**dict.fromkeys(lengths, 1), **dict.fromkeys(SPEEDS, -1)}
     powers |= {"operation.axial_load": 2, "operation.radial_load": 2, "operation.moment": 3}
-    shapes = ("angle", "conformity")
+    shapes = ("angle", "conformity", "shim")
 
     def change(numbers: Numbers) -> Numbers:
         power = {
