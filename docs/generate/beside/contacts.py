@@ -157,8 +157,8 @@ COMPARISONS = (
         kind="computed",
         conditions="The shaft turns at 24 000 rpm under 3000 lbf (13.3 kN) axially. There are 21 balls of 0.8125 in "
         "on a pitch diameter of 6.2 in.",
-        free="Three inputs were computed back from the printed results: free contact angle, modulus, and density of "
-        "the balls. So only about three of the six numbers are independent checks.",
+        free="Three inputs were fitted to the printed results: free contact angle, modulus, and density of the balls. "
+        "So only about three of the six numbers are independent checks.",
         assumed="Outer race control gives the orbit of the balls.",
         missed="Cage speed and slip of the printed point are not reproduced: its centrifugal force needs a much slower "
         "orbit or lighter balls. The reason is not known.",

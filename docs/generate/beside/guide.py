@@ -54,7 +54,7 @@ ROWS = (
     Row(
         "traction coefficient",
         "oil whose curve was measured and fitted",
-        f"{BELIEVE} to {{traction}} at each point of that curve",
+        f"{BELIEVE} to {{traction}} at each point of that curve; it is a fit",
         "traction",
     ),
     Row("traction coefficient", "oil of the catalogue, not fitted", UNKNOWN),
@@ -86,8 +86,8 @@ ROWS = (
     Row(
         "loss, cylindrical roller bearing",
         "circulating or jet oil",
-        f"{UNKNOWN}; an estimate of ours has an uncertainty of about 50 %. Without rolling resistance, as the built-in "
-        "scenes are, the total is 3.7 times smaller",
+        f"{UNKNOWN}; our estimate is uncertain by about 50 %. The built-in scenes leave out the rolling resistance, "
+        "and their total is 3.7 times smaller",
         "turbine_roller",
     ),
     Row(
@@ -144,9 +144,9 @@ ROWS = (
     Row("stiffness", "roller bearings", UNKNOWN),
     Row(
         "preload",
-        "that gives a wanted axial stiffness, as the first row of the stiffness",
-        f"{UNKNOWN}; by the law of balls (stiffness as the cube root of the preload) three times the per cent of the "
-        "stiffness follow",
+        "for a wanted axial stiffness of angular contact balls",
+        f"{UNKNOWN}; it follows with about three times the per cent of the stiffness, which grows as the cube root of "
+        "the preload",
     ),
     Row(
         "shock between roller and cage",

@@ -144,15 +144,15 @@ COMPARISONS = (
     ),
     Comparison(
         name="trb_32216_left_out",
-        quantity="the same bearing, Figure 7 of the paper",
+        quantity="torque of the 32216 in Figure 7 of the paper",
         data="32216, 2000 rpm, 50 degC, five radial loads, TU Kaiserslautern 2023",
         kind="measured",
         conditions="The axial load is 6.5 kN and is called a preload. The radial load is 1 to 15 kN. The oil is the "
         "same.",
         free="Nothing was fitted. We left these points out of the verdict after we had seen them.",
         assumed="The same is assumed as above.",
-        missed="The measured torque is about half of that of Figure 5 at nearly the same axial load, and falls with the "
-        "radial load. The set-up of this figure is not understood. The reason is not known.",
+        missed="The measured torque is about half of that of Figure 5 at nearly the same axial load. It falls with "
+        "the radial load. The set-up of this figure is not understood. The reason is not known.",
         believe=None,
         data_error=100.0,
         verdict="Do not use these points. If they are right, the verdict above is too kind.",
