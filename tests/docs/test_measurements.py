@@ -216,7 +216,9 @@ def test_verdict_on_the_statements():
     assert not any(holds[number] for number in (3, 4, 9, 11))
     assert [number for number, one in holds.items() if not one] == [3, 4, 5, 8, 9, 11]
     missed = COMPARISONS["claims"].missed
-    assert all(said in missed for said in ("3, 4 and 5:", "8 and 9:", "11:"))
+    assert all(
+        said in missed for said in ("Statements 3, 4 and 5 fail", "Statements 8 and 9 hang", "Statement 11 fails")
+    )
 
 
 def test_numbers_of_the_text_on_the_predicted_loss():
@@ -309,6 +311,7 @@ def test_numbers_of_the_text_on_rigidity():
     assert f"all {data.bearing.max() + 1} spindle bearings" in PAGE
     largest = 100.0 * float(np.max(0.5e6 / data.rigidity))
     assert f"half a unit is up to {largest:.0f} %" in PAGE
+    assert f"rounded by up to {largest:.0f} per cent" in COMPARISONS["rigidity"].sentence
 
 
 def test_pictures_are_drawn_of_the_kept_numbers(monkeypatch, tmp_path):

@@ -185,7 +185,7 @@ COMPARISONS = (
     ),
     Comparison(
         name="reference_model",
-        quantity="thermal reference speed and loss in an oil bath, losses of the model",
+        quantity="thermal reference speed, losses of the model",
         data="6205, 6210, 6310 and NU 210 of the same catalogue (SKF)",
         kind="catalogue",
         conditions="The conditions are those of the standard, as above.",
@@ -220,8 +220,9 @@ COMPARISONS = (
         data_error=2.0,
         verdict="Believe an axial stiffness to about {believe} per cent, if the conformity was fitted to one printed "
         "rigidity of the same bearing, and to about 15 per cent, if one conformity stands for a whole series. Four "
-        "bearings of five lie within. A preload was not compared: it is an input here. The preload for a wanted "
-        "stiffness is about three times as uncertain as the stiffness.",
+        "bearings of five lie within. The smallest bearings are no check, since their print is rounded by up to 10 per "
+        "cent. A preload was not compared: it is an input here. The preload for a wanted stiffness is about three times "
+        "as uncertain as the stiffness.",
         compute=rigidity,
     ),
 )

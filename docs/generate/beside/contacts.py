@@ -87,7 +87,7 @@ def films() -> Found:
             rows.append([f"{place + 1}", name, f"{1e9 * theirs:.1f}", *cells])
             deviations[f"{place + 1}, {name}"] = formula / theirs - 1.0
     return Found(
-        ["condition", "film", "printed, nm", "numerical solution, nm", "formula of all bearing solves, nm"],
+        ["condition", "film", "printed, nm", "numerical solution, nm", "formula of bearing scenes, nm"],
         rows,
         deviations,
     )

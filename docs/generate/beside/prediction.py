@@ -170,8 +170,8 @@ COMPARISONS = (
         "the bath to the torque of the 32216, each together with our judgement. That judgement was itself made with "
         "an eye on both data sets.",
         assumed="Our judgement is taken to be wrong for rollers as it is for balls, and for a jet as it is for a bath.",
-        missed="There is nothing to reproduce. The source's own total, without rolling resistance in the inlets, is "
-        "3.7 times smaller.",
+        missed="There is nothing to reproduce. The total without rolling resistance, as the source models it, is 3.7 "
+        "times smaller.",
         believe=None,
         data_error=100.0,
         verdict="This is an estimate that nothing checks: 5.1 kW within about 50 per cent. The uncertain drag and "

@@ -67,9 +67,10 @@ COMPARISONS = (
         conditions="The bearing runs at 10 500 rpm, 25 kN, 150 l/h and 100 °C, where the statement says nothing else.",
         free="Nothing was fitted. The limits that make a yes are ours, because the source gives none.",
         assumed="The drag coefficient is 1.2 in `reference_roller` and 0.3 in `turbine_roller`.",
-        missed="3, 4 and 5: our cage slips more and up to a higher load, and the total follows the slip. 8 and 9: "
-        "the drag coefficient decides. 11: between 240 and 480 µm our flow in the cage lands turns turbulent, which "
-        "costs more than the larger clearance saves. Why the source has less slip is not known.",
+        missed="Statements 3, 4 and 5 fail because our cage slips more and up to a higher load, and the total follows "
+        "the slip. Statements 8 and 9 hang on the drag coefficient. Statement 11 fails because between 240 and 480 µm "
+        "the flow in our cage lands turns turbulent, which costs more than the larger clearance saves. Why the source "
+        "has less slip is not known.",
         believe=None,
         data_error=100.0,
         verdict="Believe that the loss grows with speed and oil flow, and falls with oil temperature. About half of "
