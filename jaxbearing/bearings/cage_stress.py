@@ -57,7 +57,7 @@ class CageSection(eqx.Module):
         `tangential`: forces on the cage, N, > 0 in the sense of orbit.
         """
         arm = tangential_bending(jnp.mod(place[:, None] - azimuth[None, :], 2.0 * jnp.pi))
-        moment = self.mean_radius / jnp.pi * jnp.sum(tangential[..., None, :] * arm, axis=-1)
+        moment = self.mean_radius / jnp.pi * jnp.einsum("...f,pf->...p", tangential, arm)
         return moment / self.rail_modulus
 
 
