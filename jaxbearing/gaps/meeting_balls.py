@@ -9,7 +9,6 @@ from ..numerics.checks import Checked, bounded
 from ..numerics.safe import safe_norm
 from .ball_pocket_face import Entering, yielding_film
 
-
 SHARPNESS = 8.0
 """n of the friction: how sharply it ends at a gap of R_b; a gap of R_b/10 has that of n = oo to 1e-9."""
 

@@ -4,10 +4,10 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from jaxbearing.bearings.ball.geometry import BallGeometry
 from jaxbearing.bearings.ball.scene import BallCage
 from jaxbearing.bearings.cage_stress import cage_section, radial_bending, tangential_bending
 from jaxbearing.bearings.cylindrical.geometry import RollerCage, RollerGeometry
-from jaxbearing.bearings.ball.geometry import BallGeometry
 
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 41)[:-1]
 TABLE_15 = BallGeometry(20, 153e-3, 20.638e-3, 0.5225, 0.51125, contact_angle=np.radians(30.0))
