@@ -21,6 +21,7 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from .._types import Values
 from .solution import label
 
 if TYPE_CHECKING:
@@ -40,13 +41,13 @@ class CageSection(eqx.Module):
         metadata=label("m^3", "section modulus of a cage bar, bent along the orbit")
     )
 
-    def hoop(self, speed: Array) -> Array:
+    def hoop(self, speed: Values) -> Array:
         """Stress of rotation at a cage speed, rad/s, Pa."""
-        return self.density * jnp.square(self.mean_radius * speed)
+        return self.density * jnp.square(self.mean_radius * jnp.asarray(speed))
 
-    def bar(self, force: Array) -> Array:
+    def bar(self, force: Values) -> Array:
         """Bending stress of a bar that a force, N, pushes along the orbit, Pa, >= 0."""
-        return jnp.abs(force) * self.bar_length / (8.0 * self.bar_modulus)
+        return jnp.abs(jnp.asarray(force)) * self.bar_length / (8.0 * self.bar_modulus)
 
     def rails(
         self, place: Float[Array, " place"], azimuth: Float[Array, " force"], tangential: Float[Array, "*time force"]

@@ -21,6 +21,7 @@ import itertools
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("--quick", action="store_true", help="three balls, 0.1 ms, two tolerances, batches of 2")
@@ -81,7 +82,7 @@ POINTS = {
 
 def settings(meridian, rise=2e-3):
     """A light, well damped ring, so that the model without inertia of the ring stands for it."""
-    mass = {} if meridian == "quasi_static" else {"ring_mass": 0.5, "ring_damping": 1e4}
+    mass: Any = {} if meridian == "quasi_static" else {"ring_mass": 0.5, "ring_damping": 1e4}
     return jb.Simulation(meridian=meridian, load=Ramp(0.9, 1.0, rise), **mass)
 
 
@@ -156,7 +157,7 @@ def scipy_run(functions, y0, times, method, tolerance):
         return np.asarray(field(np.float64(t), y, tolerance))
 
     explicit = method in ("RK45", "DOP853")
-    more = {} if explicit else {"jac": lambda t, y: np.asarray(jacobian(np.float64(t), y, tolerance))}
+    more: Any = {} if explicit else {"jac": lambda t, y: np.asarray(jacobian(np.float64(t), y, tolerance))}
     begin = time.perf_counter()
     # a guessed first step is so long that no balance is found
     found = solve_ivp(
@@ -286,7 +287,7 @@ def scene_speed(quick=False):
     found = {}
     for model in MODELS[: 1 if quick else None]:
         changes = {"simulation.meridian": model}
-        scene = jb.load_scene("turbine_ball_dynamic", changes)
+        scene: Any = jb.load_scene("turbine_ball_dynamic", changes)
         start = started(scene, scene.simulation)
         times = jnp.linspace(0.0, 2e-5 if quick else 0.5e-3, 3)[1:]
         run = lambda start=start, times=times: ours(start, times, IntegratorOptions())
