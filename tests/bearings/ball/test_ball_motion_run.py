@@ -129,7 +129,7 @@ def test_losses_by_ball_and_stresses_of_the_cage(run):
     summary = found["summary"]
     assert json.dumps(found, allow_nan=False)
     total = sum(own["total"] for own in summary["sliding_energy"].values())
-    others = [np.trapezoid(getattr(loss, name), history.time) for name in ("cage_pilot", "drag", "rolling_resistance")]
+    others = [np.trapezoid(getattr(loss, name), history.time) for name in ("cage_pilot", "drag")]
     # the run is almost steady, so that the trapezoidal rule over its instants is good
     np.testing.assert_allclose(total + sum(others), history.energy.dissipation, rtol=1e-4)
     peaks = np.asarray(instants.pocket_peaks.land)
@@ -155,7 +155,7 @@ def test_batch_of_operating_points():
     alone = jb.simulate(scene.at_operation(axial_load=7e3), 40e-6, interval=20e-6)
     lane = runs.lane(1)
     for name in ("load_inner", "orbital_speed", "attitude_angle", "pocket_load_front"):
-        ours, theirs = (np.asarray(getattr(one.instants.elements, name))[2] for one in (lane, alone))
+        ours, theirs = (np.asarray(getattr(one.instants.elements, name))[-1] for one in (lane, alone))
         np.testing.assert_allclose(ours, theirs, rtol=1e-6, err_msg=name)
     data = history_to_dataset(lane)
     np.testing.assert_allclose(data["load_inner"][-1], lane.instants.elements.load_inner[-1])
