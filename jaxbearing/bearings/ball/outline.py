@@ -16,10 +16,7 @@ def ball_outline(scene: BallBearing, of: Callable[[str], float] | None) -> Outli
     """See `AbstractBearing.outline`."""
     geometry = scene.geometry
     diameter, half = 1e3 * float(geometry.ball_diameter), 500.0 * float(geometry.ball_diameter)
-    # of a bearing that is given by its clearance: in the middle of its play
-    free = 0.0 if geometry.contact_angle is None else float(geometry.contact_angle)
-    if geometry.has_arcs:
-        free = math.atan2(float(geometry.free_sine), float(geometry.free_cosine))
+    free = float(geometry.nominal_angle)
     contacts: dict[str, tuple[Point, Point]] = {}
     rings = []
     for side, sign in (("outer", 1.0), ("inner", -1.0)):

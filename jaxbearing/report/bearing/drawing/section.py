@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from ....bearings.flanks import SECOND, on_heavier_flanks
 from ....bearings.outline import Outline, moved
 from ....bearings.solution import Solution
 from ...backends.svg import Drawing
@@ -21,7 +22,7 @@ _EDGE = {"stroke": INK, "stroke_width": 1.0}
 def section(scene: Any, solution: Solution) -> str:
     """SVG; the axis of the bearing lies below, its positive direction points to the right."""
     elements = solution.elements
-    j = int(np.argmax(np.asarray(elements.load_inner)))
+    j = int(np.argmax(np.asarray(on_heavier_flanks(elements).load_inner)))
     of = lambda name: float(np.asarray(getattr(elements, name))[j])
     outline = scene.outline(of)
     diameter, name, contacts = outline.diameter, solution.element_name, outline.contacts
@@ -32,7 +33,7 @@ def section(scene: Any, solution: Solution) -> str:
     for side, (place, direction) in contacts.items():
         length = _LONGEST * diameter * loads[side] / largest if largest > 0.0 else 0.0
         end = moved(place, direction, length)
-        race = side.removesuffix("_second")
+        race = side.removesuffix(SECOND)
         colour = {"inner": INNER, "outer": OUTER, "flange": RIB}[race]
         drawing.arrow(place, end, colour, width=3.0, data_load=loads[side])
         # that of the rib stands beside the ring
