@@ -306,7 +306,7 @@ class BallBearing(AbstractMovingBearing):
 
     @property
     def drawing_angle(self) -> Array:
-        return self.geometry.nominal_angle
+        return jnp.asarray(self.geometry.nominal_angle)
 
     @property
     def leaning_angle(self) -> Array:

@@ -108,7 +108,7 @@ def overload(scene: BallBearing) -> Float[Array, ""]:
     that of Hamrock and Brewe's closed form of the ellipse, within 5 %: enough for a message, and short.
     """
     geometry, operation = scene.geometry, scene.operation
-    angle, radial_row = geometry.nominal_angle, geometry.contact_angle is None and not geometry.has_arcs
+    angle, radial_row = jnp.asarray(geometry.nominal_angle), geometry.contact_angle is None and not geometry.has_arcs
     radial, axial = operation.radial_size, 2.0 * operation.moment_size / geometry.pitch_diameter
     if operation.axial_load is not None:
         axial = axial + jnp.abs(operation.axial_load)
