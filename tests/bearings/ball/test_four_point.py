@@ -19,7 +19,7 @@ from jaxbearing.bearings.ball.core import FORCE_FLOOR, BallCore
 from jaxbearing.bearings.ball.geometry import BallGeometry
 from jaxbearing.bearings.ball.groove_motion import inner_arm, length_of, ring_frame
 from jaxbearing.bearings.ball.kinematics import BallKinematics
-from jaxbearing.bearings.ball.linear_slip import linear_slip
+from jaxbearing.bearings.ball.linear_slip import linear_slip, slip_weights
 from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
 from jaxbearing.bearings.flanks import by_flank, on_heavier_flanks
 from jaxbearing.materials import Material
@@ -229,6 +229,17 @@ def test_linear_slip_of_one_ball():
     close(motion.orbital_speed, 124.830932)
     close(motion.axial_spin, 724.585815)
     close(motion.radial_spin, 17.256132)
+
+
+def test_an_unloaded_ball_rolls_over_the_inner_ring():
+    """A ball in both arcs of the outer ring alone orbits as one that rolls, whatever it weighs: it does not stop."""
+    kinematics = BallKinematics(*(jnp.asarray(value) for value in (100.0 * np.pi, 0.0, 72.5e-3, 17.4625e-3)))
+    spread, angle = build_core(bearing(G4, axial_load=5e3)).spread, jnp.asarray([[0.55], [-0.55], [0.55], [-0.55]])
+    rolling = 0.5 * 100.0 * np.pi * (1.0 - 17.4625 / 72.5 * np.cos(0.55))
+    for thrown in (0.1, 10.0, 1e3):
+        weight = slip_weights(jnp.asarray([[0.0], [0.0], [thrown], [thrown]]), G4.arcs, FORCE_FLOOR)
+        motion = linear_slip(kinematics, angle, weight, spread, (0, 0, 1, 1))
+        np.testing.assert_allclose(motion.orbital_speed, rolling, rtol=0.03)
 
 
 def test_check_value_at_speed():
