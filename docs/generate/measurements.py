@@ -5,9 +5,9 @@
     python docs/generate/measurements.py --kept      # none: the page from the kept numbers
 
 What is computed is kept in `beside/computed.json`, and text between the marks `<!-- NAME -->` and `<!-- end NAME -->`
-of docs/measurements.md is made of that; the rest is written by hand. The summary is made of the texts of all
-comparisons, also of those that are not computed again. One test compares the page with the kept numbers, and another
-computes them again.
+of docs/measurements.md is made of that; the rest is written by hand. Both tables at the top are made of the texts of
+all comparisons, also of those that are not computed again. One test compares the page with the kept numbers, and
+another computes them again.
 """
 
 import json
@@ -19,15 +19,15 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from beside import catalogues, contacts, heat, pictures, prediction, source, torque
-from beside.common import DOCS, Comparison, Found
+from beside import catalogues, contacts, guide, heat, pictures, prediction, source, torque
+from beside.common import DOCS, KINDS, Comparison, Found
 
 PAGE = DOCS / "measurements.md"
 KEPT = Path(__file__).parent / "beside" / "computed.json"
 COMPARISONS: dict[str, Comparison] = {
     one.name: one for module in (heat, torque, catalogues, contacts, source, prediction) for one in module.COMPARISONS
 }
-SUMMARY = "summary"
+KIND, ANSWERS, SUMMARY = "kinds", "answers", "summary"
 DEVIATION = "**Deviation:** "
 
 
@@ -47,9 +47,12 @@ def keep(name: str, found: Found) -> None:
 def block(one: Comparison, found: Found) -> str:
     """The text between the marks of a comparison."""
     said = (
+        f"**Kind of data:** {one.kind}.",
+        f"**Conditions:** {one.conditions}",
         f"{DEVIATION}{found.deviation}.",
-        f"**Free:** {one.free}.",
-        f"**Not known and assumed:** {one.assumed}.",
+        f"**Fitted or chosen:** {one.free}",
+        f"**Not known and assumed:** {one.assumed}",
+        f"**Not reproduced:** {one.missed}",
         f"**Verdict:** {one.sentence}",
     )
     return "\n\n".join((found.table, "\\\n".join(said)))
@@ -81,14 +84,32 @@ def deviation_of(page: str, name: str) -> str:
 
 
 def summary(page: str, comparisons: Mapping[str, Comparison]) -> str:
-    """The table at the top."""
-    lines = ["| quantity | data | deviation | believe to | verdict |", "|---|---|---|---|---|"]
+    """The table of all comparisons."""
+    lines = ["| quantity | data | kind | deviation | believe to | verdict |", "|---|---|---|---|---|---|"]
     lines += [
-        f"| [{one.quantity}](#{anchor(page, name)}) | {one.data} | {deviation_of(page, name)} | {one.believed} | "
+        f"| [{one.quantity}](#{anchor(page, name)}) | {one.data} | {one.kind} | {deviation_of(page, name)} | "
+        f"{one.believed} | "
         f"{one.sentence if deviation_of(page, name) != '-' else 'not computed yet'} |"
         for name, one in comparisons.items()
     ]
     return "\n".join(lines)
+
+
+def answers(page: str, comparisons: Mapping[str, Comparison]) -> str:
+    """The table at the top: what to believe of each quantity that a user may want."""
+    lines = ["| quantity | for which bearing, oil and range | believe | grounds | section |", "|---|---|---|---|---|"]
+    places = {name: anchor(page, name) for name in comparisons} | {guide.NOWHERE: guide.UNCHECKED}
+    for row in guide.ROWS:
+        link = f"[{'not checked' if row.comparison == guide.NOWHERE else 'data'}](#{places[row.comparison]})"
+        grounds = "no data" if row.comparison == guide.NOWHERE else comparisons[row.comparison].kind
+        belief = row.belief.format(**{name: one.believed for name, one in comparisons.items()})
+        lines.append(f"| {row.quantity} | {row.case} | {belief} | {grounds} | {link} |")
+    return "\n".join(lines)
+
+
+def kinds() -> str:
+    """The kinds of data and their meaning."""
+    return "\n".join(f"* **{name}**: {meaning}" for name, meaning in KINDS.items())
 
 
 def anchor(page: str, name: str) -> str:
@@ -101,6 +122,7 @@ def anchor(page: str, name: str) -> str:
 def show(page: str, name: str, found: Found) -> str:
     """The page with this comparison, and with the summary of all."""
     page = written(page, name, block(COMPARISONS[name], found))
+    page = written(written(page, KIND, kinds()), ANSWERS, answers(page, COMPARISONS))
     return written(page, SUMMARY, summary(page, COMPARISONS))
 
 

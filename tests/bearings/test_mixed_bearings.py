@@ -51,6 +51,7 @@ def add_up(solution, places):
         assert 0.0 < float(getattr(boundary, place)) <= float(getattr(solution.power_loss, place))
 
 
+@pytest.mark.slow
 def test_tapered_bearing_rubs_on_its_rib(tapered):
     found = tapered(0.24e-6, 20.0)
     add_up(found, ["flange"])

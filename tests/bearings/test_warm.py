@@ -219,6 +219,7 @@ def test_derivatives_with_sliding(kind):
         np.testing.assert_allclose(slopes[:, i], found, rtol=1e-6, atol=1e-6 * np.max(np.abs(found)))
 
 
+@pytest.mark.slow
 def test_derivative_of_the_temperatures_of_rollers():
     scene = warm("roller", 1)
 

@@ -1,6 +1,7 @@
 """The page "Beside measurements": each comparison is computed again and is what the page shows, and each verdict is
 borne out by its deviations."""
 
+import dataclasses
 import math
 import re
 import sys
@@ -13,7 +14,7 @@ TOP = Path(__file__).parents[2]
 sys.path.insert(0, str(TOP / "docs" / "generate"))
 
 import measurements  # noqa: E402
-from beside import common, heat, pictures, torque  # noqa: E402
+from beside import common, guide, heat, pictures, torque  # noqa: E402
 
 PAGE = measurements.PAGE.read_text(encoding="utf-8")
 COMPARISONS = measurements.COMPARISONS
@@ -89,31 +90,212 @@ def exponent(speeds, values):
     return last / first
 
 
+def numbers(cell):
+    """All numbers of a cell."""
+    return [float(one) for one in re.findall(NUMBER, cell)]
+
+
+def column(name, heading):
+    """Cells of a kept table under a heading."""
+    return [row[KEPT[name].headings.index(heading)] for row in KEPT[name].rows]
+
+
+def percents(name, heading):
+    """Deviations in brackets of a column, per cent."""
+    return [int(re.search(r"\(([-+]\d+) %\)", cell)[1]) for cell in column(name, heading)]
+
+
 def test_numbers_of_the_text_on_heat():
-    """Exponents of the heat, and the rise of the oil that is named, from the kept rows."""
-    rows = KEPT["nasa_35"].rows
-    rpm, measured = ([row[place] for row in rows] for place in (0, 1))
-    assert f"to the power of {exponent(rpm, measured):.1f}, " in PAGE
-    solved = [exponent(rpm, [row[place].split()[0] for row in rows]) for place in (3, 5)]
-    assert f"that of the model with {min(solved):.1f} to {max(solved):.1f}" in PAGE
-    cold = [float(row[2].split()[0]) / float(row[1]) for row in rows]
-    assert cold[-1] == pytest.approx(1.5, abs=0.05)
-    assert "50 per cent too high at the highest speeds" in PAGE
+    """Exponents of the heat, the largest deviation with cold oil and of the inner ring, from the kept rows."""
+    rpm = [int(one) for one in column("nasa_35", "rpm")]
+    heats = {heading: [numbers(cell)[0] for cell in column("nasa_35", heading)] for heading in KEPT["nasa_35"].headings}
+    cold, *warm = ("all oil at inlet temperature, W", "one temperature, W", "four temperatures, W")
+    assert f"to the power of {exponent(rpm, heats['measured, W']):.1f}. " in PAGE
+    solved = [exponent(rpm, heats[one]) for one in warm]
+    assert f"that of the model grows to the power of {min(solved):.1f} to {max(solved):.1f}" in PAGE
+    assert f"at its inlet temperature to the power of {exponent(rpm, heats[cold]):.1f}" in PAGE
+    sentence = COMPARISONS["nasa_35"].sentence
+    assert f"the heat is up to {max(percents('nasa_35', cold))} per cent too high" in sentence
+    assert belief("nasa_35", guide.NO).endswith(f"up to {max(percents('nasa_35', cold))} % too high")
+    found, said = (heats[one] for one in KEPT["nasa_35"].headings[6:8])
+    off = [one - other for one, other in zip(found, said, strict=True)]
+    assert f"the inner ring is {-min(off):.0f} K too cold to {max(off):.0f} K too hot" in PAGE
+    assert f"{-min(off):.0f} K colder to {max(off):.0f} K hotter" in PAGE
+    assert f"up to {max(off):.0f} K hotter" in COMPARISONS["nasa_35"].missed
+
+
+def belief(name, kind):
+    """The answer of this kind in the table at the top that rests on a comparison."""
+    (found,) = (row.belief for row in guide.ROWS if row.comparison == name and row.belief.startswith(kind))
+    return found
+
+
+def test_numbers_of_the_text_on_the_bath():
+    """The flooded torque over the measured one, Palmgren's largest deviation, and the points that are left out."""
+    flooded = [1.0 + 0.01 * one for one in percents("trb_32216", "flooded")]
+    said = f"it is {min(flooded):.1f} to {max(flooded):.1f} times the measured one"
+    assert said in COMPARISONS["trb_32216"].sentence
+    assert said in belief("trb_32216", guide.NO)
+    palmgren = max(map(abs, percents("trb_32216", "Palmgren's formula")))
+    assert palmgren <= 28 < palmgren + 2
+    assert "within 28 per cent" in COMPARISONS["trb_32216"].sentence
+    left_out = percents("trb_32216_left_out", "supply of a bath")
+    assert numbers(KEPT["trb_32216_left_out"].deviation)[:2] == [min(left_out), max(left_out)]
+    assert min(left_out) > COMPARISONS["trb_32216"].believe
+    assert not {point.figure for point in torque.points_32216()} & set(torque.LEFT_OUT)
+    gap = common.script("trb_32216").STARVED["gap_over_central"]
+    assert f"{gap:.2f} central films" in COMPARISONS["trb_32216"].free
+
+
+def test_numbers_of_the_text_on_the_32008():
+    """Both readings at every speed: what the verdict says of the lowest, the middle and the highest speed."""
+    one, points = COMPARISONS["trb_32008"], {}
+    for celsius, rpm, *cells in KEPT["trb_32008"].rows:
+        first, second, model = map(float, cells[:3])
+        points[int(celsius), int(rpm)] = (first, second, model, *(int(numbers(cell)[0]) for cell in cells[3:]))
+    at = lambda *speeds: [off for (_, rpm), point in points.items() for off in point[3:] if rpm in speeds]
+    slow, fast = at(torque.SLOW), at(torque.FAST)
+    assert f"it is {-max(slow)} to {-min(slow)} per cent too low" in one.sentence
+    assert f"{-max(slow)} to {-min(slow)} % too low" in belief("trb_32008", guide.NO)
+    assert f"{min(fast)} to {max(fast)} per cent too high" in one.sentence
+    assert f"there the torque comes out {min(fast)} to {max(fast)} % too high at 2200 rpm" in PAGE
+    assert max(at(400)) < 0 < min(at(1800, 2200))
+    speeds = {rpm for _, rpm in points}
+    assert len(KEPT["trb_32008"].deviations) == 2 * 2 * (len(speeds) - 1)
+    agree = {place for place, point in points.items() if abs(point[1] / point[0] - 1.0) < 0.07}
+    assert agree == {(55, 400), (55, 2200), (65, 400), (65, 600), (65, 2200)}
+    off = [off for place in agree for off in points[place][3:]]
+    assert f"there the deviation is {min(off)} to +{max(off)} %" in PAGE
+    apart = [100.0 * (point[1] / point[0] - 1.0) for place, point in points.items() if place not in agree]
+    assert f"they differ by {min(apart):.0f} to {max(apart):.0f} %" in PAGE
+    ends_of = lambda place: [points[55, rpm][place] for rpm in (torque.SLOW, torque.FAST)]
+    powers = [f"{exponent((torque.SLOW, torque.FAST), ends_of(place)):.1f}" for place in range(3)]
+    assert "power of {}, reading B of {}, the model of {}".format(*powers) in PAGE.replace("\n", " ")
+    # the readings of the compared points lie so far from their geometric mean, at most
+    spread = max(abs(math.log(point[1] / point[0])) for (_, rpm), point in points.items() if rpm > torque.SLOW)
+    assert 100.0 * math.expm1(0.5 * spread) <= one.data_error
+
+
+def test_numbers_of_the_text_on_reference_speeds():
+    flooded = -min(percents("reference_model", "model, flooded, rpm"))
+    assert f"flooded it is up to {flooded} per cent too low" in COMPARISONS["reference_model"].sentence
+    assert f"flooded {flooded} %" in belief("reference_model", guide.BELIEVE)
+    losses = [float(row[-1]) for row in KEPT["reference_model"].rows]
+    said = f"{min(losses)} to {max(losses)} times the heat that leaves"
+    assert said in COMPARISONS["reference_model"].sentence
+    assert said in belief("reference_model", guide.NO)
+    medians = {row[0]: numbers(row[2])[0] for row in KEPT["reference_formula"].rows}
+    assert [series for series, one in medians.items() if one >= 0] == ["NU 4"]
+
+
+def test_numbers_of_the_text_on_traction_and_shocks():
+    """The knee, single shock loads, and the growth with the speed."""
+    off = [int(numbers(cell)[0]) for cell in column("traction", "deviation")]
+    assert KEPT["traction"].deviation == f"{min(off)} to +{max(off)} %"
+    printed = [float(row[1]) for row in KEPT["shocks"].rows]
+    pairs = [[numbers(cell)[:2] for cell in row[2:]] for row in KEPT["shocks"].rows]
+    singles = [load / own for own, row in zip(printed, pairs, strict=True) for pair in row for load in pair]
+    assert min(singles) == pytest.approx(1 / 20)
+    assert f"from a twentieth to {max(singles):.1f} times" in COMPARISONS["shocks"].sentence
+    assert f"{1 / min(singles):.0f} times" in belief("shocks", guide.NO)
+    means = [[math.sqrt(front * rear) for front, rear in row] for row in pairs]
+    growth = [high / low for row in (0, 2) for low, high in zip(means[row], means[row + 1], strict=True)]
+    own = [printed[row + 1] / printed[row] for row in (0, 2)]
+    missed = COMPARISONS["shocks"].missed
+    assert f"the printed load grows {min(own):.1f} to {max(own):.1f} times" in missed
+    assert f"the computed mean {min(growth):.1f} to {max(growth):.1f} times" in missed
+    # with the load the printed shocks grow and the computed means fall
+    assert all(printed[row + 2] > printed[row] for row in (0, 1))
+    assert all(means[row + 2][place] < means[row][place] for row in (0, 1) for place in range(3))
+
+
+def test_verdict_on_the_statements():
+    """The statements that are believed hold for both scenes, and those that are not fail for at least one."""
+    holds = {int(row[0]): row[2:] == ["yes", "yes"] for row in KEPT["claims"].rows}
+    assert holds[6]
+    assert not any(holds[number] for number in (3, 4, 9, 11))
+    assert [number for number, one in holds.items() if not one] == [3, 4, 5, 8, 9, 11]
+    missed = COMPARISONS["claims"].missed
+    assert all(
+        said in missed for said in ("Statements 3, 4 and 5 fail", "Statements 8 and 9 hang", "Statement 11 fails")
+    )
 
 
 def test_numbers_of_the_text_on_the_predicted_loss():
+    """The 50 per cent of the estimate: the judgement's interval, and the law's error on its part of the total."""
     rows = KEPT["turbine_roller"].rows
-    assert f"the total is {float(rows[1][4]) / float(rows[0][4]):.1f} times as large" in PAGE
-    # the verdict adds the interval of the priors and the error of the law, as independent parts
+    plain, whole = (float(row[4]) for row in rows[:2])
+    assert f"the total is {whole / plain:.1f} times as large" in PAGE
+    assert f"{whole / plain:.1f} times smaller" in COMPARISONS["turbine_roller"].missed
+    assert f"{whole / plain:.1f} times smaller" in belief("turbine_roller", guide.UNKNOWN)
     value, *ends = (float(cell) for cell in rows[1][4:7])
     largest, law = 100.0 * max(abs(end / value - 1.0) for end in ends), COMPARISONS["trb_32008"].believe
-    sentence = COMPARISONS["turbine_roller"].sentence
-    assert f"the priors leave up to {largest:.0f}, and" in sentence
+    sentence, part = COMPARISONS["turbine_roller"].sentence, 1.0 - plain / whole
+    assert f"{1e-3 * whole:.1f} kW within about 50 per cent" in sentence
+    assert f"leave up to {largest:.0f} per cent" in sentence
     assert f"is {law:.0f} per cent uncertain" in sentence
-    assert 40.0 < np.hypot(largest, law) <= 50.0
-    assert "to about 50 per cent" in sentence
-    low, high = re.findall(r"\d+", KEPT["trb_32008"].deviation)
-    assert f"there it comes out {low} to {high} % too high at 2200 rpm" in PAGE
+    assert f"makes {100.0 * part:.0f} per cent of the total, which is {law * part:.0f} per cent of it" in sentence
+    assert f"make {np.hypot(largest, law * part):.0f} per cent together" in sentence
+    assert f"if they add, {largest + law * part:.0f} per cent" in sentence
+    assert COMPARISONS["turbine_roller"].believe is None
+
+
+WANTED = (
+    "life", "loads on balls", "loads on rollers", "pressure", "film", "traction", "torque", "loss, ball", "loss, cyl",
+    "grease", "bath", "temperatures", "cage speed", "skid", "axial stiffness", "radial and moment stiffness", "preload",
+    "shock", "impact", "speed limit",
+)  # fmt: skip
+"""Words of the quantities that a user may want."""
+
+
+def test_every_quantity_has_an_answer():
+    """Each answer is one of three; each comparison with a per cent is asked for, with its own per cent."""
+    shown = measurements.shown(PAGE, measurements.ANSWERS)
+    assert shown == measurements.answers(PAGE, COMPARISONS)
+    assert all(word in shown for word in WANTED)
+    for row in guide.ROWS:
+        assert row.belief.startswith((guide.BELIEVE, guide.UNKNOWN, guide.NO)), row
+        assert row.comparison in COMPARISONS or row.belief.startswith(guide.UNKNOWN), row
+    named = {name for row in guide.ROWS for name in re.findall(r"\{(\w+)\}", row.belief)}
+    assert named == {name for name, one in COMPARISONS.items() if one.believe is not None}
+    assert all(row.comparison in named for row in guide.ROWS if "{" in row.belief)
+    # a whole series of spindle bearings with one conformity
+    series = [abs(one) for cell in column("rigidity", KEPT["rigidity"].headings[3]) for one in numbers(cell)]
+    assert max(series) < 15.0
+    assert any("to 15 %" in row.belief for row in guide.ROWS if row.comparison == "rigidity")
+
+
+def test_links_of_the_answers():
+    for page, place in re.findall(r"\((\w+\.md)#([\w-]+)\)", " ".join(row.belief for row in guide.ROWS)):
+        text = (TOP / "docs" / page).read_text(encoding="utf-8")
+        assert place in {plain(one) for one in re.findall(r"^## (.+)$", text, flags=re.MULTILINE)}
+
+
+def plain(heading):
+    """Anchor of a heading."""
+    return re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", heading).strip().lower())
+
+
+LONGEST = 40
+"""Words of a sentence."""
+
+
+@every
+def test_texts_are_short_sentences(name):
+    one = COMPARISONS[name]
+    assert one.kind in common.KINDS
+    for text in (one.conditions, one.free, one.assumed, one.missed, one.sentence):
+        assert text.endswith("."), text
+        for sentence in re.split(r"[.:;] ", text):
+            assert 2 <= len(sentence.split()) <= LONGEST, sentence
+    assert re.search("fitted|chosen|reproduce", one.free), one.free
+
+
+def test_kinds_are_explained():
+    assert measurements.shown(PAGE, measurements.KIND) == measurements.kinds()
+    assert {one.kind for one in COMPARISONS.values()} == set(common.KINDS)
+    with pytest.raises(ValueError, match="kind is 'guess'; expected one of measured"):
+        dataclasses.replace(COMPARISONS["hertz"], kind="guess")
 
 
 def test_numbers_of_bearings_that_are_named():
@@ -126,9 +308,10 @@ def test_numbers_of_bearings_that_are_named():
 def test_numbers_of_the_text_on_rigidity():
     example = common.script("gmn_rigidity")
     data = example.printed()
-    assert f"Of all {data.bearing.max() + 1} spindle bearings" in PAGE
+    assert f"all {data.bearing.max() + 1} spindle bearings" in PAGE
     largest = 100.0 * float(np.max(0.5e6 / data.rigidity))
     assert f"half a unit is up to {largest:.0f} %" in PAGE
+    assert f"rounded by up to {largest:.0f} per cent" in COMPARISONS["rigidity"].sentence
 
 
 def test_pictures_are_drawn_of_the_kept_numbers(monkeypatch, tmp_path):
@@ -144,13 +327,13 @@ def test_summary_is_made_of_the_page():
     assert measurements.shown(PAGE, measurements.SUMMARY) == measurements.summary(PAGE, COMPARISONS)
     anchors = set(re.findall(r"\]\(#([\w-]+)\)", PAGE))
     headings = re.findall(r"^## (.+)$", PAGE, flags=re.MULTILINE)
-    assert anchors <= {re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", one).strip().lower()) for one in headings}
+    assert anchors <= {plain(one) for one in headings}
 
 
 def test_marks_stand_in_pairs_and_each_once():
     begins = re.findall(r"<!-- (\w+) -->", PAGE)
     assert begins == re.findall(r"<!-- end (\w+) -->", PAGE)
-    assert begins == [measurements.SUMMARY, *COMPARISONS]
+    assert begins == [measurements.ANSWERS, measurements.KIND, measurements.SUMMARY, *COMPARISONS]
 
 
 def test_text_is_written_between_its_marks_only():

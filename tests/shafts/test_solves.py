@@ -161,6 +161,7 @@ def test_a_lane_without_equilibrium_says_so():
         jb.solve(dataclasses.replace(linear_shaft(axial=50.0), bearings=tuple(floating)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axial", [0.0, 1e-6, -2e-4])
 def test_an_empty_bearing_has_derivatives(axial):
     """The mounted set is found with all bearings at rest, and those beside it carry nothing there."""

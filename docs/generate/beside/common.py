@@ -40,16 +40,29 @@ class Found(NamedTuple):
         return "\n".join([first, rule, *rest])
 
 
+KINDS = {
+    "measured": "Somebody measured it. Unless the section says otherwise, a third party read the numbers off a "
+    "printed figure.",
+    "computed": "Somebody else computed it. No measurement is behind it.",
+    "catalogue": "A maker prints it. The catalogue does not say whether it was measured or computed.",
+    "estimate": "We computed it. There is nothing to compare it with.",
+}
+"""Kinds of data, in the words of the page."""
+
+
 @dataclass(frozen=True)
 class Comparison:
     """One comparison with measured or printed data.
 
     **Arguments:**
     - `name`: of its place on the page; `quantity`, `data`: in words.
-    - `free`: what was fitted to these data; `assumed`: what is not known of the rig and was taken.
+    - `kind`: one of `KINDS`; `conditions`: load, oil, flow and temperatures of the data, in sentences.
+    - `free`: what was fitted to these data or chosen with knowledge of them; `assumed`: what is not known of the rig
+      and was taken; both in sentences.
+    - `missed`: what the model does not reproduce, and the reason or that it is not known, in sentences.
     - `believe`: per cent to which the verdict says that the model can be believed; `None`: it names none.
     - `data_error`: of the data themselves, per cent, as their source claims or the caution says.
-    - `verdict`: one sentence; `{believe}` stands for the number.
+    - `verdict`: short sentences; `{believe}` stands for the number.
     - `compute`: the table and the deviations.
     - `dear`: whether that takes more than some seconds.
     """
@@ -57,8 +70,11 @@ class Comparison:
     name: str
     quantity: str
     data: str
+    kind: str
+    conditions: str
     free: str
     assumed: str
+    missed: str
     believe: float | None
     data_error: float
     verdict: str
@@ -69,6 +85,10 @@ class Comparison:
     def believed(self) -> str:
         """The number of the verdict in the summary."""
         return "-" if self.believe is None else f"{self.believe:g} %"
+
+    def __post_init__(self):
+        if self.kind not in KINDS:
+            raise ValueError(f"{self.name}: kind is '{self.kind}'; expected one of {', '.join(KINDS)}")
 
     @property
     def sentence(self) -> str:

@@ -134,6 +134,7 @@ def test_one_ball_for_all_is_all():
     assert (one.unknowns, all_.unknowns) == (3, 42)
 
 
+@pytest.mark.slow
 def test_stiffness_is_symmetric_and_that_of_the_solve():
     """Of the static bearing, whose load is conservative, and against differences of the load-displacement solve."""
     scene = bearing(T15, 0.0, 20e3, 8e3, moment=0.0)

@@ -99,7 +99,7 @@ def test_steady_state_stays(case):
     np.testing.assert_allclose(shared[17], 0.0, atol=0.02)
 
 
-@pytest.mark.parametrize("meridian", ["dynamic", "quasi_static"])
+@pytest.mark.parametrize("meridian", ["dynamic", pytest.param("quasi_static", marks=pytest.mark.slow)])
 def test_ends_in_the_steady_state(meridian):
     """Constant speed and load end in the printed state from a start beside it, whichever equations move the balls."""
     case = (40000.0, 12500.0)
@@ -188,7 +188,7 @@ def test_balls_meet():
     assert works["pocket_films"] != 0.0
 
 
-@pytest.mark.parametrize("mode", ["forward", "reverse"])
+@pytest.mark.parametrize("mode", ["forward", pytest.param("reverse", marks=pytest.mark.slow)])
 def test_derivatives_of_a_run(mode):
     """Derivative of the speed of a ball after a short run over its first one, against a difference."""
     of = some_balls(3)

@@ -87,6 +87,7 @@ def rebuild(scene, floats):
     return jax.tree.unflatten(jax.tree.structure(scene), floats)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", HARD_CASES.values(), ids=HARD_CASES.keys())
 def test_gradient_of_every_number_is_finite_at_hard_cases(reverse_gradient, case):
     scene, gradient = reverse_gradient

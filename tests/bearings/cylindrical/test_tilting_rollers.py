@@ -144,6 +144,7 @@ def lubricated():
     return scene.replace({"operation.misalignment": 1e-3, "profile": LOGARITHMIC})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speeds", [(1100.0, 0.0), (1100.0, -400.0)])
 def test_rolling_takes_the_power_that_the_rings_bring(lubricated, speeds):
     """Ring torques are assembled from forces times levers, the loss from resistances times speeds."""
@@ -157,6 +158,7 @@ def test_rolling_takes_the_power_that_the_rings_bring(lubricated, speeds):
     assert any("without sliding" in note for note in found.notes)
 
 
+@pytest.mark.slow
 def test_films_of_laminae(lubricated):
     tilted_ = jb.solve(lubricated)
     e = tilted_.elements

@@ -174,6 +174,7 @@ def solver(scene):
     return solve
 
 
+@pytest.mark.slow
 def test_solution_closes_and_has_the_size_of_the_catalogue_formula(solver):
     """Palmgren's M0 + M1 (f0 = 4, f1 = 4e-4, P1 = 0.8 Fa cot(alpha) as in Harris): an order of magnitude, no more."""
     found = solver()
