@@ -114,8 +114,9 @@ def _ball_facts(solution: Solution) -> Iterator[tuple[str, str]]:
     degrees = lambda name: f"{np.degrees(of(name)):.2f} deg"
     yield "Contact angles", f"inner {degrees('contact_angle_inner')}, outer {degrees('contact_angle_outer')}"
     if elements.loaded_contacts is not None:
-        least, most = (int(pick(np.asarray(elements.loaded_contacts))) for pick in (np.min, np.max))
-        yield "Contacts", f"{least if least == most else f'{least} to {most}'} of each ball under load"
+        counts = np.asarray(elements.loaded_contacts)
+        least, most = int(np.min(counts[counts > 0], initial=4)), int(np.max(counts))
+        yield "Contacts", f"{most if least >= most else f'{least} to {most}'} of each loaded ball"
     control = ""
     if elements.raceway_control is not None:
         control = f", raceway control {of('raceway_control'):.1f} % (100: outer, 0: inner)"
