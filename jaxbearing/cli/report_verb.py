@@ -44,7 +44,7 @@ def report(
     with bad_input(said):
         from ..scenes.bearing.catalogue import load_catalogue
         from ..scenes.inputs import scene_inputs
-        from ..scenes.marks import notes_of_marks
+        from ..scenes.marks import notes_of_file
         from ..scenes.overrides import split_assignments
         from ..scenes.states import base_scene, has_states, load_states
         from ..spectrum.states import require_rated
@@ -57,7 +57,7 @@ def report(
         except (TypeError, ValueError) as error:
             refuse(f"{scene}: {error}")
         inputs = scene_inputs(scene, overrides, model)
-        marked = notes_of_marks(scene, overrides)
+        marked = notes_of_file(scene, overrides)
         catalogue = load_catalogue(scene, overrides)
         check_files([("--out", target, SUFFIXES)])
 

@@ -72,13 +72,13 @@ def solve(
     line contact, its film."""
     said: list[str] = []
     with bad_input(said):
-        from ..scenes.marks import notes_of_marks
+        from ..scenes.marks import notes_of_file
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
 
         assignments = split_assignments(changes or [])
         model = load_scene(scene, assignments)
-        marked = notes_of_marks(scene, assignments)
+        marked = notes_of_file(scene, assignments)
         asked = extra.asked(sensitivities, sensitivities_of, sensitivities_by, drag_prior)
         wanted = _line_contact(line_contact, model, scene)
         contact = None if wanted is None else wanted.path

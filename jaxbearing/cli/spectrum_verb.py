@@ -37,7 +37,7 @@ def spectrum(
     begin = time.monotonic()
     said: list[str] = []
     with bad_input(said):
-        from ..scenes.marks import notes_of_marks
+        from ..scenes.marks import notes_of_file
         from ..scenes.overrides import split_assignments
         from ..scenes.states import load_states
         from ..spectrum.states import require_rated
@@ -46,7 +46,7 @@ def spectrum(
         varied = None if over is None else _values(scene, over, overrides)
         texts = [{}] if varied is None else [{varied[0].path: varied[0].text(value)} for value in varied[1]]
         cases = [load_states(scene, {**overrides, **text}) for text in texts]
-        marked = notes_of_marks(scene, {**overrides, **texts[0]})
+        marked = notes_of_file(scene, {**overrides, **texts[0]})
         try:
             for states in cases:
                 require_rated(_scenes(states))

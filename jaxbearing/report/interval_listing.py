@@ -8,9 +8,7 @@ from .page_content import Listing
 
 TITLE = "How well the power loss is known"
 HEADINGS = ("by", "5 % of the losses are below", "95 % are below", "distribution")
-REMARK = (
-    "Only these inputs are counted. All other inputs are as the scene has them. The inputs are independent of each other."
-)
+REMARK = "Only these inputs are counted, each independent of the others. All other inputs are as the scene has them."
 
 
 def interval_listing(interval: PowerInterval) -> Listing:

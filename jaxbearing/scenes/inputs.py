@@ -49,8 +49,8 @@ def scene_inputs(
     if problems:
         raise SceneError.of_all(problems)
     marks = {path: f"{mark.word}, by the file" for path, mark in marks_of(source, overrides).items() if mark.word}
-    marks |= {path: "by laws = 'best'" for path in filled.added}
-    marks |= {path: "estimated by laws = 'best'" for path in filled.estimated}
+    marks |= dict.fromkeys(filled.added, "by laws = 'best'")
+    marks |= dict.fromkeys(filled.estimated, "estimated by laws = 'best'")
     found: dict[str, list[SceneInput]] = {}
     for one in _fields(filled.tables, (), model, scene):
         one = dataclasses.replace(one, mark=marks.get(one.path, ""))

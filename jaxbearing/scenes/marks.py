@@ -103,19 +103,20 @@ def _within(path: str, other: str) -> bool:
     return f"{path}.".startswith(f"{other}.")
 
 
-def notes_of_marks(source: str | Path, overrides: Overrides | None = None) -> list[str]:
-    """Says which numbers of a scene file nobody gave, and which clearance is not that of the running bearing.
+def notes_of_file(source: str | Path, overrides: Overrides | None = None) -> list[str]:
+    """Says which numbers of a scene nobody gave, which clearance is not that of the running bearing, and which
+    materials of the seats are assumed.
 
     **Raises:** `SceneError` for a file that cannot be read.
     """
-    marks = marks_of(source, overrides)
-    if not marks:
+    if str(source) not in builtin_names() and not Path(source).is_file():
         return []
+    marks = marks_of(source, overrides)
     groups = {word: [path for path, mark in marks.items() if mark.word == word] for word in WORDS.values()}
     said = [f"{word}: {', '.join(paths)}" for word, paths in groups.items() if paths]
     notes = [f"not given, by the marks in the scene file: {'; '.join(said)}"] if said else []
     before = [path for path, mark in marks.items() if mark.unmounted and path.endswith(CLEARANCE)]
-    tables = _complete(source, overrides) if before else {}
+    tables = _complete(source, overrides)
     for path in before:
         keys = tuple(path.removesuffix(CLEARANCE).rstrip(".").split("."))
         bearing = tables if keys == ("",) else at(tables, keys)
@@ -124,7 +125,18 @@ def notes_of_marks(source: str | Path, overrides: Overrides | None = None) -> li
                 f"{path} is the clearance before mounting, and is taken as that of the running bearing: add [fits], "
                 "which makes the running clearance a result"
             )
+    fits = tables.get("fits")
+    given = fits if isinstance(fits, Mapping) else {}
+    seats = [part for part in ("shaft", "housing") if any(f"{part}_{one}" in given for one in _OF_SEAT)]
+    bare = [part for part in seats if f"{part}_material" not in given]
+    if bare:
+        fields = " and ".join(f"fits.{part}_material" for part in bare)
+        notes.append(f"{fields} {'is' if len(bare) == 1 else 'are'} not given: assumed steel")
     return notes
+
+
+_OF_SEAT = ("interference", "tolerance")
+"""Ends of the names of fields that give a part a seat."""
 
 
 def _complete(source: str | Path, overrides: Overrides | None) -> Mapping[str, Any]:

@@ -27,7 +27,9 @@ def test_rows_of_the_table():
 
 def test_sentence():
     (line,) = interval_lines(BOTH)
-    counted = "drag.coefficient, oil.viscosity.pressure_coefficient; not counted: geometry, operation, errors of the laws"
+    counted = (
+        "drag.coefficient, oil.viscosity.pressure_coefficient; not counted: geometry, operation, errors of the laws"
+    )
     limits = "power loss, 90 % between 730.0 W and 3015 W, mostly by drag.coefficient (assumed: lognormal)"
     assert line == f"{limits}; counted: only {counted}"
     (line,) = interval_lines(ONE)

@@ -2,7 +2,7 @@
 
 import jaxbearing as jb
 from jaxbearing.scenes.inputs import scene_inputs
-from jaxbearing.scenes.marks import Mark, marks_in, marks_of, notes_of_marks
+from jaxbearing.scenes.marks import Mark, marks_in, marks_of, notes_of_file
 
 TEXT = """
 kind = "shaft"  # a note of the author
@@ -37,23 +37,32 @@ def written(folder, name, **known):
 
 def test_every_number_of_a_new_scene_that_nobody_gave_is_marked(tmp_path):
     for name in ("6207", "NU 311", "30206", "7014 C"):
-        said = " ".join(notes_of_marks(written(tmp_path, name, oil="ISO VG 68")))
+        said = " ".join(notes_of_file(written(tmp_path, name, oil="ISO VG 68")))
         assert "geometry.pitch_diameter" in said or "geometry.roller_half_angle" in said
         assert "assumed: materials.rings" in said
         assert "an example: operation.inner_speed, operation.radial_load" in said
         assert "operation.oil_temperature" in said
         assert "geometry.bore" not in said
         given = written(tmp_path, name, oil="ISO VG 68", radial_load=1e3, oil_temperature=330.0, inner_speed=100.0)
-        assert "operation.radial_load" not in " ".join(notes_of_marks(given))
+        assert "operation.radial_load" not in " ".join(notes_of_file(given))
 
 
 def test_the_clearance_is_that_before_mounting(tmp_path):
     path = written(tmp_path, "6207")
     before = "geometry.diametral_clearance is the clearance before mounting"
-    assert any(before in text for text in notes_of_marks(path))
-    assert not any(before in text for text in notes_of_marks(path, {"geometry.diametral_clearance": "5 um"}))
+    assert any(before in text for text in notes_of_file(path))
+    assert not any(before in text for text in notes_of_file(path, {"geometry.diametral_clearance": "5 um"}))
     fits = {"fits.shaft_tolerance": "k5", "fits.housing_tolerance": "H7"}
-    assert not any(before in text for text in notes_of_marks(path, fits))
+    assert not any(before in text for text in notes_of_file(path, fits))
+
+
+def test_materials_of_the_seats(tmp_path):
+    """They are said of built-in scenes too, which have no marks."""
+    changes = {"fits.housing_material": "aluminium"}
+    assert notes_of_file("deep_groove_6205_fitted", changes) == ["fits.shaft_material is not given: assumed steel"]
+    (note,) = notes_of_file("deep_groove_6205_fitted")
+    assert note == "fits.shaft_material and fits.housing_material are not given: assumed steel"
+    assert notes_of_file("deep_groove_6205") == []
 
 
 def test_an_override_takes_the_mark_away(tmp_path):
@@ -74,7 +83,7 @@ def test_marks_of_the_bearings_on_a_shaft(tmp_path):
     assert found["bearing.front.geometry.n_balls"] == Mark("estimated")
     assert "bearing.front.materials.rings" not in found
     assert not any("operation" in path for path in found)
-    assert any("bearing.front.geometry.diametral_clearance is" in text for text in notes_of_marks(shaft))
+    assert any("bearing.front.geometry.diametral_clearance is" in text for text in notes_of_file(shaft))
 
 
 def test_inputs_say_where_their_values_come_from(tmp_path):
