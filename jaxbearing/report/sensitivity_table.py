@@ -132,7 +132,7 @@ def _print_interval(interval: PowerInterval | None, console: Console) -> None:
     if len(interval.parts) == 1:
         console.print(Padding(Text(f"{text}, by {interval.by} alone ({interval.assumed}); {left_out}."), (0, 2)))
         return
-    said = f"{text}, mostly by {interval.by}; {left_out}. Counted are only these, by each input alone:"
+    said = f"{text} (counted: only the inputs below; {left_out}), mostly by {interval.by}. By each input alone:"
     console.print(Padding(Text(said), (0, 2)))
     width = lambda part: part.high - part.low
     small = [part.path for part in interval.parts if width(part) < SMALL * width(interval.parts[0])]

@@ -51,6 +51,7 @@ def scene_inputs(
     marks = {path: f"{mark.word}, by the file" for path, mark in marks_of(source, overrides).items() if mark.word}
     marks |= dict.fromkeys(filled.added, "by laws = 'best'")
     marks |= dict.fromkeys(filled.estimated, "estimated by laws = 'best'")
+    marks |= dict.fromkeys(filled.assumed, "assumed by laws = 'best'")
     found: dict[str, list[SceneInput]] = {}
     for one in _fields(filled.tables, (), model, scene):
         one = dataclasses.replace(one, mark=marks.get(one.path, ""))
