@@ -18,6 +18,8 @@ from .parts import check_between
 Ends = Callable[[], tuple[Any, Any]]
 ASSUMED_LANDS = 2
 """Number of cage lands, where a scene does not give it."""
+ASSUMED_MATERIAL = "bronze"
+"""Material of a moving cage for which the scene gives none."""
 
 
 class AbstractCage(Checked):
@@ -55,6 +57,10 @@ class AbstractCage(Checked):
     @abc.abstractmethod
     def row(self, geometry: Any) -> tuple[int, Scalar]:
         """Number and diameter, m, of the rolling elements in a bearing of this kind."""
+
+    @abc.abstractmethod
+    def pocket_opening(self, geometry: Any) -> tuple[Scalar, Scalar]:
+        """Size of a pocket along the axis and along the circumference, m."""
 
     @property
     def lands(self) -> int:

@@ -9,6 +9,9 @@ from ..numerics.checks import Checked, bounded
 from ..numerics.safe import safe_norm
 from .ball_pocket_face import Entering, yielding_film
 
+SHARPNESS = 8.0
+"""n of the friction: how sharply it ends at a gap of R_b; a gap of R_b/10 has that of n = oo to 1e-9."""
+
 
 class MetBalls(NamedTuple):
     """Load, N, film, m, friction over the sliding speed, N s/m, residual of the gap equation relative to the film."""
@@ -24,9 +27,11 @@ class MeetingBalls(Checked):
 
     The load is that of `CompliantBallPocketFace` with $R_1 = R_2 = R_b/2$. Balls that turn alike have surfaces that
     move against each other where they meet: they slide by twice that speed and carry no oil in, so that only squeeze
-    and elastic contact keep them apart. The friction is $\mu uA$, $A = \pi R_b\cdot\tfrac12\ln(1 + (R_b/h)^2)$.
+    and elastic contact keep them apart. The friction is $\mu uA$, $A = \frac{\pi R_b}{n}\ln(1 + (R_b/h)^n)$ with
+    n = 8: that of a parabolic gap, $\pi R_b\ln(R_b/h)$, which oil fills up to the width $R_b$.
 
-    **Limits:** in deep overlap Hertz; far apart the friction falls with the square of the gap.
+    **Limits:** in deep overlap Hertz; the friction ends where the gap is as wide as R_b: a film does not reach from one
+    ball to another that is far away, whose lever, half the distance of the centres, would make much of it.
     **Validity:** isoviscous, half Sommerfeld. The friction of a contact that touches is that of its film.
     **Reference:** as `CompliantBallPocketFace`; the friction is that of a parabolic gap, cut where it is as wide as
     R_b.
@@ -58,5 +63,6 @@ class MeetingBalls(Checked):
         rolling = 1.2 * jnp.sqrt(2.0 * radius) * viscosity * safe_norm(entraining, self.minimum_speed)
         entering = Entering(squeeze, rolling, radius)
         load, film, residual = yielding_film(gap, entering, self.stiffness, self.minimum_film)
-        area = jnp.pi * radius * jnp.log1p(jnp.square(2.0 * radius / film))
+        width = jnp.log(2.0 * radius) - jnp.log(film)
+        area = 2.0 * jnp.pi * radius * jnp.logaddexp(0.0, SHARPNESS * width) / SHARPNESS
         return MetBalls(load, film, viscosity * area, residual)

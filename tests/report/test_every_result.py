@@ -47,7 +47,7 @@ IN_OTHER_WORDS = ("status", "worst_equation", "force", "stiffness", "deborah_num
 """Fields of the JSON that are texts, of a part of the numbers, or of the largest."""
 DRAWN = {"power_loss_total", "life_L10h", "film_central", "ring_radial", "cage_slip"}
 """Results with one number a case of which some are drawn."""
-HISTORIES = ("roller", "line contact", "four temperatures", "six temperatures")
+HISTORIES = ("roller", "ball", "line contact", "four temperatures", "six temperatures")
 PARTS = (
     Solution,
     solution.RingDisplacement,

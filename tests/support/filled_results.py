@@ -15,6 +15,7 @@ from life_page import page_scene
 from warm_cases import warm
 
 import jaxbearing as jb
+from jaxbearing.bearings.ball.motion.results import BallEnergy, BallInstant, LooseBallPowerLoss
 from jaxbearing.bearings.cylindrical.motion.results import RollerEnergy, RollerInstant
 from jaxbearing.bearings.motion.history import History
 from jaxbearing.bearings.ring_shape import FlexibleRing
@@ -131,15 +132,19 @@ def history_of(scene, duration=1e-3):
     """A run of a scene, with every field that its classes have; of temperatures, those that its scene has."""
     if getattr(scene, "thermal", None) is not None:
         return _warm_history(scene, duration)
-    if isinstance(scene, jb.CylindricalRollerBearing):
-        sizes = {"element": scene.geometry.n_rollers, "element_state": 3, "cage_state": 6}
-        instants = filled(_by_annotation(RollerInstant, sizes), (INSTANTS,))
+    if isinstance(scene, jb.CylindricalRollerBearing | jb.BallBearing):
+        rollers = isinstance(scene, jb.CylindricalRollerBearing)
+        instant, energy = (RollerInstant, RollerEnergy) if rollers else (BallInstant, BallEnergy)
+        parts = {"element_state": len(instant.element_state), "cage_state": len(instant.cage_state)}
+        sizes = {"element": scene.n_elements, "land": 2} | parts
+        given = {} if rollers else {"power_loss": _by_annotation(LooseBallPowerLoss, sizes)}
+        instants = filled(_by_annotation(instant, sizes, **given), (INSTANTS,))
         found = filled(
             _by_annotation(
                 History,
                 sizes | {"time": INSTANTS},
                 instants=None,
-                energy=_by_annotation(RollerEnergy, sizes),
+                energy=_by_annotation(energy, sizes),
                 solver="dopri5",
             )
         )

@@ -221,8 +221,8 @@ COMPARISONS = (
         verdict="Believe an axial stiffness to about {believe} per cent, if the conformity was fitted to one printed "
         "rigidity of the same bearing, and to about 15 per cent, if one conformity stands for a whole series. Four "
         "bearings of five lie within. The smallest bearings are no check, since their print is rounded by up to 10 per "
-        "cent. A preload was not compared: it is an input here. The preload for a wanted stiffness is about three times "
-        "as uncertain as the stiffness.",
+        "cent. A preload was not compared: it is an input here. The preload for a wanted stiffness is about three "
+        "times as uncertain as the stiffness.",
         compute=rigidity,
     ),
 )

@@ -122,8 +122,8 @@ COMPARISONS = (
         data="32216, 500 to 4000 rpm, 42 and 50 degC, TU Kaiserslautern 2023",
         kind="measured",
         conditions="The axial load is 6 kN, the radial load 0 or 6.5 kN. The oil is FVA3, a mineral oil ISO VG 100. "
-        "The bath reaches up to half a roller's height; the copy at hand does not say of which roller, nor how the shaft lies. The outer "
-        "ring is at 42 or 50 °C.",
+        "The bath reaches up to half a roller's height; the copy at hand does not say of which roller, nor how the "
+        "shaft lies. The outer ring is at 42 or 50 °C.",
         free="Nothing was fitted in the column `supply of a bath`, which the deviation is about. But the package's "
         "default of a bath, an inlet layer of 10 central films, was chosen by people who knew these torques. In the "
         "column `fitted supply` the layer is fitted to ten of these points: 3.45 central films (S = 4.6 minimum "

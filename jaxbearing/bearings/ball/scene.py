@@ -134,6 +134,10 @@ class BallCage(AbstractCage):
     def row(self, geometry: BallGeometry) -> tuple[int, Scalar]:
         return geometry.n_balls, geometry.ball_diameter
 
+    def pocket_opening(self, geometry: BallGeometry) -> tuple[Scalar, Scalar]:
+        hole = geometry.ball_diameter + self.pocket_clearance
+        return hole, hole
+
     def land_places(self, geometry: BallGeometry) -> Array:
         """Axial places of the middles of the lands from that of the balls, m: beside the pockets, evenly spaced."""
         if self.lands == 1:
@@ -145,7 +149,7 @@ class BallCage(AbstractCage):
         """Mass, kg, and moments of inertia about the axis and across it, kg m^2: a ring as wide as pockets and lands,
         less a flat round plug for each pocket; the mass is spread as in the whole ring."""
         inner, outer = self.bore(geometry) / 2.0, self.outside(geometry) / 2.0
-        hole = geometry.ball_diameter + self.pocket_clearance
+        hole, _ = self.pocket_opening(geometry)
         width = hole + self.lands * self.land_width
         ring = math.pi * (outer * outer - inner * inner) * width
         plugs = geometry.n_balls * 0.25 * math.pi * hole * hole * (outer - inner)

@@ -126,16 +126,18 @@ class RollerCage(AbstractCage):
     def row(self, geometry: RollerGeometry) -> tuple[int, Scalar]:
         return geometry.n_rollers, geometry.roller_diameter
 
+    def pocket_opening(self, geometry: RollerGeometry) -> tuple[Scalar, Scalar]:
+        axial = 0.0 if self.pocket_axial_clearance is None else self.pocket_axial_clearance
+        return geometry.roller_length + axial, geometry.roller_diameter + self.pocket_clearance
+
     def mass_and_inertia(self, geometry: RollerGeometry, density: Scalar) -> tuple[Scalar, Scalar]:
         """Mass, kg, and moment of inertia about the axis, kg m^2: a ring as wide as rollers, their axial clearance and
         the lands, less a rectangular pocket for each roller (in the inertia as a point in the middle of the ring: its
         own extent would take off another 0.4 %)."""
         inner, outer = self.bore(geometry) / 2.0, self.outside(geometry) / 2.0
-        axial = 0.0 if self.pocket_axial_clearance is None else self.pocket_axial_clearance
-        pocket_width = geometry.roller_length + axial
+        (pocket_width, length), depth = self.pocket_opening(geometry), outer - inner
         width = pocket_width + self.lands * self.land_width
         ring = density * math.pi * (outer * outer - inner * inner) * width
-        length, depth = geometry.roller_diameter + self.pocket_clearance, outer - inner
         pockets = geometry.n_rollers * density * pocket_width * length * depth
         middle = 0.5 * (inner + outer)
         inertia = 0.5 * ring * (inner * inner + outer * outer) - pockets * middle * middle

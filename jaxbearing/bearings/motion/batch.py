@@ -106,4 +106,5 @@ def _lane(scene: AbstractMovingBearing, given: Simulation | None, times: Float[A
         element_name=scene.element,
         notes=(*scene.assumptions(), *supply_notes(scene), *notes_of_seats(scene)),
         identity=jax.tree.map(jnp.asarray, identity(scene)),
+        cage_section=scene.cage_section,
     )

@@ -13,9 +13,12 @@ import equinox as eqx
 from jaxtyping import Array, Float, Int
 
 from ..._types import Scalar
+from ...materials import CATALOGUE
 from ...numerics.arrow import ArrowPoint
 from ...numerics.newton import NewtonOptions
 from ..bearing import AbstractBearing
+from ..cage import ASSUMED_MATERIAL
+from ..cage_stress import CageSection, cage_section
 from ..facts import Excess
 from .history import Energy, Instant, LastState, PocketPeaks
 from .settings import Simulation
@@ -140,12 +143,22 @@ class AbstractMovingBearing(AbstractBearing):
     """Fields of the operating point that `Simulation.load` multiplies."""
 
     cage: eqx.AbstractVar[Any]
+    geometry: eqx.AbstractVar[Any]
+    materials: eqx.AbstractVar[Any]
     simulation: eqx.AbstractVar[Any]
 
     @property
     @abc.abstractmethod
     def motion(self) -> AbstractMotion:
         """The motion of the family."""
+
+    @property
+    def cage_section(self) -> CageSection | None:
+        """The section of the cage, for its stresses; `None` without a cage."""
+        if self.cage is None:
+            return None
+        solid = self.materials.cage or CATALOGUE[ASSUMED_MATERIAL]
+        return cage_section(self.cage, self.geometry, solid.density)
 
     def simulated(self, duration: float | None, **settings: Any) -> Any:
         if self.thermal is not None:

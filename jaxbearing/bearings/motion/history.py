@@ -15,6 +15,7 @@ from jaxtyping import Array, Bool, Float, Int
 from ..._identity import Identity
 from ..._scene import AbstractHistory
 from ...numerics.status import Status
+from ..cage_stress import CageSection
 from ..solution import RingDisplacement, label, losses_not_modelled
 
 CAGE_ANGLE = "q"
@@ -41,6 +42,9 @@ class PocketPeaks(eqx.Module):
     )
     rear: Float[Array, " element"] = eqx.field(
         metadata=label("N", "largest load on the rear pocket wall since the instant before")
+    )
+    land: Float[Array, " land"] | None = eqx.field(
+        default=None, metadata=label("N", "largest load of the cage on each guiding land since the instant before")
     )
 
 
@@ -147,6 +151,7 @@ class History(AbstractHistory):
     element_name: str = eqx.field(static=True, default="roller")
     notes: tuple[str, ...] = eqx.field(static=True, default=())
     identity: Identity | None = None
+    cage_section: CageSection | None = None
 
     @property
     def not_modelled(self) -> tuple[str, ...]:

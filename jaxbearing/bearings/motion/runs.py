@@ -243,6 +243,7 @@ def _history(
         element_name=scene.element,
         notes=notes,
         identity=identity(scene),
+        cage_section=scene.cage_section,
     )
 
 

@@ -9,6 +9,7 @@ from jaxtyping import Array, Float
 from ....gaps import CompliantBallPocketFace, ShortJournal
 from ....gaps.ball_pocket_face import BallPocketFace
 from ....lubricants import InletOil
+from ....numerics.safe import safe_norm
 from .layout import tilt_levers
 from .speeds import LandSpeeds, PocketPlace, PocketSpeeds
 
@@ -86,6 +87,12 @@ class Lands(NamedTuple):
 
     forces: LandSpeeds
     eccentricity_ratio: Float[Array, " land"]
+
+    @property
+    def load(self) -> Float[Array, " land"]:
+        """Size of the force of each land, N."""
+        y, z = self.forces.offset
+        return safe_norm(y, z)
 
 
 def moving_lands(cage: MovingCage, offset: Float[Array, "2 land"], speeds: LandSpeeds) -> Lands:

@@ -35,20 +35,33 @@ WORKS = ("drive", "dissipation", "damping", "pocket_films", "raceways", "load")
 """Works that are integrated beside the motion, in their order in the state."""
 
 
+def race_losses(now: "MovingBalls") -> tuple[Float[Array, "2 ball"], Float[Array, "2 ball"] | None]:
+    """Losses of every ball on both races by sliding and spin, and by rolling resistance (`None`: not modelled), W."""
+    on, at = now.forces.races, now.speeds.races
+    # the laws' rolling resistance stands apart; the rest of the moment against the roll is sliding
+    all_together = -(on.rolling * at.rolling + on.transverse * at.transverse + on.spin * at.spin + on.roll * at.roll)
+    if now.friction.resistance is None:
+        return all_together, None
+    rolled = -now.friction.resistance * at.roll
+    return all_together - rolled, rolled
+
+
+def pocket_losses(now: "MovingBalls") -> Float[Array, " ball"] | None:
+    """Losses of every ball by sliding in its pocket, W; `None` without a cage."""
+    forces, speeds = now.forces.pocket, now.speeds.pocket
+    if forces is None or speeds is None:
+        return None
+    return -jnp.sum(forces.surface * speeds.surface, axis=(0, 1))
+
+
 def power_by_location(dynamics: "BallDynamics", now: "MovingBalls") -> BallPowerLoss:
     """Losses by friction, W."""
     forces, speeds = now.forces, now.speeds
-    on, at = forces.races, speeds.races
-    # the laws' rolling resistance stands apart; the rest of the moment against the roll is sliding
-    sliding = on.rolling * at.rolling + on.transverse * at.transverse + on.spin * at.spin + on.roll * at.roll
-    resistance, rolled = None, jnp.zeros_like(sliding)
-    if now.friction.resistance is not None:
-        rolled = now.friction.resistance * at.roll
-        resistance = -jnp.sum(rolled)
-    inner, outer = -jnp.sum(sliding - rolled, axis=1)
-    pocket = lands = drag = None
-    if forces.pocket is not None and speeds.pocket is not None:
-        pocket = -jnp.sum(forces.pocket.surface * speeds.pocket.surface)
+    sliding, rolled = race_losses(now)
+    inner, outer = jnp.sum(sliding, axis=1)
+    resistance = None if rolled is None else jnp.sum(rolled)
+    in_pockets, lands, drag = pocket_losses(now), None, None
+    pocket = None if in_pockets is None else jnp.sum(in_pockets)
     if forces.lands is not None and speeds.lands is not None:
         turning = jnp.sum(forces.lands.turning * speeds.lands.turning)
         lands = -jnp.sum(forces.lands.offset * speeds.lands.offset) - turning

@@ -21,13 +21,18 @@ from .energy import (
     drive_power,
     kinetic_energy,
     pocket_energy,
+    pocket_losses,
     power_by_location,
+    race_losses,
     raceway_energy,
 )
 from .neighbours import neighbour_place
 from .rates import BallDynamics, MovingBalls
 from .results import BallInstant
 from .speeds import PocketPlace
+
+STILL = 1e-6
+"""Mean speed of the surfaces, m/s, added in squares, below which sliding has no ratio to rolling."""
 
 
 class _Seen(NamedTuple):
@@ -46,6 +51,8 @@ def observe(dynamics: BallDynamics, time: Scalar, state: ArrowPoint) -> BallInst
     axial, radial, lateral, moment, moment_lateral = load
     cage = now.places.cage
     walls, pocket = now.walls, now.pocket
+    races, sliding_power = now.speeds.races, race_losses(now)[0]
+    slide_to_roll = races.rolling * races.mean_speed / (jnp.square(races.mean_speed) + STILL**2)
     return BallInstant(
         inner_speed=now.rates.races[0],
         radial_load=radial,
@@ -53,7 +60,9 @@ def observe(dynamics: BallDynamics, time: Scalar, state: ArrowPoint) -> BallInst
         ring=RingDisplacement(**dict(zip(RING_FREEDOMS, now.places.ring, strict=True))),
         cage=_cage_motion(dynamics, now),
         elements=_ball_results(dynamics, now),
-        pocket_peaks=None if walls is None or pocket is None else PocketPeaks(*front_and_rear(pocket, *walls.load)),
+        pocket_peaks=None
+        if walls is None or pocket is None or now.lands is None
+        else PocketPeaks(*front_and_rear(pocket, *walls.load), land=now.lands.load),
         power_loss=power_by_location(dynamics, now),
         drive_power=drive_power(now),
         kinetic_energy=kinetic_energy(dynamics, now),
@@ -75,7 +84,28 @@ def observe(dynamics: BallDynamics, time: Scalar, state: ArrowPoint) -> BallInst
         cage_tilt=cage[3] if turned else None,
         cage_tilt_lateral=cage[4] if turned else None,
         damping_power=damping_power(dynamics, now),
+        orbital_slip=slip_below(dynamics, _rolling_speed(dynamics, now), now.rates.orbit),
+        slide_to_roll_inner=slide_to_roll[0],
+        slide_to_roll_outer=slide_to_roll[1],
+        sliding_power_inner=sliding_power[0],
+        sliding_power_outer=sliding_power[1],
+        pocket_power=pocket_losses(now),
+        pocket_angle=None if pocket is None else jnp.arctan2(pocket.direction[1], pocket.direction[0]),
+        land_load=None if now.lands is None else now.lands.load,
     )
+
+
+def _rolling_speed(dynamics: BallDynamics, now: MovingBalls) -> Float[Array, " ball"]:
+    """Orbital speed of every ball if it rolled without sliding at its angles and attitude, rad/s."""
+    motion = dataclasses.replace(dynamics.kinematics, inner_speed=now.rates.races[0])
+    angle, (w_x, w_r, _) = jnp.arctan2(now.meridian.sine, now.meridian.cosine), now.rates.spin
+    return motion.rolling(angle[0], angle[1], jnp.arctan2(w_r, w_x)).orbital_speed
+
+
+def slip_below(dynamics: BallDynamics, free: Array, speed: Array) -> Array:
+    """1 - `speed`/`free`, which has no pole where `free`, the speed of rolling, is 0."""
+    least = 1e-8 * dynamics.kinematics.orbit_scale(free)
+    return (free - speed) * free / (jnp.square(free) + jnp.square(least))
 
 
 def _gaps(dynamics: BallDynamics, now: MovingBalls) -> Float[Array, " ball"] | None:
@@ -139,34 +169,29 @@ def _cage_motion(dynamics: BallDynamics, now: MovingBalls) -> CageMotion | None:
     if now.lands is None:
         return None
     speed = now.rates.cage[5]
-    motion = dataclasses.replace(dynamics.kinematics, inner_speed=now.rates.races[0])
-    angle, (w_x, w_r, _) = jnp.arctan2(now.meridian.sine, now.meridian.cosine), now.rates.spin
-    free = motion.rolling(angle[0], angle[1], jnp.arctan2(w_r, w_x)).orbital_speed
     weight = now.load[0] + FORCE_FLOOR
-    mean = jnp.sum(weight * free) / jnp.sum(weight)
-    least = 1e-8 * motion.orbit_scale(mean)
+    mean = jnp.sum(weight * _rolling_speed(dynamics, now)) / jnp.sum(weight)
     return CageMotion(
         x=-now.places.cage[2],
         y=now.places.cage[1],
         velocity_x=-now.rates.cage[2],
         velocity_y=now.rates.cage[1],
         speed=speed,
-        slip=(mean - speed) * mean / (jnp.square(mean) + jnp.square(least)),
+        slip=slip_below(dynamics, mean, speed),
         eccentricity_ratio=jnp.max(now.lands.eccentricity_ratio),
     )
 
 
 def pocket_peaks(dynamics: BallDynamics, times: Float[Array, "interval part"], states: ArrowPoint) -> PocketPeaks:
-    """Largest loads on the front and the rear half of every pocket in each interval, shape (interval, ball), of states
-    at several times within it.
+    """Largest loads on the front and the rear half of every pocket, shape (interval, ball), and on every land, shape
+    (interval, land), in each interval, of states at several times within it.
 
     **Arguments:** `states`, with `interval * part` in front.
     """
 
-    def at_once(time: Array, state: ArrowPoint) -> Array:
-        place, walls = dynamics.at_pockets(time, state)
-        return front_and_rear(place, *walls.load)
+    def at_once(time: Array, state: ArrowPoint) -> PocketPeaks:
+        place, walls, lands = dynamics.at_cage(time, state)
+        return PocketPeaks(*front_and_rear(place, *walls.load), land=lands.load)
 
-    loads = jax.vmap(at_once)(times.reshape(-1), states)
-    front, rear = jnp.swapaxes(jnp.max(loads.reshape(*times.shape, *loads.shape[1:]), axis=1), 0, 1)
-    return PocketPeaks(front=front, rear=rear)
+    found = jax.vmap(at_once)(times.reshape(-1), states)
+    return jax.tree.map(lambda loads: jnp.max(loads.reshape(*times.shape, *loads.shape[1:]), axis=1), found)

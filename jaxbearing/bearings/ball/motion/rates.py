@@ -231,12 +231,14 @@ class BallDynamics(AbstractDynamics):
             met=met,
         )
 
-    def at_pockets(self, time: Scalar, state: ArrowPoint) -> tuple[PocketPlace, BallPocketFace]:
-        """The part of `at` that the pockets need."""
+    def at_cage(self, time: Scalar, state: ArrowPoint) -> tuple[PocketPlace, BallPocketFace, Lands]:
+        """The part of `at` that pockets and lands of the cage need."""
         assert self.cage is not None
         places, rates = self.moving(time, state)
         pocket = self.levers.pocket_place(places)
-        return pocket, self.cage.walls(pocket, self.levers.pocket_speeds(places, rates))
+        walls = self.cage.walls(pocket, self.levers.pocket_speeds(places, rates))
+        lands = moving_lands(self.cage, self.levers.land_offsets(places), self.levers.land_speeds(rates))
+        return pocket, walls, lands
 
     def centrifugal(self, orbital_speed: Array) -> Array:
         """N, of balls on the pitch circle."""

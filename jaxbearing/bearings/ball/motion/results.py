@@ -53,6 +53,28 @@ class BallInstant(Instant):
     damping_power: Float[Array, ""] = eqx.field(
         metadata=label("W", "loss by the damping of the raceway contacts and of the ring")
     )
+    orbital_slip: Float[Array, " element"] = eqx.field(
+        metadata=label("1", "1 - orbital speed of the ball / that of rolling without slip at its angles and attitude")
+    )
+    slide_to_roll_inner: Float[Array, " element"] = eqx.field(
+        metadata=label("1", "sliding along rolling over the mean speed of the surfaces, inner")
+    )
+    slide_to_roll_outer: Float[Array, " element"] = eqx.field(
+        metadata=label("1", "sliding along rolling over the mean speed of the surfaces, outer")
+    )
+    sliding_power_inner: Float[Array, " element"] = eqx.field(
+        metadata=label("W", "loss of the ball by sliding and spin on the inner raceway")
+    )
+    sliding_power_outer: Float[Array, " element"] = eqx.field(
+        metadata=label("W", "loss of the ball by sliding and spin on the outer raceway")
+    )
+    pocket_power: Float[Array, " element"] | None = eqx.field(
+        metadata=label("W", "loss of the ball by sliding in its pocket")
+    )
+    pocket_angle: Float[Array, " element"] | None = eqx.field(
+        metadata=label("rad", "direction of the ball's offset in its pocket, from that of the orbit towards the axis")
+    )
+    land_load: Float[Array, " land"] | None = eqx.field(metadata=label("N", "load of the cage on each guiding land"))
     state_elements: Float[Array, "element_state element"] = eqx.field(
         metadata=label(
             "1", "state of the balls: orbit, spin and place in the plane of the groove, in the frame of the run"

@@ -146,20 +146,21 @@ class Levers(eqx.Module):
 
     def speeds(self, places: Places, meridian: Meridian, rates: Rates) -> Speeds:
         """Speeds of all interactions; linear in `rates`."""
-        lands = None
-        if self.land_places is not None:
-            cage, inner, outer = rates.cage[5], rates.races[0], rates.races[1]
-            turning = jnp.stack([cage, outer] if self.on_outer else [inner, cage])
-            lands = LandSpeeds(self._across_lands(rates.ring, rates.cage[:5]), turning)
         apart, races = self.race_speeds(places, meridian, rates)
         return Speeds(
             apart=apart,
             races=races,
             drag=self.pitch_radius * rates.orbit,
             pocket=None if self.land_places is None else self.pocket_speeds(places, rates),
-            lands=lands,
+            lands=None if self.land_places is None else self.land_speeds(rates),
             neighbours=neighbour_speeds(places, neighbour_place(places), rates) if self.balls_meet else None,
         )
+
+    def land_speeds(self, rates: Rates) -> LandSpeeds:
+        """Part of `speeds`."""
+        cage, inner, outer = rates.cage[5], rates.races[0], rates.races[1]
+        turning = jnp.stack([cage, outer] if self.on_outer else [inner, cage])
+        return LandSpeeds(self._across_lands(rates.ring, rates.cage[:5]), turning)
 
     def race_speeds(self, places: Places, meridian: Meridian, rates: Rates) -> tuple[Array, RaceMotion]:
         """The parts `apart` and `races` of `speeds`. Ring and its rates may have an axis of the balls behind."""

@@ -13,6 +13,7 @@ from ....materials import CATALOGUE, reduced_modulus
 from ....numerics.arrow import ArrowPoint
 from ....numerics.integrator import IMPLICIT
 from ....numerics.newton import NewtonOptions, newton_solve
+from ...cage import ASSUMED_MATERIAL
 from ...inlet import oil_of
 from ...motion.family import AbstractDynamics, Resumed, Start
 from ...motion.history import LastState
@@ -35,8 +36,6 @@ from .races import LubricatedRaces
 from .rates import BallDynamics
 from .speeds import Levers
 
-ASSUMED_CAGE = "bronze"
-"""Material of a cage for which the scene gives none."""
 CONTACT_DAMPING = 0.05
 """Contact damping where the settings give none, s/m."""
 IMMOBILE = "contact.traction: nothing drives the balls of a bearing without traction on its raceways; simulate needs it"
@@ -180,7 +179,7 @@ def _neighbours(scene: BallBearing, system: LubricatedBallSystem) -> Neighbours:
 def _moving_cage(scene: BallBearing, system: LubricatedBallSystem) -> MovingCage:
     cage, geometry, materials = scene.cage, scene.geometry, scene.materials
     assert cage is not None
-    solid = CATALOGUE[ASSUMED_CAGE] if materials.cage is None else materials.cage
+    solid = CATALOGUE[ASSUMED_MATERIAL] if materials.cage is None else materials.cage
     radius, clearance = 0.5 * jnp.asarray(geometry.ball_diameter), jnp.asarray(cage.pocket_clearance)
     conforming = radius * (2.0 * radius + clearance) / clearance
     wall = PointContact(radius, conforming, reduced_modulus(materials.balls, solid))

@@ -10,6 +10,7 @@ from ....gaps import CompliantPocketFace
 from ....materials import CATALOGUE, reduced_modulus
 from ....numerics.newton import NewtonOptions, newton_solve
 from ....numerics.status import Status
+from ...cage import ASSUMED_MATERIAL
 from ...motion.family import Resumed, Start
 from ...motion.history import LastState
 from ...motion.settings import Simulation
@@ -20,8 +21,6 @@ from ..scene import CylindricalRollerBearing, check_run
 from ..steady import build_system
 from .rates import RollerDynamics
 
-ASSUMED_CAGE = "bronze"
-"""Material of a cage for which the scene gives none."""
 IMMOBILE = (
     "contact.traction: nothing drives the rollers of a bearing without traction on its raceways; simulate needs it"
 )
@@ -82,7 +81,7 @@ def build_dynamics(
     geometry, materials, cage = scene.geometry, scene.materials, scene.cage
     pocket = clearance = mass = inertia = None
     if cage is not None:
-        solid = CATALOGUE[ASSUMED_CAGE] if materials.cage is None else materials.cage
+        solid = CATALOGUE[ASSUMED_MATERIAL] if materials.cage is None else materials.cage
         mass, inertia = (jnp.asarray(value) for value in cage.mass_and_inertia(geometry, solid.density))
         clearance = jnp.asarray(cage.pocket_clearance)
         pocket = CompliantPocketFace(

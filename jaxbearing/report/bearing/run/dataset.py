@@ -12,6 +12,7 @@ from ....bearings.motion.history import History
 from ....numerics.status import Status
 from ...history_shocks import FACES, SHOCK, peaks_by_turn, sectors, whirl_ratio
 from ...labels import labelled
+from ...run_statistics import cage_stress, sliding_energy
 from ...variables import attributes, flags, identity_text, variable, without_fill
 
 
@@ -26,7 +27,7 @@ def to_dataset(history: History) -> xr.Dataset:
         dataset[name] = variable(value, metadata, short, () if short == path else ("time",))
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     count = dataset.sizes["element"]
-    dataset = dataset.assign(_statistics(history))
+    dataset = dataset.assign(_statistics(history)).assign(_of_elements_and_cage(history))
     names = {"element": (np.arange(count), "number of the rolling element; azimuth says where it is")}
     states = {"element_state": history.instants.element_state, "cage_state": history.instants.cage_state}
     names |= {dim: (list(parts), "component of the state") for dim, parts in states.items()}
@@ -59,4 +60,24 @@ def _statistics(history: History) -> dict[str, xr.Variable]:
         found["face"] = xr.Variable(("face",), list(FACES), say("1", "wall of the pocket"))
         turns = np.arange(1, peaks.shape[1] + 1)
         found["turn"] = xr.Variable(("turn",), turns, say("1", "turn of the cage since the start of the run"))
+    return found
+
+
+def _of_elements_and_cage(history: History) -> dict[str, xr.Variable]:
+    """Energy that sliding takes at each element, and stresses of the cage."""
+    say = lambda unit, text: {"units": unit, "long_name": text, "path": "summary"}
+    places = {"inner": "on the inner raceway", "outer": "on the outer raceway", "pocket": "in its pocket"}
+    found = {
+        f"sliding_energy_{place}": xr.Variable(
+            ("element",), energy, say("J", f"energy that sliding of the element {places[place]} takes over the run")
+        )
+        for place, energy in sliding_energy(history).items()
+    }
+    stress = cage_stress(history)
+    if stress is not None:
+        found["cage_hoop_stress"] = xr.Variable(("time",), stress.hoop, say("Pa", "stress of the cage by its rotation"))
+        text = "largest bending stress of the cage rails, by the pocket loads of the instant"
+        found["cage_rail_stress"] = xr.Variable(("time",), stress.rail, say("Pa", text))
+        text = "bending stress of the cage bar ahead of the element, by its largest load since the instant before"
+        found["cage_bar_stress"] = xr.Variable(("time", "element"), stress.bar, say("Pa", text))
     return found

@@ -9,6 +9,16 @@ from ....bearings.motion.history import History
 from ....numerics.status import Status
 from ...backends.json import finite, plain
 from ...history_shocks import FACES, Sectors, sectors, shocks, whirl_ratio
+from ...run_statistics import (
+    SKID,
+    cage_orbit,
+    cage_stress,
+    load_statistics,
+    skidding,
+    sliding_energy,
+    speed_variation,
+    turns_done,
+)
 
 
 def statistics(history: History) -> dict[str, Any]:
@@ -35,15 +45,52 @@ def statistics(history: History) -> dict[str, Any]:
             "slip": _spread(instants.cage.slip),
             "eccentricity_ratio": _spread(instants.cage.eccentricity_ratio),
             "whirl_ratio": whirl_ratio(history),
+            "orbit": cage_orbit(history),
         }
     peaks = shocks(history)
     if peaks:
+        at_instants = {face: load_statistics(getattr(elements, f"pocket_load_{face}")) for face in FACES}
         found["pocket_load"] = {
-            face: {"max": max(entry["max"] for entry in peaks[face]), "turns": peaks[face]} for face in FACES
+            face: at_instants[face] | {"max": max(entry["max"] for entry in peaks[face]), "turns": peaks[face]}
+            for face in FACES
         }
+    found |= _in_motion(history)
     spread = sectors(history)
     if spread is not None:
         found["shocks"] = _by_sector(spread)
+    return found
+
+
+def _in_motion(history: History) -> dict[str, Any]:
+    """Statistics of what only runs in time have: variation of the speeds, sliding, skidding, lands, stresses."""
+    found: dict[str, Any] = {}
+    instants, variation, stress = history.instants, speed_variation(history), cage_stress(history)
+    if variation is not None:
+        found["speed_variation"] = variation
+    energy, turns = sliding_energy(history), turns_done(history)
+    if energy:
+        found["sliding_energy"] = {
+            place: {
+                "total": float(own.sum()),
+                "largest": float(own.max()),
+                "per_turn": float(own.sum()) / turns if turns > 0 else None,
+            }
+            for place, own in energy.items()
+        }
+    skids = skidding(history)
+    if skids:
+        found["skidding"] = {"threshold": SKID} | skids
+    land = getattr(instants, "land_load", None)
+    if land is not None:
+        found["land_load"] = load_statistics(land) | {"max": float(np.max(instants.pocket_peaks.land))}
+    if stress is not None:
+        found["cage_stress"] = {
+            "hoop": float(stress.hoop.max()),
+            "rail_bending": float(stress.rail.max()),
+            "rail_mean": stress.rail_mean,
+            "rail_range": stress.rail_range,
+            "bar_bending": float(stress.bar.max()),
+        }
     return found
 
 

@@ -56,6 +56,7 @@ def print_summary(history: History, label: str, console: "Console") -> None:
         console.print(f"The cage's centre whirls with {found['cage']['whirl_ratio']:.3g} of the cage speed.")
     if "shocks" in found:
         _print_sectors(found["shocks"], console)
+    _print_motion(found, history.element_name, console)
     console.print("\nMean power")
     table = Table("", "", box=None, pad_edge=False, show_header=False)
     for name, watts in sorted(found["power_loss"].items(), key=lambda item: (item[0] != "total", -item[1])):
@@ -74,6 +75,33 @@ def print_summary(history: History, label: str, console: "Console") -> None:
     )
     for text in history.warnings:
         console.print(Text(f"- {text}", style="yellow"))
+
+
+def _print_motion(found: dict[str, Any], element: str, console: "Console") -> None:
+    """Prints orbit and stresses of the cage, variation of the speeds, sliding and skidding, where they are there."""
+    orbit = found.get("cage", {}).get("orbit")
+    if orbit is not None:
+        radius = " and ".join(with_unit(orbit[f"{name}_radius"], "m") for name in ("mean", "max"))
+        console.print(f"The cage's centre is {radius} (mean, largest) from its mean place.")
+    if "land_load" in found:
+        loads = ", ".join(with_unit(found["land_load"][name], "N") for name in ("mean", "p99", "max"))
+        console.print(f"Load of the cage on a guiding land (mean, 99 %, largest): {loads}")
+    if "cage_stress" in found:
+        stress = {name: with_unit(value, "Pa") for name, value in found["cage_stress"].items()}
+        console.print(
+            f"Largest stresses of the cage: {stress['hoop']} by rotation, {stress['rail_bending']} by bending of the "
+            f"rails, {stress['bar_bending']} by bending of the bars"
+        )
+    if "speed_variation" in found:
+        share = 100.0 * found["speed_variation"]["between_elements"]
+        console.print(f"Orbital speeds of the {element}s differ by up to {share:.3g} % at one time.")
+    if "sliding_energy" in found:
+        parts = [f"{with_unit(own['total'], 'J')} {place}" for place, own in found["sliding_energy"].items()]
+        console.print(f"Sliding takes {', '.join(parts)}.")
+    if "skidding" in found:
+        shares = [f"{100 * found['skidding'][side]['share']:.3g} % {side}" for side in ("inner", "outer")]
+        limit = f"{100 * found['skidding']['threshold']:g} %"
+        console.print(f"Share of {element}s that slide by more than {limit} of rolling: {', '.join(shares)}")
 
 
 def _print_sectors(found: dict[str, Any], console: "Console") -> None:

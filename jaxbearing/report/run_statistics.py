@@ -1,0 +1,173 @@
+"""Statistics of a run in time: loads, motion of the cage, variation of the speeds, energy that sliding takes, skidding,
+and stresses of the cage. Shocks and peaks turn by turn are in `history_shocks`."""
+
+import math
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Float
+
+from ..bearings.motion.history import History
+from .history_shocks import FACES, SECTORS, angle_of
+
+SIDES = ("inner", "outer")
+SKID = 0.02
+"""Sliding along rolling over the mean speed of the surfaces from which an element counts as skidding: tractions reach
+most of their limit below 1 %."""
+PLACES_PER_POCKET = 4
+"""Places of the rails, to each pocket, at which their bending is looked at."""
+
+
+class CageStress(NamedTuple):
+    """Stresses of the cage over time, Pa.
+
+    - `hoop`: of rotation; `rail`: largest bending of the rails, by the pocket loads of the instants; `bar`: bending of
+      each bar between a pocket and the next one, by the larger one of its loads since the instant before.
+    - `rail_mean`, `rail_range`: of rotation and bending together at the place of the rails where that range over the
+      run is largest.
+    """
+
+    hoop: Float[np.ndarray, " time"]
+    rail: Float[np.ndarray, " time"]
+    bar: Float[np.ndarray, "time element"]
+    rail_mean: float
+    rail_range: float
+
+
+def load_statistics(values: Any) -> dict[str, float]:
+    """Mean, root of the mean square, 99 % quantile and largest of all values."""
+    values = np.asarray(values, dtype=float)
+    return {
+        "mean": float(values.mean()),
+        "rms": float(np.sqrt(np.mean(np.square(values)))),
+        "p99": float(np.quantile(values, 0.99)),
+        "max": float(values.max()),
+    }
+
+
+def cage_orbit(history: History) -> dict[str, float] | None:
+    """The orbit of the cage's centre: its mean place, mean and largest distance from that, m, and the standard
+    deviation of its speed over the mean (small: the centre whirls evenly). `None` without a cage."""
+    cage = history.instants.cage
+    if cage is None:
+        return None
+    x, y = np.asarray(cage.x), np.asarray(cage.y)
+    away = np.hypot(x - x.mean(), y - y.mean())
+    speed = np.hypot(np.asarray(cage.velocity_x), np.asarray(cage.velocity_y))
+    return {
+        "mean_x": float(x.mean()),
+        "mean_y": float(y.mean()),
+        "mean_radius": float(away.mean()),
+        "max_radius": float(away.max()),
+        "deviation_ratio": float(speed.std() / max(float(speed.mean()), 1e-300)),
+    }
+
+
+def speed_variation(history: History) -> dict[str, float] | None:
+    """Variation of the orbital speeds: the largest range over the run of one element's speed over the mean of all, and
+    the largest distance of an element along the pitch circle from its own mean place in the row, m."""
+    found = getattr(history.instants.elements, "orbital_speed", None)
+    if found is None:
+        return None
+    speed = np.asarray(found)
+    along = np.asarray(history.instants.state_elements)[:, 0]
+    along = along - along.mean(axis=1, keepdims=True)
+    along = along - along.mean(axis=0, keepdims=True)
+    # a uniform change of all speeds, as in a start, is no variation between elements
+    own = speed - speed.mean(axis=1, keepdims=True)
+    scale = max(float(np.abs(speed).mean()), 1e-300)
+    return {
+        "range_of_one": float(np.ptp(speed, axis=0).max()) / scale,
+        "between_elements": float(np.ptp(own, axis=1).max()) / scale,
+        "excursion": float(np.abs(along).max()),
+    }
+
+
+def sliding_power(history: History) -> dict[str, Float[np.ndarray, "time element"]]:
+    """Loss by sliding of each element, W, by place: on both raceways and in the pocket, as far as a family has it."""
+    instants, elements = history.instants, history.instants.elements
+    found = {}
+    for side in SIDES:
+        own = getattr(instants, f"sliding_power_{side}", None)
+        if own is None:
+            force, speed = (getattr(elements, f"{name}_{side}", None) for name in ("traction", "sliding"))
+            own = None if force is None or speed is None else np.abs(np.asarray(force) * np.asarray(speed))
+        if own is not None:
+            found[side] = np.asarray(own)
+    pocket = getattr(instants, "pocket_power", None)
+    return found if pocket is None else found | {"pocket": np.asarray(pocket)}
+
+
+def sliding_energy(history: History) -> dict[str, Float[np.ndarray, " element"]]:
+    """Energy that sliding takes at each element over the run, J, by place: the trapezoidal rule over the instants."""
+    time = np.asarray(history.time)
+    return {place: _integral(time, power) for place, power in sliding_power(history).items()}
+
+
+def _integral(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+    steps = np.diff(time)[:, None]
+    return np.sum(0.5 * (values[1:] + values[:-1]) * steps, axis=0)
+
+
+def turns_done(history: History) -> float:
+    """Turns of the cage (or, without one, of the first element) in the run."""
+    return float(np.abs(angle_of(history)[-1])) / (2.0 * math.pi)
+
+
+def skidding(history: History) -> dict[str, Any]:
+    """Where and when elements skid on each raceway: share of instants and elements with more than `SKID`, the largest
+    and the mean sliding over rolling, the share by azimuth (`SECTORS` from the load line) and the stretches of time
+    (s) in which more than half of the elements skid; empty for families without `slide_to_roll`."""
+    instants, found = history.instants, {}
+    time = np.asarray(history.time)
+    azimuth = np.mod(np.asarray(instants.elements.azimuth), 2.0 * math.pi)
+    sector = np.minimum((azimuth / (2.0 * math.pi) * SECTORS).astype(int), SECTORS - 1)
+    for side in SIDES:
+        values = getattr(instants, f"slide_to_roll_{side}", None)
+        if values is None:
+            continue
+        size = np.abs(np.asarray(values))
+        over = size > SKID
+        shares = [float(over[sector == one].mean()) if np.any(sector == one) else None for one in range(SECTORS)]
+        found[side] = {
+            "share": float(over.mean()),
+            "mean": float(size.mean()),
+            "max": float(size.max()),
+            "by_sector": shares,
+            "times": _stretches(time, over.mean(axis=1) > 0.5),
+        }
+    return found
+
+
+def _stretches(time: np.ndarray, on: np.ndarray) -> list[tuple[float, float]]:
+    """First and last instants of every stretch of time in which something holds."""
+    edges = np.diff(np.concatenate([[0], on.astype(int), [0]]))
+    begins, ends = np.flatnonzero(edges > 0), np.flatnonzero(edges < 0) - 1
+    return [(float(time[a]), float(time[b])) for a, b in zip(begins, ends, strict=True)]
+
+
+def cage_stress(history: History) -> CageStress | None:
+    """Stresses of the cage; `None` without one, or where the run does not say what the cage is like."""
+    section, instants = history.cage_section, history.instants
+    if section is None or instants.cage is None or instants.pocket_peaks is None:
+        return None
+    elements, peaks = instants.elements, instants.pocket_peaks
+    front, rear = (np.asarray(getattr(elements, f"pocket_load_{face}")) for face in FACES)
+    count = front.shape[1]
+    pockets = 2.0 * np.pi * np.arange(count) / count
+    places = 2.0 * np.pi * np.arange(PLACES_PER_POCKET * count) / (PLACES_PER_POCKET * count)
+    # the elements push their cage forward by its front walls
+    rails = np.asarray(section.rails(jnp.asarray(places), jnp.asarray(pockets), jnp.asarray(front - rear)))
+    hoop = np.asarray(section.hoop(jnp.asarray(instants.cage.speed)))
+    # between a pocket and the next one ahead stands a bar: the front wall of the one, the rear wall of the other
+    on_bar = np.maximum(np.asarray(peaks.front), np.roll(np.asarray(peaks.rear), -1, axis=1))
+    together = hoop[:, None] + rails
+    worst = int(np.argmax(np.ptp(together, axis=0)))
+    return CageStress(
+        hoop=hoop,
+        rail=np.abs(rails).max(axis=1),
+        bar=np.asarray(section.bar(jnp.asarray(on_bar))),
+        rail_mean=float(together[:, worst].mean()),
+        rail_range=float(np.ptp(together[:, worst])),
+    )
