@@ -102,7 +102,8 @@ def half_play():
 
 def agree(four, two):
     """Loads and motion of bearings whose second flanks are open; displacements count from the middle of the play."""
-    assert np.max(np.asarray(four.solution.elements.load_inner_second)) == 0.0
+    for name in ("load_inner_second", "load_outer_second"):
+        assert np.max(np.asarray(getattr(four.solution.elements, name))) == 0.0
     for name in LOADED:
         here, there = getattr(four.solution.elements, name), getattr(two.solution.elements, name)
         np.testing.assert_allclose(here, there, rtol=1e-8)
@@ -131,12 +132,13 @@ def test_on_a_shaft_as_with_two_contacts():
 
 @pytest.mark.slow
 def test_set_as_with_two_contacts():
-    """Two bearings against each other, preloaded by a force: each is loaded on one flank, as with one arc a ring."""
+    """Two bearings against each other, preloaded by a force: each is loaded on one flank, as with one arc a ring.
+    At 3000 rpm the centrifugal force would press lightly loaded balls into both outer arcs."""
     found = []
     for scene, shift in ((dry(True), 0.0), (dry(False), plane_apart())):
         pair = MatchedSet("set", "<>", scene, 0.0, 60e-3 - 2.0 * shift, Preload(force=1e3))
         force = PointLoad("load", 0.0, axial=300.0, radial=500.0)
-        found.append(jb.solve(ShaftSystem(Shaft(3000.0 * RPM), sets=[pair], forces=[force])))
+        found.append(jb.solve(ShaftSystem(Shaft(500.0 * RPM), sets=[pair], forces=[force])))
     four, two = found
     for name in ("set.1", "set.2"):
         agree(four.bearings[name], two.bearings[name])
