@@ -88,16 +88,16 @@ def _solve_differentiated(scene: AbstractScene, options: NewtonOptions) -> Any:
 
 
 def solve_with_roots(scene: AbstractScene, options: NewtonOptions) -> tuple[Any, tuple[Any, ...]]:
-    """The solution, and the roots that `solution_at` takes. If no number is traced, the kept program of `solve`
-    runs."""
+    """The solution, and the roots that `solution_at` takes. If JAX traces no number of the scene, the cached program of
+    `solve` runs."""
     return (with_roots if inside_a_program(scene) else solved)(_solve_any, scene, options)
 
 
 def solution_at(
     roots: tuple[Any, ...], scene: AbstractScene, options: NewtonOptions, *, stiffness: bool = False
 ) -> Any:
-    """The solution, computed from its roots without iteration, for differentiation. The derivatives of its stiffness
-    are NaN unless `stiffness` is True, which needs a larger program."""
+    """The solution, computed from its roots without iteration, for differentiation. If `stiffness` is False, the
+    derivatives of the stiffness in the solution are NaN. True needs a larger program, which takes longer to compile."""
     return at_roots(_solve_any, roots, scene, options, stiffness=stiffness)
 
 
@@ -143,17 +143,18 @@ def solve(
     recompile it. `solve` may be called inside `jax.jit`, `jax.vmap`, `jax.grad` and `jax.lax.map`. Derivatives with
     respect to every number of the scene, in forward and reverse mode, follow from the implicit function theorem.
 
-    On a CPU the program is compiled in about a fifth of the usual time and runs 2 to 5 times slower, a difference of
-    milliseconds. This is best for a single solve. For thousands of solves use `optimised` or `jit_solver`. First
-    derivatives outside of `jax.jit` come from a second program, which is compiled quickly too and makes one pass for
-    each number that is differentiated. JAX's own compiler options apply inside `jax.jit`, in a batch and for second
-    derivatives; `quick_compile_options` gives those of a quick compilation.
+    On a CPU the program is compiled with few optimisations (quickly). This takes about a fifth of the usual time, and
+    the program then runs 2 to 5 times slower, a difference of milliseconds. This is best for a single solve. For
+    thousands of solves use `optimised` or `jit_solver`. First derivatives outside of `jax.jit` come from a second
+    program, which is compiled quickly too. It makes one pass for each number that is differentiated. Inside `jax.jit`,
+    in a batch and for second derivatives, JAX's own compiler options apply; `quick_compile_options` returns those of a
+    quick compilation, which `jax.jit` takes.
 
     **Arguments:**
     - `scene`: from `load_scene`, or built from parts.
     - `throw`: whether a solve that fails raises an error. Inside `jit` or `vmap` none is raised: look at
       `solution.status`. The results of a failed lane are NaN, and other lanes are unaffected.
-    - `options`: tolerances of the Newton iteration; two-disk machines and line contacts have none.
+    - `options`: tolerances of the Newton iteration; two-disk machines and line contacts do not use them.
     - `optimised`: compile with all of XLA's optimisations. Solution and derivatives then come from one program.
 
     **Raises:** `SolveError` with status, residual and worst equation; `TypeError` for 32-bit numbers or an unknown
@@ -190,9 +191,9 @@ def solve_once(scene: AbstractScene) -> Any:
 def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) -> Callable[..., Any]:
     """A compiled solver for scenes of this structure.
 
-    Returns a function of a scene (by default the one given here) and of keywords that change its operating point,
-    `fast(inner_speed=1100.0)`. It never raises for a failed solve (look at `status`) and never recompiles when only
-    numbers change.
+    Returns a function, here called `fast`. Its argument is a scene, by default the one given here. Its keywords change
+    the operating point of the scene, for example `fast(inner_speed=1100.0)`. It never raises for a failed solve; see
+    `status` of the solution. It never recompiles if only numbers change.
     """
     chosen = chosen_options(options)
     require_x64()
@@ -229,7 +230,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
         if not isinstance(other, AbstractScene | None):
             raise TypeError(f"expected a scene, or keywords of the operating point, got {type(other).__name__}")
         changed = own if other is None else other
-        # changed outside of the program, so that the same program serves every change
+        # the operating point is changed outside of the program, so that the same program serves every change
         changed = changed.at_operation(**operation) if operation else changed
         others, kind = jax.tree.flatten(changed)
         if kind == structure:

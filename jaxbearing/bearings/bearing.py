@@ -1,10 +1,12 @@
-"""Base class of all bearing scenes: what a bearing family implements, and the unknown freedoms of the inner ring.
+"""Base class of all bearing scenes. It defines what a bearing family implements, and which degrees of freedom (short:
+freedoms) of the inner ring are unknown.
 
 Terms: a *scene* is the complete description of a problem. The *port* is the point of the inner ring at which loads and
-displacements are exchanged with a shaft. The *row* of a bearing is its rolling elements without films and friction, as
-the first stage of a shaft's search takes them. The *seats* are the fits of the rings on shaft and in housing (`[fits]`
-in a scene file). A *catalogue load* is a load by which a maker rates a bearing. A tilt is *exact* if the grooves move
-with the rotation of the ring, and linearised if they move with its first-order displacement.
+displacements are exchanged with a shaft (see `ring`). The *row* of a bearing is the set of its rolling elements without
+films and friction. The first stage of the search for the equilibrium of a shaft uses this simplified model. The *seats*
+are the fits of the rings on shaft and in housing (`[fits]` in a scene file). A *catalogue load* is a load by which a
+maker rates a bearing. A tilt is *exact* if the grooves move with the rotation of the ring, and linearised if they move
+with its first-order displacement.
 """
 
 import abc
@@ -57,7 +59,7 @@ class AbstractBearing(AbstractScene):
     yield_pressure: ClassVar[float] = ROLLER_PRESSURE
     """Hertz pressure beyond which elements and races yield, Pa."""
     without_effect: ClassVar[str] = "traction on the raceways"
-    """Name of the missing part that leaves the `unused_parts` of a scene without effect, for messages."""
+    """Name, for messages, of the part of the model without which the `unused_parts` of a scene have no effect."""
 
     geometry: eqx.AbstractVar[Any]
     materials: eqx.AbstractVar[Any]
@@ -144,10 +146,11 @@ class AbstractBearing(AbstractScene):
     def solve_ring(
         self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
     ) -> Solution:
-        """The steady state.
+        """Solves the steady state.
 
         **Arguments:**
-        - `ring`: an inner ring that is held; by default the ring of the operating point.
+        - `ring`: an inner ring with given displacements (a held ring); by default the ring of the operating point, with
+          its loads.
         - `exact_tilt`: True to move the grooves of a ball bearing by the exact rotation of the ring, False to linearise
           it; by default the choice of the scene.
         """
@@ -165,18 +168,19 @@ class AbstractBearing(AbstractScene):
 
     @abc.abstractmethod
     def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
-        """Sizes and loads of the raceway contacts for the life.
+        """Sizes and loads of the raceway contacts for the life calculation.
 
-        **Arguments:** `elements`, `laminae`, `force`: fields of a solution. For a held ring, the catalogue load is
-        defined only if `force` is given.
+        **Arguments:** fields of a solution with these names: `elements`, the state of the rolling elements; `laminae`,
+        the loads on the slices of the rollers; `force`, the loads that hold the ring. For a held ring, the catalogue
+        load is defined only if `force` is given.
         """
 
     @abc.abstractmethod
     def outline(self, of: Callable[[str], float] | None = None) -> Outline:
-        """Shapes of one rolling element and what it touches, for drawings.
+        """Shapes, for drawings, of one rolling element and of the parts that it touches.
 
-        **Arguments:** `of`: function that returns a result of this element by its name; by default the unloaded bearing
-        is drawn.
+        **Arguments:** `of`: function that takes the name of a result and returns its value for the drawn element; by
+        default the unloaded bearing is drawn.
         """
 
     @property
@@ -194,6 +198,11 @@ class AbstractBearing(AbstractScene):
         """Nominal contact angle, rad; 0 if the geometry has none or gives a clearance instead."""
         given = getattr(self.geometry, "contact_angle", None)
         return jnp.asarray(0.0 if given is None else given)
+
+    @property
+    def leaning_angle(self) -> Array:
+        """Nominal contact angle on the side to which the unloaded bearing leans, rad; 0 if it leans to none."""
+        return self.drawing_angle
 
     def point_contacts(self, elements: Any) -> PointContact | None:
         """Raceway contacts of a solution as point contacts, shape (2 races, element); `None` for line contacts."""
@@ -221,12 +230,13 @@ class AbstractBearing(AbstractScene):
     @property
     @abc.abstractmethod
     def ring_lever(self) -> Array:
-        """Lever by which the equations multiply the tilts of the ring, m."""
+        """Length by which the equations multiply the tilts of the ring, so that all its unknowns are lengths, m."""
 
     @property
     @abc.abstractmethod
     def port_distance(self) -> Array:
-        """Axial distance along $+e_x$ from the port to the point whose displacement `ring` of the solution gives, m."""
+        """Axial distance along $+e_x$ from the port to the reference point of the solution, m. The field `ring` of the
+        solution gives the displacement of the reference point."""
 
     @property
     @abc.abstractmethod
@@ -242,7 +252,8 @@ class AbstractBearing(AbstractScene):
         """Notes for the user: assumptions of the model, and uses that the data of the scene do not cover."""
 
     def with_lateral_freedom(self: Bearing) -> Bearing:
-        """The scene with the freedoms perpendicular to the axis, which the stiffness of a shaft support requires."""
+        """The scene with the radial and the lateral displacement of the ring as unknowns, which the stiffness of a
+        shaft support requires. By default the scene is returned unchanged."""
         return self
 
     @property

@@ -1,8 +1,8 @@
-"""Friction place by place: what it dissipates, and what it asks of the rings; losses and drive power follow from there.
+"""Friction at each place of a bearing: dissipated power and torques on the rings. Losses and drive power are sums.
 
-The power of an interaction comes from its own force and its own speed of sliding, its torques from its forces on the
-rings. That the drive power, the sum of torque times speed over both rings, equals the sum of the dissipations is
-therefore a test of every sign in a model, and nowhere assumed.
+The power of an interaction is computed from its own force and its own sliding speed. Its torques are computed from its
+forces on the rings. The drive power is the sum of torque times speed over both rings. It must equal the sum of the
+dissipations. This equality is not assumed anywhere, so it tests every sign in a model.
 """
 
 from collections.abc import Callable, Sequence
@@ -34,8 +34,8 @@ class Interaction(NamedTuple):
 
 class Costs(NamedTuple, Generic[Losses]):
     """Sums over all interactions: losses and drive power, W, and torques on the rings, N m. Power and torques are
-    `None` if no loss is modelled. `rolling_by_race`: power of rolling resistance at the inner and the outer raceway,
-    W."""
+    `None` if no loss is modelled. `rolling_by_race`: power of the rolling resistance at the inner and the outer
+    raceway, W. It is the `by_race` of the first interaction that has one."""
 
     power_loss: Losses
     drive_power: Float[Array, ""] | None = None
@@ -45,10 +45,11 @@ class Costs(NamedTuple, Generic[Losses]):
 
 
 def costs(losses: Callable[..., Losses], interactions: Sequence[Interaction], motion: Any) -> Costs[Losses]:
-    """The costs of a bearing.
+    """Losses, drive power and ring torques of a bearing.
 
-    **Arguments:** `losses`: class of the family's losses, with a field for each location and `total`; `motion`: object
-    with the speeds of the rings, `inner_speed` and `outer_speed`, rad/s.
+    **Arguments:** `losses`: the class that holds the losses of the family, with one field for each location and one for
+    the `total`; `interactions`: all places of friction; `motion`: object with the speeds of the rings, `inner_speed`
+    and `outer_speed`, rad/s.
     """
     if not interactions:
         return Costs(losses())
@@ -70,7 +71,10 @@ def _sum(values: Sequence[Array]) -> Float[Array, ""]:
 
 
 def of_land(power: Array, ring_torque: Array, guidance: str) -> Interaction:
-    """Friction of the cage's lands. **Arguments:** `power`: dissipation, W; `ring_torque`: torque on the ring that
-    guides the cage, N m; `guidance`: field of the cage."""
+    """Friction of the cage's lands.
+
+    **Arguments:** `power`: dissipation, W; `ring_torque`: torque that the friction exerts on the ring that guides the
+    cage, N m (the drive must supply its opposite); `guidance`: field of the cage; "inner_ring", or else the outer ring.
+    """
     ring = "inner_torque" if guidance == "inner_ring" else "outer_torque"
     return Interaction("cage_pilot", power, **{ring: -ring_torque})

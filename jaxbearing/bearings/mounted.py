@@ -1,9 +1,9 @@
-"""From the scene on the drawing to the bearing that runs: one pure function, the same for all families.
+"""Computes the running bearing from the scene as drawn. One pure function does this for all families.
 
 Seats, temperatures and rotation make the raceways grow (`mounting`); a family says what that does to its dimensions
-(`AbstractBearing.grown`). There is nothing to solve in it. Left out: temperature differences inside a part, shafts and
-housings that are longer than the rings, shoulders and ribs of the rings, seats that are not round, the loss of
-interference under load. Shoulders and the longer shaft are worth 5 % of what a fit does.
+(`AbstractBearing.grown`). No equation has to be solved iteratively. The model neglects temperature differences inside a
+part, shafts and housings that are longer than the rings, shoulders and ribs of the rings, seats that are not round, and
+the loss of interference under load. Shoulders and a longer shaft change the effect of a fit by about 5 %.
 """
 
 import dataclasses
@@ -38,19 +38,23 @@ _COLD, _WARM, _RUNNING = (False, False), (True, False), (True, True)
 
 
 class _Rings(NamedTuple):
-    """Both rings (inner first) and the existing seats (shaft first), as arrays."""
+    """Growth of the rings (inner first) and of the rolling elements, hoop stress at the bore of the inner ring, and the
+    existing seats (shaft first), whose fields are arrays with an entry for each seat."""
 
     growth: Growth
     hoop_stress: Float[Array, ""]
     seats: FitState | None
 
     def last(self, names: tuple[str, ...], name: str) -> FitState | None:
-        """The seat of this name in the last of several states. **Arguments:** `names`: of all seats."""
+        """The seat `name` in the last of several states; `None` if there is no such seat.
+
+        **Arguments:** `names`: names of all existing seats, in the order of the arrays.
+        """
         return None if name not in names else jax.tree.map(lambda leaf: leaf[-1, names.index(name)], self.seats)
 
 
 def mounting_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
-    """Yields a sentence for everything that a scene with seats lacks."""
+    """Yields a message or an error for each missing or conflicting input of a scene with seats or temperatures."""
     fits: Fits | None = scene.fits
     temperatures: PartTemperatures | None = scene.temperatures
     if fits is None:
@@ -136,7 +140,8 @@ def running_scene(scene: AbstractBearing) -> tuple[Any, FitResult | None, dict[s
 
 
 def _impossible(play: Play) -> dict[str, FailureCause]:
-    """Causes that leave the running bearing without contacts: maps a message to whether it applies."""
+    """Causes that leave the running bearing without contacts, as a map from a message to the `FailureCause`, which says
+    whether it applies."""
     return {"fits and temperatures leave the rolling elements no contact": FailureCause(~play.possible, jnp.zeros(0))}
 
 
@@ -146,13 +151,17 @@ def running_play(scene: AbstractBearing) -> Play:
 
 
 def _seats_of(fits: Fits) -> tuple[str, ...]:
-    """Names of the seats that there are."""
+    """Names of the seats that the scene has."""
     return tuple(name for name, there in (("shaft", fits.on_shaft), ("housing", fits.in_housing)) if there)
 
 
 def _rings(scene: Any, warm: Any, turning: Any) -> _Rings:
-    """Growth of the rings. **Arguments:** `warm`, `turning`: False for the cold bearing or the bearing at rest. Rings
-    and seats are arrays, because for many single numbers the compiler would make one small program each."""
+    """Growth and stress of the rings, and the state of the seats.
+
+    Rings and seats are computed as arrays. With scalars, JAX would compile a small program for each of many operations.
+
+    **Arguments:** `warm`: False for the cold bearing; `turning`: False for the bearing at rest.
+    """
     fits, operation, geometry = scene.fits, scene.operation, scene.geometry
     raceways, bore, outside = _together(scene.raceway_diameters), geometry.bore, geometry.outside_diameter
     speeds = jnp.where(turning, _together([operation.inner_speed, operation.outer_speed]), 0.0)
@@ -186,20 +195,20 @@ def _rings(scene: Any, warm: Any, turning: Any) -> _Rings:
 
 
 def _together(numbers: Any) -> Array:
-    """Numbers as an array. Not by `jnp.stack`, which fails where only some of the numbers are batched and
+    """Joins numbers to an array. `jnp.stack` is not used, because it fails if only some of the numbers are batched and
     differentiated."""
     return jnp.concatenate([jnp.reshape(jnp.asarray(one), (1,)) for one in numbers])
 
 
 def _bodies(materials: list[Any], sizes: list[tuple[Any, Any]], speeds: Array, warming: Array, cold: bool) -> Annulus:
-    """Several bodies as one, whose sizes and material are arrays.
+    """Combines several bodies into one `Annulus` whose sizes and material fields are arrays.
 
-    **Arguments:** `sizes`: bore and outside diameter of each, m; `speeds`, rad/s, and `warming`, K: of each;
-    `cold`: materials need no expansion.
+    **Arguments:** `sizes`: bore and outside diameter of each body, m; `speeds`: speed of each body, rad/s; `warming`:
+    temperature rise of each body, K; `cold`: True if no thermal expansion is needed.
     """
     stacked = _together
     names = ("youngs_modulus", "poisson_ratio", "density", *(() if cold else ("thermal_expansion",)))
-    # a material whose fields are arrays; a user cannot create one
+    # The fields of this material are arrays, which its constructor refuses: they replace the fields of a built material
     material = jax.tree.map(lambda _: None, materials[0])
     values = [stacked([getattr(one, name) for one in materials]) for name in names]
     fields = lambda one: [getattr(one, name) for name in names]
@@ -209,7 +218,8 @@ def _bodies(materials: list[Any], sizes: list[tuple[Any, Any]], speeds: Array, w
 
 
 def _seats(fits: Fits, rings: Annulus, others: Annulus, interference: Array, sides: slice) -> FitState:
-    """The seats on these sides of the bearing: the shaft lies inside of its ring, the housing around its own.
+    """The seats on these sides of the bearing. The shaft lies inside the inner ring, and the housing lies around the
+    outer ring.
 
     **Arguments:** `others`: shaft and housing, if present; `interference`: interference of each seat, m.
     """

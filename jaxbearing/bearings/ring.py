@@ -1,7 +1,10 @@
-"""The inner ring: its five freedoms, given loads and displacements, and its port.
+"""The inner ring of a bearing: its five degrees of freedom (short: freedoms), its given loads and displacements, and
+its port.
 
-A load is given for each unknown freedom, and a displacement for each of the others. The port is the load that holds the
-ring at a displacement, equal and opposite to the force of the rolling elements on it, with its derivatives.
+A load is given for each unknown freedom, and a displacement for each of the others. The *port* is the point of the ring
+at which loads and displacements are exchanged with a shaft. A `Port` consists of the load that holds the ring at a
+displacement, and of the derivatives of that load. The load is equal and opposite to the force of the rolling elements
+on the ring.
 
 Frame and signs: $e_x$ along the axis; azimuth 0 is the load line (radial), azimuth 90 degrees is lateral. A positive
 `tilt` moves the ring along $+e_x$ at azimuth 0, a positive `tilt_lateral` at azimuth 90 degrees. Loads are conjugate to
@@ -40,7 +43,8 @@ It is 1e-12 of the stiffness of a loaded contact; 100 times as much would change
 
 
 class Port(NamedTuple):
-    """The load that holds the inner ring at a displacement.
+    """The load that holds the inner ring at a displacement, with its derivatives. It acts at the reference point of the
+    results. If a shaft holds the ring, this is the port (see the module).
 
     - `force`: loads on its five freedoms that balance the forces of the rolling elements, N and N m.
     - `stiffness`: derivatives of `force` with respect to the displacements, with all else in equilibrium, N/m, N/rad,
@@ -50,7 +54,7 @@ class Port(NamedTuple):
     force: Float[Array, "5"]
     stiffness: Float[Array, "5 5"]
     free: tuple[str, ...]
-    """Freedoms that are unknowns of the solve, under given loads."""
+    """Names of the freedoms that are unknowns of the solve, under given loads; none if the ring is held."""
 
 
 class InnerRing(eqx.Module):
@@ -62,12 +66,13 @@ class InnerRing(eqx.Module):
     - `lever`: length by which a tilt is multiplied, m.
     - `freedoms`: names of the unknown freedoms, in the order of `RING_FREEDOMS`.
     - `expansion`: growth of the inner raceway's radius less that of the outer one, m; `None` if there is none.
-    - `distance`: axial position of the point that these displacements belong to, relative to the point that results
-      refer to, m; `None` if they are the same point.
+    - `distance`: axial distance from the reference point of the results to the point whose displacements are used here,
+      m; `None` if they are the same point. The reference point of a ring that a shaft holds is its port.
     - `closure`: axial displacement that is subtracted in the results, m; `None` if there is none.
-    - `held_load`: estimate of the load that the given displacements cause, N, as a scale; `None` if it is not needed.
-    - `asks`: True if the given displacements cause loads whose size does not follow from the given loads, so that
-      `held_load` is needed.
+    - `held_load`: estimate of the load that the given displacements cause, N. It only scales the equations. `None` if
+      it is not needed.
+    - `asks`: True if `held_load` is needed, because the given displacements cause loads whose size cannot be estimated
+      from the given loads.
     """
 
     load: Float[Array, " freedom"]
@@ -96,7 +101,7 @@ class InnerRing(eqx.Module):
         return jnp.broadcast_to(held, (5, *shift.shape[1:])).at[self.places].set(LENGTH_UNIT * shift)
 
     def of_unknown(self, every: Float[Array, "5 ..."]) -> Float[Array, "freedom ..."]:
-        """The rows of the unknown freedoms."""
+        """Selects the rows of the unknown freedoms from an array with a row for each of the five freedoms."""
         return every[self.places]
 
     def of_each(self, value: Callable[[str], Scalar]) -> Float[Array, " freedom"]:
@@ -105,7 +110,8 @@ class InnerRing(eqx.Module):
         return jnp.stack(numbers) if numbers else jnp.zeros(0)
 
     def across(self) -> Float[Array, " freedom"]:
-        """Unit vector of the radial load, in the unknown freedoms; 0 if there is no radial load."""
+        """Direction of the load perpendicular to the axis, as a unit vector with a component for each unknown freedom;
+        0 if there is no such load."""
         load = jnp.where(np.asarray([name in ("radial", "lateral") for name in self.freedoms], bool), self.load, 0.0)
         square = jnp.sum(jnp.square(load))
         return load / jnp.sqrt(jnp.where(square > 0, square, 1.0))
@@ -156,7 +162,7 @@ class InnerRing(eqx.Module):
     def port(
         self, jacobian: ArrowJacobian, force: Float[Array, "5"], scale: Float[Array, ""], free: tuple[str, ...]
     ) -> Port:
-        """The port of a `released` ring, at the point that results refer to.
+        """Load and stiffness of a `released` ring, at the reference point of the results.
 
         **Arguments:**
         - `jacobian`: Jacobian of residuals that are forces over `scale`; the ring's freedoms are the first globals.
@@ -180,8 +186,8 @@ def levers(lever: Float[Array, ""]) -> Float[Array, "5"]:
 
 def shift_matrix(distance: Array) -> Float[Array, "5 5"]:
     r"""Matrix T(s) in $q(s) = T(s)q(0)$, with s = `distance`, m. q(s) are the displacements of the point of the ring at
-    the distance s along $+e_x$. The axis has the slopes -tilt and -tilt_lateral. Loads transform with the transpose,
-    $f(0) = T^Tf(s)$."""
+    the distance s along $+e_x$. A tilt moves this point by -s times the tilt in the radial direction; `tilt_lateral`
+    does the same in the lateral direction. Loads transform with the transpose, $f(0) = T^Tf(s)$."""
     return jnp.eye(5).at[jnp.asarray([1, 2]), jnp.asarray([3, 4])].set(-distance)
 
 
@@ -190,7 +196,7 @@ def held_ring(
 ) -> InnerRing:
     """A ring that is held in all freedoms.
 
-    **Arguments:** `displacement`: of the point that results refer to, m and rad; for the others see `InnerRing`.
+    **Arguments:** `displacement`: displacements of the port, m and rad. For the other arguments see `InnerRing`.
     """
     lever = jnp.asarray(lever)
     held = (shift_matrix(distance) @ displacement).at[0].add(closure) * levers(lever)

@@ -1,5 +1,5 @@
-"""Solve of bearings with a thermal network: an outer iteration on the node temperatures, with a complete solve of the
-bearing in each step.
+"""Solves bearings with a thermal network. An outer iteration finds the node temperatures, and each of its steps solves
+the complete bearing.
 
 The node temperatures set the temperature of the oil in each contact and, if the bearing has seats, the temperatures of
 its parts and with them its clearance. Each solve starts from its own first guess, so its success does not depend on
@@ -62,15 +62,17 @@ def thermal_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
 
 
 def _computed(thermal: Thermal, *names: str) -> bool:
-    """True if one of these conductances is not given."""
+    """True if at least one of these conductances is not given, so that it must be computed."""
     return any(getattr(thermal.conductance, name) is None for name in names)
 
 
 def _of_oil(thermal: Thermal) -> bool:
+    """True if at least one conductance from the oil to the rings or the rolling elements must be computed."""
     return thermal.nodes > 1 and _computed(thermal, "inner_ring_oil", "outer_ring_oil", "elements_oil")
 
 
 def _lacking_of_oil(scene: AbstractBearing, thermal: Thermal) -> Iterator[str]:
+    """Yields a message for each property of the oil that is needed but missing."""
     flow = known(scene.operation.oil_flow)
     flows = flow is None or flow[0] > 0.0
     needs = {
@@ -126,7 +128,7 @@ def at_temperatures(scene: Any, temperatures: Float[Array, " node"]) -> Any:
 def heat_at(scene: Any, temperatures: Float[Array, " node"], solve: Callable[[Any], Solution]) -> NodeHeat:
     """Heat into the nodes, for the bearing solved at these node temperatures, K. Its field `other` is the solution.
 
-    **Arguments:** `solve`: function that solves a scene without network and seats.
+    **Arguments:** `solve`: function that solves a scene that has neither a thermal network nor fits.
     """
     lane = at_temperatures(scene, temperatures)
     return bearing_heat(lane, scene.thermal, lane.solved_running(solve), temperatures)
@@ -135,7 +137,7 @@ def heat_at(scene: Any, temperatures: Float[Array, " node"], solve: Callable[[An
 def solve_warm(scene: Any, solve: Callable[[Any], Solution]) -> Solution:
     """The solution at the temperatures at which the heat balance of every node closes.
 
-    **Arguments:** `solve`: function that solves a scene without network and seats.
+    **Arguments:** `solve`: function that solves a scene that has neither a thermal network nor fits.
     """
     thermal: Thermal = scene.thermal
     network, nodes = bearing_network(scene), len(thermal.node_names)
@@ -160,7 +162,8 @@ def solve_warm(scene: Any, solve: Callable[[Any], Solution]) -> Solution:
 
 
 def _answer(scene: AbstractBearing, network: Network, state: ThermalState) -> Solution:
-    """The solution of the bearing at the temperatures found, with the thermal result. It is NaN for a failed lane."""
+    """The solution of the bearing at the temperatures found, with the thermal result. If the solve of a lane (a member
+    of a batch) failed, its results are NaN."""
     solution: Solution = state.losses.other
     ended: Solution = state.ended.other
     good = state.status == Status.CONVERGED

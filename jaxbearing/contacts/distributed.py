@@ -1,4 +1,5 @@
-"""Traction of a contact under its Hertz pressure: non-Newtonian, viscoelastic, isothermal or thermal."""
+"""Traction of a contact with a film under the local Hertz pressure. The oil is non-Newtonian and viscoelastic, and the
+film is isothermal or heated by its shear."""
 
 import dataclasses
 import functools
@@ -27,10 +28,10 @@ from .traction import AbstractTraction, inlet_shear
 from .viscous import AbstractViscousFunction, viscous_function_for, viscous_notes
 
 SPEED_FLOOR = 1e-6
-"""Smoothing of the mean speed's modulus, m/s: at rest the oil has all the time it needs and flows as a viscous
-fluid."""
+"""Speed with which the absolute value of the mean speed is smoothed near 0, m/s. At rest the oil has unlimited time to
+relax and flows as a viscous fluid."""
 UNCERTAIN_SHARE = 0.1
-"""Fraction of each part of an estimated error that is added without regard to its sign."""
+"""Safety share of an error estimate: this fraction of the absolute value of each part is added (`error_estimate`)."""
 RISE_TOLERANCE = 1e-10
 """Newton step at which the search for a temperature ends, relative to the rise or to 1 K, whichever is larger."""
 
@@ -42,7 +43,8 @@ class Traction(NamedTuple):
     - `film_rise`, `surface_rise`: largest rise of the mean film temperature and of the surface temperature above the
       base, K; with 40 steps they are too low by at most 0.2 and 0.4 %. `None` if isothermal.
     - `inner_residual`: residual of the nested solves for the temperature, K.
-    - `curvature`: integral of the rolling stress times y^2, N m^2; `None` without sliding of that kind.
+    - `curvature`: integral of the rolling stress times y^2, N m^2, with the distance y of a strip from the middle;
+      `None` if the sliding has no part that varies with y^2 (`Sliding.curvature`).
     """
 
     rolling: Float[Array, "*batch"]
@@ -64,25 +66,29 @@ class DistributedTraction(AbstractTraction):
 
     $\frac{u}{G'}\frac{\partial\tau}{\partial x} + \frac{\tau_r}{\mu}F(|\tau|/\tau_r)\frac{\tau}{|\tau|} = \gamma$,
     $\tau(-a) = 0$, $\gamma_x = (\Delta U - \Delta\Omega\,y - c\,y^2)/h$, $\gamma_y = (\Delta V + \Delta\Omega\,x)/h$
-    with c for a curved contact (`Sliding.curvature`). G', $\mu$ and $\tau_r$ are those at the local pressure and
-    temperature, and $h/G' = h/G + L_1$. With $x = -a\cos\theta$ the pressure is smooth in $\theta$, and the implicit
-    midpoint rule is of second order. Each step solves one scalar equation.
+    with c for a curved contact (`Sliding.curvature`). u is the mean speed, h the film thickness, a the half-width,
+    $\mu$ the viscosity, G the shear modulus, $\tau_r$ the characteristic stress and F the viscous function. $\Delta U$
+    and $\Delta V$ are the sliding speeds along and across rolling, and $\Delta\Omega$ is the spin. G, $\mu$ and
+    $\tau_r$ are those at the local pressure and temperature. The compliance $L_1$ of the bodies reduces the modulus to
+    G', with $h/G' = h/G + L_1$. With $x = -a\cos\theta$ the pressure is smooth in $\theta$, and the implicit midpoint
+    rule is of second order. Each step solves one scalar equation.
 
-    **Limits:** Where the Deborah number $\mu u/(Ga)$ is small, the flow is viscous at every point (`elastic=False` is
-    that limit, without a march). Where it is large and the sliding is small, the slope is that of `elastic_slope`. The
-    traction is odd in the sliding, and it is 0 without sliding, with a finite slope.
+    **Limits:** Where the Deborah number $\mu u/(Ga)$ is small, the flow is viscous at every point. With `elastic=False`
+    this limit is computed, without integration of the stress along x. Where the number is large and the sliding is
+    small, the slope of the traction is that of `elastic_slope`. The traction is odd in the sliding, and it is 0 without
+    sliding, with a finite slope.
     **Validity:** film of one thickness, Hertz pressure; rheology fits hold for 0.6 to 1.8 GPa. The discretization error
     is that of `resolution` (see its table); `error_estimate` estimates it for a given case.
     **Reference:** Johnson and Tevaarwerk (1977), Proc. R. Soc. A 356, 215; Houpert (1985), ASME J. Tribology 107, 241;
     source eqs. (66)-(72). The source's stress is on body 2, as here; its eq. (69) has another transverse axis.
 
     **Arguments:**
-    - `viscous`: the viscous function; None: the one with which the oil's rheology was fitted (Ree and Eyring's where
-      the oil does not say).
-    - `resolution`: steps and strips.
-    - `compliance`: tangential compliance of the bodies, or `None`: rigid.
-    - `heating`: `None`: isothermal.
-    - `elastic`: whether the oil's shear modulus counts.
+    - `viscous`: the viscous function F. `None` stands for the function with which the rheology of the oil was fitted,
+      or for that of Ree and Eyring if the oil does not name one.
+    - `resolution`: numbers of steps and strips.
+    - `compliance`: tangential compliance of the bodies; `None` if they are rigid.
+    - `heating`: heating of the film by its shear; `None` for an isothermal film.
+    - `elastic`: True to include the shear modulus of the oil, False for a purely viscous oil.
     """
 
     viscous: AbstractViscousFunction | None = None
@@ -187,9 +193,9 @@ class _Problem(eqx.Module):
     direction: Array
     """Sign of the mean speed; the problem is turned so that the mean speed becomes positive."""
     rate: Array
-    """Shear rate where x = 0, 1/s; the first axis holds the components."""
+    """Shear rate where x = 0, 1/s; the first axis runs over the components (rolling, transverse)."""
     rate_slope: Array | None
-    """Change of the shear rate over one half-width that spin causes, 1/s."""
+    """Change of the shear rate, caused by spin, between x = 0 and x = a, 1/s."""
     half: bool = eqx.field(static=True)
     """True if the strips cover one half of the contact; the other half is its mirror image."""
     curved: bool = eqx.field(static=True)
@@ -243,6 +249,7 @@ class _Problem(eqx.Module):
 
         def advance(carry, row):
             stress, sums = carry
+            # `going`: 0 where the march begins anew, otherwise 1; `place`: index of the oil of this step in `oils`
             step, weight, sine, position, going, place = row
             oil = jax.tree.map(lambda field: jax.lax.dynamic_index_in_dim(field, place, keepdims=False), oils)
             rate = self.rate_at(position)
@@ -259,7 +266,7 @@ class _Problem(eqx.Module):
         return self.assembled(sums)
 
     def rate_at(self, position: Array) -> Array:
-        """Shear rate, 1/s, at x/a."""
+        """Shear rate at the relative position x/a, 1/s."""
         return self.rate if self.rate_slope is None else self.rate + self.rate_slope * position
 
     def _thermal(self, mesh: Mesh, heating: FilmHeating) -> Traction:
@@ -330,7 +337,8 @@ class _Problem(eqx.Module):
 
 
 class _Sums(NamedTuple):
-    """Integrals over x/a on each strip of stress, stress times rate, and x/a times transverse stress."""
+    """Integrals over x/a on each strip: `rolling` and `transverse` of the stress components, `power` of stress times
+    shear rate, `moment` of x/a times the transverse stress."""
 
     rolling: Array
     power: Array
@@ -367,7 +375,7 @@ def _problem(
     patch = jax.tree.map(lambda field: column(field)[..., 0], patch)
     if lubricant.rheology is None:
         raise ValueError("The traction law needs the lubricant's rheology (shear modulus and stress): none is given.")
-    # a line contact has one strip only where all of them are alike
+    # in a line contact with the same sliding at every strip, a single strip represents all of them
     symmetric = sliding.alike if patch.line else sliding.spin is None
     # the hottest point is usually at the centre, where no strip lies if their number is even
     strips = patch.strips(law.resolution.strips, symmetric, middle=law.heating is not None)

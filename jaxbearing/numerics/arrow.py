@@ -8,7 +8,8 @@ $$J = \begin{pmatrix} A_1 & & & B_1 \\ & \ddots & & \vdots \\ & & A_N & B_N \\ C
 has the shape of an arrow. Forward differentiation of the element function with m + g tangents gives all blocks at once.
 Each element is eliminated, and the g x g Schur complement $D - \sum_j C_j A_j^{-1} B_j$ is solved, so the work is O(N).
 
-Axes of arrays: m unknowns of one element, g globals, k totals (sums of contributions over the elements).
+Axes of arrays: m unknowns of one element, g globals, k totals (sums of contributions over the elements), p local inputs
+(`local_inputs`), q rows of the second result of an element with local inputs.
 """
 
 import abc
@@ -37,9 +38,9 @@ class ArrowPoint(NamedTuple):
 class AbstractArrowSystem(eqx.Module):
     """Equations of many elements and a few globals. The system is a pytree whose array leaves are its parameters.
 
-    Unknowns and residuals must be scaled to order 1. `increasing` states whether every pivot of the elimination is
-    positive at a root: each equation then grows with its own unknown while the unknowns before it are in equilibrium
-    (those of the elements first, then the globals). A subclass may choose the sign of each equation for this.
+    Unknowns and residuals must be scaled to order 1. `increasing` says whether every pivot of the elimination is
+    positive at a root. Each equation then increases with its own unknown while all earlier unknowns are in equilibrium.
+    The unknowns of the elements come first, then the globals. A subclass may choose the sign of each equation for this.
 
     Subclasses are final. They hold every number that the equations depend on as a leaf, because derivatives of the
     solution are taken with respect to the leaves.
@@ -57,7 +58,7 @@ class AbstractArrowSystem(eqx.Module):
         raise NotImplementedError
 
     def local_inputs(self, globals_: Float[Array, " g"]) -> Float[Array, "p element"] | None:
-        """What each element sees of the globals, in place of the globals themselves; `None`: it sees all of them.
+        """Local inputs: what each element gets in place of the globals. With `None` each element gets all globals.
 
         A few numbers for each element, such as the opening between the rings there, follow from the globals cheaply.
         `element` then takes them as `shared` and is differentiated with m + p tangents instead of m + g, so that many
@@ -67,7 +68,8 @@ class AbstractArrowSystem(eqx.Module):
         return None
 
     def gathered(self, globals_: Float[Array, " g"], acting: Float[Array, "q element"]) -> Float[Array, " k"]:
-        """Totals from the second result of `element`, of a system with `local_inputs`; by default their sums."""
+        """For a system with `local_inputs`: computes the totals from the second result of `element`; by default their
+        sums over the elements."""
         del globals_
         return jnp.sum(acting, axis=1)
 
@@ -79,8 +81,8 @@ class AbstractArrowSystem(eqx.Module):
 
     @property
     def lanes_together(self) -> bool:
-        """True if a CPU solves the lanes of a batch faster together than one by one, as in small programs without
-        branches."""
+        """True if a CPU is faster when it solves all members of a batch (lanes) together than one after the other. This
+        is so for small programs without branches."""
         return False
 
     @property
@@ -95,7 +97,7 @@ class AbstractArrowSystem(eqx.Module):
 
     @property
     def extra_totals(self) -> int:
-        """k - g: number of totals that `global_residual` takes beyond one for each global."""
+        """Number k - g of additional totals: `global_residual` takes k totals, and there are g globals."""
         return 0
 
     @abc.abstractmethod
@@ -169,7 +171,7 @@ def evaluate(system: AbstractArrowSystem, point: ArrowPoint) -> Equations:
 
 
 def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations, ArrowJacobian]:
-    """Equations and Jacobian blocks, by forward autodiff with m + g tangents, with `local_inputs` with m + p."""
+    """Equations and Jacobian blocks, by forward differentiation with m + g tangents (m + p with `local_inputs`)."""
     values, tangents, inner = system.tangents(point.elements, seen_by_elements(system, point))
     return assembled(system, point, values, tangents, inner)
 
@@ -209,7 +211,7 @@ def element_tangents(
 def assembled(
     system: AbstractArrowSystem, point: ArrowPoint, values: Array, tangents: Array, inner: Array
 ) -> tuple[Equations, ArrowJacobian]:
-    """Equations and Jacobian blocks from those of the elements (`element_tangents`)."""
+    """Equations and Jacobian blocks, from the values and derivatives of the elements that `element_tangents` gives."""
     if system.local_inputs(point.globals) is not None:
         return _assembled_through_inputs(system, point, values, tangents, inner)
     m, g = point.elements.shape[0], point.globals.shape[0]
@@ -229,9 +231,10 @@ def assembled(
 def _assembled_through_inputs(
     system: AbstractArrowSystem, point: ArrowPoint, values: Array, tangents: Array, inner: Array
 ) -> tuple[Equations, ArrowJacobian]:
-    """`assembled` for tangents by the local inputs, chained with the derivatives of the inputs by the globals.
+    """As `assembled`, for a system with local inputs. The derivatives with respect to the local inputs are multiplied
+    by the derivatives of the inputs with respect to the globals (chain rule).
 
-    The contributions of the elements are then those to the global residuals, and `chain` is the unit matrix.
+    The block `contributions` then holds the derivatives of the global residuals, so `chain` is the unit matrix.
     """
     m, g = point.elements.shape[0], point.globals.shape[0]
     p, n = tangents.shape[1] - m, values.shape[1]

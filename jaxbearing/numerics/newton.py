@@ -60,6 +60,8 @@ class NewtonResult(NamedTuple):
 
 
 class _Iterate(NamedTuple):
+    """State of the loop. `iterations` counts all steps, also those of easier systems."""
+
     search: Search
     continuation: Continuation | None
     iterations: Int[Array, ""]
@@ -165,8 +167,11 @@ def _root_jvp(primals, tangents, *, options: NewtonOptions):
 
 @eqx.filter_custom_jvp
 def _known_root(system: AbstractArrowSystem, *, root: _Root, stiffness: bool) -> _Root:
-    """A root that was found before, with the implicit derivatives that `_root` gives. **Arguments:** `stiffness`: True
-    to differentiate the Jacobian too; otherwise its derivative is NaN."""
+    """A root that was found before, with the implicit derivatives that `_root` gives.
+
+    **Arguments:** `root`: the known root; `stiffness`: True to differentiate the Jacobian too, which derivatives of the
+    bearing's stiffness require; otherwise the derivative of the Jacobian is NaN.
+    """
     return root
 
 
@@ -211,14 +216,15 @@ def _finite(x: Array) -> Array:
 def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[System, NewtonResult]:
     """Solve a block-arrow system from its own first guess.
 
-    Returns a system, which must be used to evaluate results, and the result of the iteration. The derivative of the
-    solution (and of the Jacobian at the solution) is that of the implicit function, in both modes and to any order. The
-    iteration itself is never differentiated, and a solve that is not differentiated does not pay for derivatives.
+    Returns a copy of the system and the result of the iteration. Results must be evaluated with the returned copy: it
+    has the same values, but passes no derivatives if the solve failed. The derivative of the solution (and of the
+    Jacobian at the solution) is that of the implicit function, in both modes and to any order. The iteration itself is
+    never differentiated, and a solve that is not differentiated does not pay for derivatives.
 
     If the system states that each equation grows with its own unknown at the root (`increasing`), Newton's step is
     changed wherever a pivot of the Jacobian is negative (`arrow.uphill_step`). If the iteration fails and the system
-    has homotopies, continuation leads from an easier system to the given one (`continuation`). A stage that fails is
-    replaced by shorter ones. `iterations` counts all steps.
+    has homotopies, the module `continuation` solves a sequence of systems (stages) from an easier one to the given one.
+    A stage that fails is replaced by shorter ones. `iterations` counts all steps.
 
     A lane that fails never raises and never spoils a neighbour under `vmap`: its point is finite and not a solution,
     and the returned system passes no derivative for it, so that NaN times zero cannot reach a parameter that lanes
@@ -236,7 +242,7 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
     end = root.end
     elements, globals_ = jnp.abs(end.equations.residual.elements), jnp.abs(end.equations.residual.globals)
     sizes = jnp.concatenate([jnp.max(elements, axis=1, initial=0.0), globals_])
-    # a system without unknowns is solved by its one point
+    # a system without unknowns has no residuals: its residual norm is 0
     sizes = sizes if sizes.size else jnp.zeros(1)
     worst = jnp.argmax(jnp.where(jnp.isnan(sizes), jnp.inf, sizes))
     m = elements.shape[0]

@@ -23,16 +23,17 @@ BACKTRACK = (1.0, 0.3, 0.05)
 Newton step are finite."""
 LAST_ATTEMPT = len(BACKTRACK) - 1
 GROWTH = 4.0
-"""Largest growth of the residual that the first try accepts. A smaller one rejects useful steps across a maximum of the
-residual: with 1.5, three times as many solves of random roller bearings with both rings turning take more than 20
-steps. The stages of a continuation start nearer to their root and require a decrease, because a residual that saturates
-never grows by this factor."""
+"""Largest growth of the residual that the first try accepts. A smaller value rejects useful steps across a maximum of
+the residual. Random roller bearings with both rings turning show this: with 1.5, three times as many solves need more
+than 20 steps. The stages of a continuation start nearer to their root and require a decrease of the residual, because a
+residual that saturates never grows by this factor."""
 LEAST_FALL = 0.1
 """A step of a continuation must achieve at least this fraction of the decrease that the linearisation predicts
 (Armijo's condition)."""
 TURNING_BACK = 0.5
 """A step that reverses the previous one may have at most this fraction of its length. As in bisection, two opposed
-steps halve the interval between them. Without this limit, Newton's iteration would oscillate for ever at a kink."""
+steps halve the interval between them. Without this limit, Newton's iteration would oscillate for ever at a kink (a jump
+of the slope of an equation)."""
 ROUNDED_STEP = 1e-12
 """Scaled Newton step below which a root counts as found although round-off keeps the residual above its tolerance. The
 residual must then be within the factor `rounding` of the system, or within the round-off of the unknowns."""
@@ -53,8 +54,8 @@ class NewtonOptions(eqx.Module):
     - `step_tolerance`: largest scaled Newton step of a converged solve. Convergence asks for both: a small
       residual alone says nothing where the Jacobian is nearly singular.
     - `inner_tolerance`: largest scaled residual of solves nested in the equations.
-    - `max_steps`: largest number of Newton steps in the first try, with rejected trials. All continuations together may
-      take four times as many for each homotopy of the system.
+    - `max_steps`: largest number of Newton steps in the first try, including rejected trials. All continuations
+      together may take four times this number for each homotopy of the system.
     - `continuation`: True if a solve whose first try fails is tried again by continuation along the system's
       homotopies. If all lanes of a batch are solved at once (on a GPU, or with `lanes_together`), a batch waits for its
       slowest lane; without continuation no lane takes more than `max_steps`.
@@ -68,7 +69,9 @@ class NewtonOptions(eqx.Module):
 
 
 class Search(NamedTuple):
-    """State of the iteration: a `trial` at a fraction of a `step` from `base`."""
+    """State of the iteration. The `trial` is `base` minus a fraction of `step`, within the bounds; `attempt` is the
+    index of that fraction in `BACKTRACK`. `base_norm`: norm of the residual at `base`, or infinity if a trial with any
+    norm is accepted."""
 
     trial: ArrowPoint
     base: ArrowPoint
@@ -179,7 +182,8 @@ def moved_on(system: AbstractArrowSystem, search: Search, proposal: Proposal, ve
     step = choose(accepted, paced, search.step)
     whole = norm_of(proposal.step)
     share = jnp.minimum(norm_of(paced) / jnp.where(whole > 0, whole, 1.0), 1.0)
-    # after a pivot changed its sign, the residual may grow across a maximum: the next trial is accepted at any norm
+    # If the solver changed the sign of a pivot, the step may cross a maximum of the residual. The next trial is
+    # then accepted whatever its norm is.
     base_norm = jnp.where(proposal.turned, jnp.inf, verdict.norm)
     return Search(
         trial=_move(system, base, step, jnp.asarray(BACKTRACK)[attempt]),

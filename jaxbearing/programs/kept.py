@@ -1,13 +1,14 @@
-"""Programs that are traced and compiled once, and loaded by the processes that follow.
+"""Traces and compiles a program once, stores it in a file, and loads it in later processes.
 
-JAX's own cache keeps what the compiler made, but a program must be traced and lowered to be found there, which takes
-longer than all the rest of a solve. Here the key is what the program is made from: the structure of the arguments with
-all that is static, shapes and types, the files of this package, the versions of the libraries, the processor and what
-the compiler was told. What is kept and what is loaded are the same bits. No setting of JAX is changed but while a
-program that will be kept is compiled (`_compiled_for_keeps`).
+JAX's own cache stores compiled programs too. To find a program there, JAX must first trace and lower it, which takes
+longer than all the rest of a solve. Here a program is found by the inputs of its compilation: the structure of the
+arguments with all static values, shapes and types, the files of this package, the versions of the libraries, the
+processor, and the settings of the compiler. A loaded program is identical to the stored one. Settings of JAX are
+changed only while a program for the cache is compiled (`_compiled_for_keeps`).
 
-A file that is damaged, foreign or of another version is compiled anew and written over (`programs.files`). Files hold
-code and pickled data, so only those are read that belong to the user and that nobody else may write.
+If a file is damaged, belongs to another user or has another format, the program is compiled again and the file is
+overwritten (`programs.files`). Files hold code and pickled data. Therefore a file is read only if it belongs to the
+user and nobody else may write it.
 """
 
 import dataclasses
@@ -45,7 +46,7 @@ _ENVIRONMENT = ("XLA_FLAGS", "EQX_ON_ERROR", "JAX_DISABLE_MOST_OPTIMIZATIONS")
 
 
 class _Slot(NamedTuple):
-    """Placeholder for an array of the result."""
+    """Placeholder for an array of the result. `place`: index of the array among the outputs of the compiled program."""
 
     place: int
 
@@ -101,13 +102,14 @@ def _arrays(leaves: list[Any]) -> list[Any]:
 
 
 class KeptProgram:
-    """`equinox.filter_jit(function)`, whose programs are kept between processes.
+    """Works as `equinox.filter_jit(function)`, but stores its compiled programs for other processes.
 
     It must not be called where `numerics.compiling.inside_a_program` is true. A program is cached if it runs on one
     CPU, if its arguments are arrays and objects of this package, and if it does not call back to the host. Other
-    programs are compiled in each process, as `filter_jit` does.
+    programs are compiled again in each process, as with `filter_jit`.
 
-    **Arguments:** `function`: pure function of a module; `quick`: True to compile quickly (see `numerics.compiling`).
+    **Arguments:** `function`: a pure function, defined at the top level of a module; `quick`: True to compile quickly
+    (see `numerics.compiling`).
     """
 
     def __init__(self, function: Callable[..., Any], quick: bool):
@@ -191,7 +193,7 @@ class KeptProgram:
 
 
 def _key(structure: Structure, leaves: list[Any]) -> Any:
-    """Gives the key under which this process finds a program."""
+    """The key of a program in the memory of this process. The hash in `_name` is the key of its file."""
     about = tuple((leaf.shape, leaf.dtype) if _is_array(leaf) else (type(leaf), leaf) for leaf in leaves)
     return structure, about, _told()
 
@@ -229,7 +231,8 @@ def _compiled_for_keeps() -> Iterator[None]:
 
 
 def _calls_host(jaxpr: Jaxpr) -> bool:
-    """True if a program calls a function of the process that compiled it, which no other process has."""
+    """True if a program contains a host callback. Such a program calls a Python function of the process that compiled
+    it, which does not exist in other processes."""
     for equation in jaxpr.eqns:
         if "callback" in equation.primitive.name:
             return True
@@ -240,7 +243,8 @@ def _calls_host(jaxpr: Jaxpr) -> bool:
 
 
 def _folder() -> Path | None:
-    """The folder of the programs, or `None` where keeping is switched off or JAX has more than one CPU."""
+    """The folder of the programs. `None` if caching is switched off, if the folder cannot be used, if JAX does not run
+    on exactly one CPU device, or if a debugging setting is on (`_FOR_DEBUGGING`)."""
     given = os.environ.get(VARIABLE, "")
     try:
         folder = _known_folder(given)
@@ -301,7 +305,7 @@ _TIMES = _times()
 
 
 def _told() -> tuple[str | None, ...]:
-    """Settings of JAX, and variables that its compiler reads."""
+    """Values of the JAX settings and environment variables that change compiled programs; a part of the key."""
     settings = (str(_setting(name)) for name in _SETTINGS)
     return (*settings, *(os.environ.get(name) for name in _ENVIRONMENT))
 

@@ -1,4 +1,4 @@
-"""From a scene file, or the name of a built-in scene, to a scene."""
+"""Reads a scene from a scene file or by the name of a built-in scene."""
 
 import importlib
 import typing
@@ -33,7 +33,13 @@ _KIND_EXAMPLE = 'kind = "cylindrical_roller_bearing"'
 
 
 class _Kind(NamedTuple):
-    """Folder of a kind of scene, with the modules `schema`, `build` and `writer`, and the names in them."""
+    """Where the code of a kind of scene is.
+
+    - `folder`: package with the modules `schema`, `build` and `writer`.
+    - `table`: class in `schema` that validates a scene file.
+    - `function`: function in `build` that makes the scene.
+    - `tables`: function in `writer` that makes the tables of a scene file.
+    """
 
     folder: str
     table: str
@@ -83,7 +89,8 @@ def tables_of(scene: AbstractScene) -> dict[str, Any]:
 
 
 def plain_scene(scene: AbstractScene) -> AbstractScene:
-    """The scene, with the values of a scene file in all fields that have no effect."""
+    """The scene, with the fields that have no effect set to the values that scene files give them. Only scenes of
+    shafts have such fields."""
     return _module(_KINDS[SHAFT], "writer").plain_scene(scene) if scene.kind == SHAFT else scene
 
 
@@ -92,10 +99,10 @@ def load_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
 
     **Arguments:**
     - `source`: path of a TOML file, or one of `builtin_names()`.
-    - `overrides`: maps the dotted path of a field to its value, as text with a unit, {"operation.inner_speed":
-      "12000 rpm"}, or as a plain number for a field without a unit. The value "none" removes an optional table or
-      field. Here, `oil.file` and the files of `simulation` are relative to the working folder; in a scene file they are
-      relative to the folder of that file.
+    - `overrides`: maps the dotted path of a field to its value. The value is a text with a unit,
+      {"operation.inner_speed": "12000 rpm"}, or a plain number for a field without a unit. The value "none" removes an
+      optional table or field. Paths of files (`oil.file` and the files of `simulation`) in overrides are relative to
+      the working folder; in a scene file they are relative to the folder of that file.
 
     A field that is given as a distribution takes its mean, and a `MeanUsedWarning` reports it. A `PresetUsedWarning`
     lists the laws that `laws = "best"` stands for. The scene leaves out the states of a load spectrum, and a
@@ -111,8 +118,9 @@ def load_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
 
 
 def load_distributions(source: str | Path, overrides: Overrides | None = None) -> dict[str, Distribution]:
-    """The distributions in a scene, by dotted path, in SI units: the fields that are given as a distribution, and the
-    priors of the catalogue for its oil (the rheology of a standard oil). Arguments as those of `load_scene`.
+    """The distributions in a scene, by dotted path, in SI units. These are the fields that are given as a distribution,
+    and the prior distributions that the catalogue gives for the rheology of a standard oil. Arguments as for
+    `load_scene`.
 
     **Raises:** as `load_scene`.
     """
@@ -158,7 +166,8 @@ def warn_of_preset(mapping: Mapping[str, Any], origin: str, overrides: Overrides
 
 
 def preset_note(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> str:
-    """What the preset of a scene stands for, law by law; "" without a preset. Arguments as of `warn_of_preset`."""
+    """Text that lists the laws for which the preset of a scene stands; "" if there is no preset. Arguments as for
+    `warn_of_preset`."""
     texts = as_texts(overrides)
     if not names_a_preset(mapping) and not any(path.rpartition(".")[2] in ("laws", "scene") for path in texts):
         return ""
@@ -198,7 +207,7 @@ def scene_model(mapping: Mapping[str, Any], overrides: Mapping[str, str], origin
 
 
 def model_of(scene: AbstractScene) -> type[BaseModel] | None:
-    """The schema of the files of such scenes."""
+    """The schema of scene files for scenes of the kind of `scene`; `None` if files cannot describe this kind."""
     if scene.kind not in _KINDS:
         return None
     table = _table_and_build(scene.kind)[0]
@@ -240,7 +249,7 @@ def _build(
         pass
     except ValueError as error:
         said = [one.path for one in problems]
-        # the classes repeat some checks of the tables
+        # the classes repeat some checks of the tables: a problem that is already known is not reported twice
         found = from_class(error, raw, origin).problems
         problems += [one for one in found if not any(one.path and _related(one.path, path) for path in said)]
     else:
@@ -274,16 +283,17 @@ def is_shaft(tables: Mapping[str, Any]) -> bool:
 
 
 def _related(a: str, b: str) -> bool:
-    """True if one dotted path is the other or leads to it."""
+    """True if the two dotted paths are equal, or if one is the beginning of the other."""
     return f"{a}.".startswith(f"{b}.") or f"{b}.".startswith(f"{a}.")
 
 
 STATES = "state"
-"""Name of the tables of a load spectrum; `states` reads them."""
+"""Name of the tables of a load spectrum. The module `states` reads them."""
 
 
 def read_tables(source: str | Path) -> tuple[str, dict[str, Any]]:
-    """Name for messages, and the tables of a file or a built-in scene without the states of a load spectrum.
+    """Reads a file or a built-in scene. Returns its name for messages, and its tables without the states of a load
+    spectrum (the states of a shaft are kept).
 
     **Raises:** `SceneError`.
     """
@@ -346,6 +356,7 @@ def _beside(mapping: dict[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def _moved(table: dict[str, Any], inside: tuple[str, ...], folder: Path) -> dict[str, Any]:
+    """The tables with `folder` put before the field `file` of the table that is reached by the names `inside`."""
     if not inside:
         file = table.get("file")
         return {**table, "file": str(folder / file)} if isinstance(file, str) else table

@@ -1,12 +1,13 @@
-"""The equilibrium of a shaft: first the minimum of a convex potential, then Newton's iteration on the bearings' own
-solutions.
+"""Finds the equilibrium of a shaft. The first stage finds the minimum of a convex potential. The second stage is
+Newton's iteration with the solutions of the bearings.
 
-Without friction, with the centrifugal forces of the unloaded contact angles, a shaft on bearings has one convex
-potential (`balance`): clearances, bearings that carry nothing, more than two bearings, flanges and springs are all in
-it. Newton's steps are accepted where the potential falls (Armijo), with a factor on the diagonal that grows where a
-step is shortened (Levenberg). At the minimum begins Newton's iteration with each bearing's own solution under a held
-ring: with the centrifugal force of every ball, films, friction, cage, seats and temperatures as its scene has them, and
-the exact stiffness. Derivatives follow from the implicit function theorem at that root.
+The first stage neglects friction and uses the centrifugal forces at the contact angles of unloaded bearings. A shaft
+on bearings then has one convex potential (`balance`). It includes clearances, unloaded bearings, more than two
+bearings, flanges and springs. A Newton step is accepted if the potential decreases enough (Armijo). A factor on the
+diagonal grows when a step has to be shortened (Levenberg). Newton's iteration of the second stage starts at the
+minimum. It uses the full solution of each bearing under a held ring (a ring with given displacements) and the exact
+stiffness. The solution includes what the scene of the bearing contains: centrifugal forces of each ball, films,
+friction, cage, seats and temperatures. Derivatives follow from the implicit function theorem at that root.
 
 `Balance` holds the linear part of the problem: the shaft, its supports and its loads. Its matrix `attach` gives the
 displacement of each bearing from the unknowns. Some sets of bearings are preloaded by a force, an offset or a spring,
@@ -30,20 +31,22 @@ from .batches import AbstractBatch, LinearBatch, RollingBatch, solutions
 START_TOLERANCE = 1e-5
 """Tolerance of the first stage for the residual, relative to the size of the loads."""
 TRIALS = 400
-"""Largest number of trials of the first stage. A shaft that reaches supports of 1e3 N/m after 10 mm needs 60."""
+"""Largest number of trials of the first stage. A shaft that must move 10 mm before soft supports (1e3 N/m) carry it
+needs 60."""
 LONGEST_STEP = 2e-4
 """Largest displacement in one step of the first stage, m; tilts are multiplied by the span."""
 FARTHEST, MOST_TILT = 1e-2, 0.1
 """Largest displacement, m, and tilt, rad, of an inner ring relative to its outer ring; beyond them the search reports
 that there is no equilibrium."""
 FAR_START = 0.1
-"""Part of these bounds beyond which the search does not begin at the shaft that is clamped at x = 0: a load that bends
-a slender cantilever by more than `FARTHEST` is harmless between bearings."""
+"""Fraction of these bounds. The first guess is a shaft that is clamped at x = 0 and free elsewhere. If one of its
+displacements exceeds this fraction, the search starts instead from a shaft on linear springs. A load that bends a
+slender cantilever by more than `FARTHEST` is harmless between bearings."""
 NOMINAL, ARM = 1e8, 5e-3
-"""Stiffness of each bearing, N/m, with which the search begins there, and its lever against tilt, m."""
+"""Stiffness of the linear springs, N/m, in place of the bearings in that start, and their lever arm against tilt, m."""
 SOFTEST, LEAST_STIFFNESS = 1e2, 1e5
-"""Stiffness that the first stage adds to every freedom of a bearing, and lower limit of the stiffness that the
-Levenberg factor multiplies, N/m."""
+"""Two stiffnesses, N/m. The first is added to every freedom of a bearing in the steps of the first stage. The second is
+the lower limit of the diagonal stiffness that is multiplied by the Levenberg factor."""
 FACTOR, LEAST_FACTOR, TENFOLD = 1e-9, 1e-12, 10.0
 """First and smallest Levenberg factor, and the ratio by which it grows after a shortened step and falls after a full
 step."""
@@ -63,7 +66,10 @@ MOST_ROUNDED = 1e-7
 
 
 class Problem(eqx.Module):
-    """Everything that the equilibrium depends on. **Arguments:** `expansion`: of all bearings, m."""
+    """Everything that the equilibrium depends on.
+
+    **Arguments:** `expansion`: growth of the inner raceway's radius less that of the outer one, m, of each bearing.
+    """
 
     balance: Balance
     batches: tuple[AbstractBatch, ...]
@@ -71,14 +77,15 @@ class Problem(eqx.Module):
 
 
 def _spread(batches: tuple[AbstractBatch, ...], parts: list[Array]) -> Array:
-    """One array for all bearings, from those of the batches."""
+    """Joins the arrays of the batches to one array, in the order of the bearings."""
     together = jnp.concatenate(parts)
     order = [place for batch in batches for place in batch.places]
     return together[jnp.asarray([order.index(place) for place in range(len(order))])]
 
 
 class _Ports(NamedTuple):
-    """All bearings under held rings, in their own frames."""
+    """Energies, forces and stiffnesses of all bearings under held rings, each in the frame of its bearing. `elements`:
+    unknowns of the rolling elements, with which the next trial starts."""
 
     energy: Float[Array, " bearing"]
     force: Float[Array, "bearing 5"]
@@ -116,9 +123,13 @@ def ports(
 
 
 class Start(NamedTuple):
-    """End of the first stage: the unknowns, the scaled residual, the number of steps, whether a ring left its range
-    (`FARTHEST`, `MOST_TILT`), the index of the freedom that moved farthest (5 times bearing plus freedom), and the
-    scale."""
+    """End of the first stage.
+
+    - `unknowns`, `residual`, `steps`: the unknowns, the scaled residual and the number of steps.
+    - `lost`: True if a ring left its range (`FARTHEST`, `MOST_TILT`).
+    - `softest`: index of the freedom that moved farthest relative to its range: 5 times bearing plus freedom.
+    - `scale`: force by which the residual is divided, N.
+    """
 
     unknowns: Float[Array, " unknown"]
     residual: Float[Array, ""]
@@ -145,8 +156,8 @@ class _Descent(NamedTuple):
 
 
 def _first_place(balance: Balance, most: Array) -> Array:
-    """Where the search begins: at no displacement and no force of the bearings, or, where that is far from contact, at
-    the equilibrium on linear bearings.
+    """Unknowns with which the search begins. They are 0, unless a bearing is then far from contact (`FAR_START`). In
+    that case they are the equilibrium with linear springs (`NOMINAL`) in place of the bearings.
 
     **Arguments:** `most`: bounds of the displacements, m and rad.
     """
@@ -251,7 +262,7 @@ class Root(NamedTuple):
 
 
 def anchored(balance: Balance, stiffness: Float[Array, "bearing 5 5"]) -> Float[Array, "bearing 5 5"]:
-    """The stiffness with `ANCHOR`."""
+    """The stiffness of all bearings with the stiffness `ANCHOR` added to each freedom."""
     return stiffness + ANCHOR * jnp.diag(jnp.square(balance.lengths()))[None]
 
 
@@ -330,7 +341,8 @@ def equilibrium(problem: Problem, *, options: NewtonOptions) -> Root:
 def _equilibrium_jvp(primals, tangents, *, options: NewtonOptions):
     (problem,), (problem_dot,) = primals, tangents
     root = equilibrium(problem, options=options)
-    # NaN times 0 would reach numbers that lanes share
+    # The tangents of a failed lane are set to 0. Otherwise NaN times 0 would spoil derivatives with respect to numbers
+    # that all lanes of a batch share.
     select = lambda t: None if t is None else jnp.where(root.solved, t, 0.0)
     problem_dot = jax.tree.map(select, problem_dot)
 

@@ -2,26 +2,30 @@ r"""Equations of the steady lubricated ball bearing, as a block-arrow system.
 
 Unknowns of each ball:
 
-- two of its contacts, which say where it is: `pairs` has ln Qi and the inner contact angle of balls with two contacts,
-  `arched` the place of the centre of balls with more;
-- with traction the spin and, with `attitude="min_power"`, the attitude beta. With `"equilibrium"` they are the axial
-  and the radial part of the spin instead, because polar coordinates are singular where the spin of a skidding ball
-  passes through 0;
-- with a resolved gyroscopic couple the spin about the tangent of the orbit;
+- two unknowns of its contacts, which fix its position. For balls with two contacts (module `pairs`) they are ln Qi,
+  with the load Qi at the inner race, and the inner contact angle. For balls with more contacts (`arched`) they are
+  the position of the ball centre;
+- with traction the spin and, with `attitude="min_power"`, the attitude beta, which is the angle of the spin axis to
+  the bearing axis. With `"equilibrium"` they are the axial and the radial part of the spin instead, because polar
+  coordinates are singular where the spin of a skidding ball passes through 0;
+- if traction carries the gyroscopic couple and its balance is solved ("resolved"): the spin about the tangent of the
+  orbit (`transverse`) and the transverse friction at the inner race (`carried`);
 - without a cage the orbital speed, with one the radial friction of the pocket.
 
 Global unknowns: the displacements of the ring; with a cage its speed, with which all balls orbit; without traction, on
 request, one orbital speed for all balls.
 
-`pairs` and `arched` have the contacts without traction and their two equations; `friction` has the friction on the
-balls and the equations of their motion.
+The modules `pairs` and `arched` contain the contacts without traction and the two equations that belong to the two
+contact unknowns. The module `friction` contains the friction on the balls and the equations of their motion.
 
 The cage has no mass and transmits the pocket forces to its lands. If the inner ring guides the cage, these forces enter
 the balance of that ring, $F_r = \sum p_r\cos\psi + W_{FCi}\cos\chi$, $W_{FCi}\cos\chi = \sum(F_{C2} - F_{C1})\cos\psi$
-(source eqs. (18)-(19), (22)). The radial friction of each pocket is therefore added to the radial force of its ball on
-the ring; it has no moment. The tangential forces are those of the pockets, which act through the lands, and $F_{ti}$ of
-the balls. They cancel along the load line if the balls on both sides of it run alike. The balances and the stiffness of
-the ring leave out the tangential forces.
+(source eqs. (18)-(19), (22)). Here $F_r$ is the radial load on the ring, $p_r$ the radial force of the ring on a ball,
+$\psi$ the azimuth of the ball, and $W_{FCi}$ the force of the ring on the cage, in the direction $\chi$. $F_{C1}$ and
+$F_{C2}$ are the radial friction forces of a ball at the front and at the rear of its pocket. The radial friction of
+each pocket is therefore added to the radial force of its ball on the ring; it has no moment. The tangential forces are
+those of the pockets, which act through the lands, and $F_{ti}$ of the balls. They cancel along the load line if the
+balls on both sides of it run alike. The balances and the stiffness of the ring leave out the tangential forces.
 """
 
 import dataclasses
@@ -43,11 +47,11 @@ from .lubricated import AbstractLubricatedBallSystem
 from .state import BallsState
 
 EASIEST_SLIDE = 1e-3
-"""Factor on the sliding speed in the traction law of the easiest system."""
+"""Factor on the sliding speed in the traction law at the start of a homotopy (the easiest system)."""
 THINNEST_FILM = 1e-3
-"""Factor on the films of the easiest system."""
+"""Factor on the film thicknesses at the start of the homotopy of the films."""
 WIDEST_START = 0.3
-"""Width of the range of sliding speeds in which boundary friction develops in the easiest system, m/s."""
+"""Width, m/s, of the range of sliding speeds in which boundary friction develops, at the start of its homotopy."""
 
 
 OWN_EQUATIONS = {
@@ -64,7 +68,8 @@ OWN_EQUATIONS = {
 
 
 class OfContacts(NamedTuple):
-    """The two unknowns of the contacts of a ball: names of their equations, largest steps and bounds, scaled."""
+    """The two unknowns of the contacts of a ball. `names`: names of their equations; `caps`: largest change of each in
+    one Newton step; `lowest`, `highest`: bounds. All numbers are in scaled units."""
 
     names: tuple[str, str]
     caps: tuple[float, float]
@@ -73,7 +78,8 @@ class OfContacts(NamedTuple):
 
 
 class AbstractBallEquations(AbstractLubricatedBallSystem):
-    """Lubricated ball bearing; see the module."""
+    """Equations of a lubricated ball bearing, see the docstring of the module. Subclasses supply the two unknowns of
+    the contacts (`of_contacts`), the contacts without traction (`frictionless`) and the initial guess."""
 
     of_contacts: ClassVar[OfContacts]
 
@@ -106,10 +112,11 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
         rolling: BallMotion,
         held: Callable[[Array], BallMotion],
     ) -> ArrowPoint:
-        """First unknowns, from those of the contacts.
+        """Initial guess of all unknowns.
 
-        **Arguments:** `ring`: its displacements, m; `load`: of each ball, N; `rolling`: motion of the balls where each
-        has its own orbital speed; `held`: that motion at an orbital speed for all, rad/s.
+        **Arguments:** `contacts`: initial guess of the two contact unknowns; `ring`: displacements of the ring, m;
+        `load`: load of each ball, N; `rolling`: motion of the balls if each has its own orbital speed; `held`: function
+        that returns the motion of the balls if all have the given orbital speed, rad/s.
         """
         reference, zeros = self.reference, jnp.zeros_like(load)
         orbit = common = (rolling.orbital_speed - reference.orbital_speed) / self.orbit_unit
@@ -184,7 +191,8 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
 
     @property
     def extra_totals(self) -> int:
-        # common orbit: weighted speeds and weights for one global; cage: its moment and two force components for one
+        # With a common orbit, one global needs two totals: the weighted sum of the speeds and the sum of the weights.
+        # With a cage, one global needs three totals: the moment on the cage and two components of its force.
         return 1 if self.common_orbit else 0 if self.cage is None else 2
 
     def element(self, unknowns, shared):
@@ -207,7 +215,7 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
             return ring, jnp.zeros(())
         land = self.land(self.orbit(globals_[d]), totals[d + 1], totals[d + 2])
         scale = self.friction_scale() * 0.5 * self.kinematics.pitch_diameter * self.ball_count
-        # the moment falls with the cage speed, so its sign is changed
+        # the moment decreases with the cage speed: with its sign changed, the diagonal of the Jacobian is positive
         return jnp.concatenate([ring, -(totals[d] + land.cage_torque)[None] / scale]), land.residual
 
     # -- physics --------------------------------------------------------------------------------------------------
@@ -217,7 +225,7 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
         return self.balls(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
 
     def land(self, orbit: Array, force_x: Array, force_y: Array) -> LandState:
-        """The lands that carry the pocket forces."""
+        """State of the lands (the surfaces of a ring that guide the cage), which carry the sum of the pocket forces."""
         cage, motion = self.cage, self.kinematics
         assert cage is not None
         return guided_land(

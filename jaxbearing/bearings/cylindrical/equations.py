@@ -1,16 +1,22 @@
 r"""Equations of the steady cylindrical roller bearing, as a block-arrow system.
 
-Every roller orbits at the cage speed W; per roller (source eqs. (27)-(29), (38)), with s the spin (see
-`cylindrical.scene` for frames and signs):
+Every roller orbits at the cage speed W and spins at the speed s (see `cylindrical.scene` for frames and signs). Each
+roller has three equations (source eqs. (27)-(29), (38)):
 
-- approach: $J_d/2 + \delta_i + \delta_o - h_i - h_o = d\cdot n$ (as the logarithm of the ratio of the positive terms
-  on its two sides), unknown ln Qi, $Q_o = Q_i + m R_m W^2$ (the pocket
-  friction, about 0.1 % of the centrifugal force, is left out of it, so Q does not depend on the pocket);
-- moment: $R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} + \frac{R_R}{2}(P_i + P_o) = 0$, unknown the mean
-  speed of the surfaces at the outer race, as a change of s at this W (near a cage speed at which that mean speed is 0
-  the film collapses and the moment has a cusp; the unknown keeps its distance from the cusp when W changes);
-- tangential: $Q_{C1} - Q_{C2} = F_i - F_o + F_E + F_{Ec} - F_{OL} + F_P$, eliminated: the two pocket films follow from
-  it in closed form (`gaps.Pocket`);
+- approach: $J_d/2 + \delta_i + \delta_o - h_i - h_o = d\cdot n$, with the diametral clearance $J_d$, the elastic
+  approaches $\delta$, the film thicknesses h, the ring displacement d and the direction n of the roller. The residual
+  is the logarithm of the ratio of the positive terms on the two sides. Its unknown is ln Qi. The load at the outer race
+  is $Q_o = Q_i + m R_m W^2$. The pocket friction, about 0.1 % of the centrifugal force, is left out here, so that Q
+  does not depend on the pocket;
+- moment: $R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} + \frac{R_R}{2}(P_i + P_o) = 0$, with the roller
+  radius $R_R$, the friction forces $F_{C1}, F_{C2}$ of the pocket and $F_i, F_o$ of the races, and the rolling
+  resistance P (see below). Its unknown is the mean speed of the surfaces at the outer race, as a change of s at this W.
+  Near a cage speed at which that mean speed is 0, the film collapses and the moment has a cusp. With this unknown, the
+  distance from the cusp stays the same when W changes;
+- tangential: $Q_{C1} - Q_{C2} = F_i - F_o + F_E + F_{Ec} - F_{OL} + F_P$, with the loads $Q_{C1}, Q_{C2}$ of the two
+  pocket films, the tangential forces $F_E$ of the flanges and $F_{Ec}$ of the side rails of the cage, the oil drag
+  $F_{OL}$ and the rolling resistance $F_P$. This equation is eliminated: the two pocket films follow from it in closed
+  form (`gaps.Pocket`).
 
 The global equations are the balance of the ring, $\sum Q_i n = F_r$ (source eq. (37)), with the ring displacement d as
 unknown, and the moment balance of the cage (source eq. (33)), with W as unknown. The cage offset is eliminated too: the
@@ -51,10 +57,11 @@ from .kinematics import RollerKinematics
 from .loads import LOG_LOAD_RANGE, approach_error, guessed_loads, per_race
 
 EASED_ENTRAINMENT = 0.3
-"""Entrainment speed that the easiest system of path 0 adds, divided by that of rolling without slip."""
+"""Entrainment speed that is added at the start of homotopy path 0 (see `homotopy`), divided by the entrainment speed of
+rolling without slip."""
 EASED_PRESSURE = 1.5e9
-"""Hertz pressure of the most loaded roller in the easiest system of path 1, Pa. Traction surely drives the rollers
-there."""
+"""Hertz pressure of the most loaded roller at the start of homotopy path 1, Pa. At this pressure traction is certain to
+drive the rollers."""
 
 
 class RollerState(NamedTuple):
@@ -186,7 +193,8 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         return 0 if self.cage is None else 2
 
     def local_inputs(self, globals_):
-        """With an outer ring that bends: the displacement of the rings towards each roller, and the cage speed."""
+        """With an outer ring that bends, returns the displacement of the rings towards each other at each roller and,
+        with a cage, the cage speed. Returns `None` for a rigid outer ring."""
         if self.outer is None:
             return None
         shift = self.approaching(globals_, self.outer)
@@ -226,7 +234,10 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         return self.rollers(point.elements, seen_by_elements(self, point))
 
     def rollers(self, unknowns: Float[Array, "m roller"], shared: Float[Array, "p roller"]) -> RollerState:
-        """**Arguments:** `shared`: the globals, or with an outer ring that bends the `local_inputs`."""
+        """State of the rollers.
+
+        **Arguments:** `shared`: the globals. If the outer ring can bend, the values of `local_inputs` instead.
+        """
         motion, d = self.kinematics, self.directions.shape[0] if self.outer is None else 1
         log_load = unknowns[0]
         shift = self.inward(shared[:d]) if self.outer is None else shared[0]
@@ -336,7 +347,7 @@ class DryRollerSystem(AbstractInPlane):
         return self.ring_names()
 
     def step_caps(self) -> ArrowPoint:
-        # a dry distribution is convex in the displacement: no cap is needed
+        # in a dry bearing the loads are convex functions of the displacement: Newton's steps need no cap
         return ArrowPoint(jnp.zeros((0, 1)), jnp.full(self.directions.shape[0] + self.modes, 1e4))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
@@ -366,7 +377,7 @@ class DryRollerSystem(AbstractInPlane):
         """
         kappa = per_race(self.contact.palmgren_compliance)
         fc = self.centrifugal()
-        # Double where: 0^0.9 has no derivative, and a bearing at rest has no centrifugal force.
+        # `where` is applied twice: 0^0.9 has an infinite derivative, and a bearing at rest has no centrifugal force
         turning = fc > 0
         outer_rest = jnp.where(turning, kappa[1] * jnp.where(turning, fc, 1.0) ** 0.9, 0.0)
         excess = (shift - self.radial_clearance - outer_rest) / kappa[0]
@@ -388,7 +399,8 @@ class DryRollerSystem(AbstractInPlane):
         return self.inward(point.globals[:, None]) if outer is None else self.approaching(point.globals, outer)
 
     def local_inputs(self, globals_):
-        """With an outer ring that bends: the displacement of the rings towards each roller."""
+        """With an outer ring that bends, returns the displacement of the rings towards each other at each roller.
+        Returns `None` for a rigid outer ring."""
         return None if self.outer is None else self.approaching(globals_, self.outer)[None]
 
     def gathered(self, globals_, acting):

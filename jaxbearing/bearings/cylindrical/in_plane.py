@@ -26,10 +26,11 @@ def outward(azimuth: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
 class AbstractInPlane(AbstractArrowSystem):
     """Base of the equations of rollers that carry evenly along their length.
 
-    `directions`: outward unit vectors along the unknown freedoms of the `ring`; `held`: by what displacements that are
-    given bring it towards each roller, m, `None`: none is given; `out_of_round`: by what races that are not round come
-    towards each roller, m, `None`: they are round; `outer`: the outer ring if it bends. Its amplitudes are globals,
-    after those of the inner ring; a roller feels them as a part of the displacement towards it (`local_inputs`).
+    - `directions`: outward unit vectors along the unknown freedoms of the `ring`.
+    - `held`: given part of the displacement of the inner ring towards each roller, m; `None` if none is given.
+    - `out_of_round`: displacement towards each roller of races that are not round, m; `None` if they are round.
+    - `outer`: the outer ring if it bends; `None` if it is rigid. Its amplitudes are globals, after those of the inner
+      ring. A roller feels them as a part of the displacement towards it (`local_inputs`).
     """
 
     directions: eqx.AbstractVar[Float[Array, "freedom roller"]]
