@@ -113,6 +113,22 @@ def test_cage_dynamics():
 
 @pytest.mark.usefixtures("optimized")
 @pytest.mark.report
+def test_ball_dynamics():
+    """Errors fall with the tolerance, and scipy's DOP853 agrees with the reference, with both meridians."""
+    module = script("ball_dynamics")
+    figures = module.benchmark(quick=True)
+    module.print_table(figures)
+    assert all(failed == 0 for _, _, _, failed, _ in figures["batches"])
+    found = {row[:3]: row[4:7] for row in figures["table"]}
+    for model in module.MODELS:
+        for error in found[model, "scipy DOP853", 1e-5]:
+            assert error < 1e-3
+        for fine, coarse in zip(found[model, "tsit5", 1e-5], found[model, "tsit5", 1e-4], strict=True):
+            assert fine < max(0.5 * coarse, 1e-6)
+
+
+@pytest.mark.usefixtures("optimized")
+@pytest.mark.report
 def test_cage_shocks():
     """Mean peaks in the third turn are those of the independent solution of our model sheet, to the 20 % to which
     shocks are repeatable; the perturbed shaft shakes the cage along."""
