@@ -292,6 +292,9 @@ def test_every_quantity_has_an_answer():
     # a whole series of spindle bearings with one conformity
     series = [abs(one) for cell in column("rigidity", KEPT["rigidity"].headings[3]) for one in numbers(cell)]
     assert max(series) < 15.0
+    every_one = [numbers(cell.replace(" to ", " ")) for cell in column("rigidity", "conformities of the bearings")]
+    fitted = f"lie between {min(map(min, every_one)):.3f} and {max(map(max, every_one)):.3f}"
+    assert any(fitted in row.belief for row in guide.ROWS if row.quantity == "axial stiffness")
     assert any("to 15 %" in row.belief for row in guide.ROWS if row.comparison == "rigidity")
 
 

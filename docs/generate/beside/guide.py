@@ -77,10 +77,10 @@ ROWS = (
     Row("traction coefficient", "oil of the catalogue, not fitted", UNKNOWN),
     Row(
         "loss, ball bearing",
-        "oil flowing through, 35 mm bore, 28 000 to 72 000 rpm, temperatures computed, drag law of a lone ball; one "
-        "bearing, four speeds",
+        "760 cm³/min of oil flowing through at 121 °C, 35 mm bore, 28 000 to 72 000 rpm, temperatures computed, drag law "
+        "of a lone ball; one bearing, four speeds",
         f"{BELIEVE} to {{nasa_35}}; 22 % too low at 28 000 rpm, right at 72 000 rpm. The oil fraction was probably "
-        "fitted to such bearings",
+        "fitted to such bearings; whether the drag law was chosen before these data were seen is not on record",
         "nasa_35",
     ),
     Row(
@@ -144,14 +144,14 @@ ROWS = (
         'oil bath, with `contact.supply.level = "bath"`; one bearing (32216), 500 to 4000 rpm, 42 and 50 °C',
         f"{BELIEVE} to a factor of 2.8, on the high side: the truth is between 0.36 and 0.83 of the result. Twelve "
         "points are within {trb_32216}; at five of Figure 7 it is 2.6 to 2.8 times the measured one. The "
-        "default layer was chosen with knowledge of these torques. Palmgren's formula is the better choice: within 28 % "
-        "at the twelve points",
+        "default layer was chosen with knowledge of these torques. Palmgren's formula is the better choice: within "
+        "28 % at the twelve points",
         "trb_32216",
     ),
     Row(
         "torque, tapered roller bearing",
         "oil bath, without a supply (flooded)",
-        f"{NO}; it is 1.9 to 2.6 times the measured one",
+        f"{NO}; it is 1.9 to 2.6 times the measured one, in Figure 7 up to 4.3 times",
         "trb_32216",
     ),
     Row("torque and loss, all bearings", "grease, oil-air, mixed friction, churning of a bath, seals", UNKNOWN),
@@ -182,14 +182,14 @@ ROWS = (
     ),
     Row(
         "axial stiffness",
-        "the same; one conformity fitted to all printed rigidities of its series",
+        "the same; one conformity fitted to the printed rigidities of all bearings of its series (medium preload)",
         f"{BELIEVE} to 15 %; four bearings of five",
         "rigidity",
     ),
     Row(
         "axial stiffness",
         "conformity not fitted (a guess or a default), or the shaft turns",
-        f"{UNKNOWN}, nor computed; the fitted conformities lie between 0.518 and 0.543",
+        f"{UNKNOWN}, nor computed; the fitted conformities of four bearings of five lie between 0.518 and 0.543",
     ),
     Row("radial and moment stiffness, damping", "all bearings", UNKNOWN),
     Row("stiffness", "roller bearings", UNKNOWN),
