@@ -199,6 +199,11 @@ class AbstractBearing(AbstractScene):
         given = getattr(self.geometry, "contact_angle", None)
         return jnp.asarray(0.0 if given is None else given)
 
+    @property
+    def leaning_angle(self) -> Array:
+        """Nominal contact angle on the side to which the unloaded bearing leans, rad; 0 if it leans to none."""
+        return self.drawing_angle
+
     def point_contacts(self, elements: Any) -> PointContact | None:
         """Raceway contacts of a solution as point contacts, shape (2 races, element); `None` for line contacts."""
         return None

@@ -4,7 +4,7 @@ Boundary dimensions are those of the drawing: what temperatures and fits change 
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
@@ -32,6 +32,7 @@ from ..thermal.network import NODES, Network, NodeHeat, OilFlow, conductances_be
 from ..thermal.reference_speed import radial_seat_area, reference_conductance
 from ..thermal.settings import Thermal
 from ..thermal.shares import loss_shares, node_heat
+from .flanks import by_flank
 from .solution import Solution
 
 if TYPE_CHECKING:
@@ -96,9 +97,10 @@ def bearing_heat(
     between: dict[tuple[str, str], Any] = {}
     to_rings = {"inner_ring": 0.5, "outer_ring": 0.5}
     if len(nodes) > 1:
-        contacts = _contacts(scene, solution)
+        flanks = by_flank(solution.elements)
+        contacts = ContactHeat(*map(_joined, zip(*(_contacts(scene, one) for one in flanks), strict=True)))
         between = _between(scene, thermal, solution, contacts, dict(zip(nodes, temperatures, strict=True)))
-        load = jnp.stack([solution.elements.load_inner, solution.elements.load_outer])
+        load = _joined([jnp.stack([one.load_inner, one.load_outer]) for one in flanks])
         carried = jnp.sum(load, axis=1)
         # heat is made where the load is
         parts = jnp.sum(load * contacts.share, axis=1) / jnp.where(carried > 0.0, carried, 1.0)
@@ -155,9 +157,14 @@ def _solid(material: Material) -> Solid:
     return Solid(material.conductivity, material.density, material.heat_capacity)
 
 
-def _contacts(scene: Any, solution: Solution) -> ContactHeat:
-    """Heat flow of all raceway contacts, races first, from the ring to the element."""
-    elements, operation = solution.elements, scene.operation
+def _joined(flanks: Sequence[Array]) -> Array:
+    """Values of the contacts of both flanks, races first."""
+    return flanks[0] if len(flanks) == 1 else jnp.concatenate(flanks, axis=1)
+
+
+def _contacts(scene: Any, elements: Any) -> ContactHeat:
+    """Heat flow of the raceway contacts, races first, from the ring to the element."""
+    operation = scene.operation
     both = lambda name: jnp.stack([getattr(elements, f"{name}_inner"), getattr(elements, f"{name}_outer")])
     load, film = both("load"), both("film")
     angle = both("contact_angle") if hasattr(elements, "contact_angle_inner") else jnp.zeros((2, 1))

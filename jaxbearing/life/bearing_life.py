@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from ..bearings.bearing import AbstractBearing
+from ..bearings.flanks import on_heavier_flanks
 from ..bearings.inlet import race_temperatures
 from ..bearings.rated import RatedContacts
 from ..bearings.rating import CATALOGUE_CONFORMITY, Rating, rated_laminae
@@ -129,7 +130,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     good = solution.converged
     # a lane that failed has finite numbers in the formulas, so that its NaN reaches no derivative of another
     solid = jax.tree.map(lambda leaf: jnp.where(good, leaf, 1.0), (solution.elements, solution.laminae))
-    operation = scene.operation
+    operation, heavier = scene.operation, on_heavier_flanks(solid[0])
     speed = jnp.asarray(operation.inner_speed) - operation.outer_speed
     turns = _turning(operation)
     contacts = scene.rated_contacts(solid[0], solid[1], jnp.where(good, solution.force, 1.0))
@@ -159,7 +160,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
         more |= {"contamination_factor": clean, "fatigue_load_limit": limit}
     if rating.roughness_rings is not None and solid[0].film_inner is not None:
         rough = (rating.roughness_rings, rating.roughness_elements)
-        inner, outer = minimum_films(scene, solid[0])
+        inner, outer = minimum_films(scene, heavier)
         more |= {"film_ratio_inner": film_ratio(inner, *rough), "film_ratio_outer": film_ratio(outer, *rough)}
     if rated.catalogue_load is not None:
         more["L10"] = basic_life(rated.dynamic_capacity, rated.catalogue_load, exponent)
@@ -173,7 +174,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
         static_capacity=rated.static_capacity,
         equivalent_load=equivalent,
         reliability_factor=jnp.asarray(reliability),
-        contact_static_safety=contact_safety(_pressure(solid[0], "inner"), _pressure(solid[0], "outer"), rated.family),
+        contact_static_safety=contact_safety(heavier.pressure_inner, heavier.pressure_outer, rated.family),
         family=rated.family,
         **more,
     )
@@ -206,12 +207,6 @@ def _cleanliness(rating: Rating, kappa: Array, pitch_diameter: Array) -> Array:
     if rating.cleanliness is None:
         return jnp.asarray(rating.contamination_factor)
     return contamination_factor(kappa, pitch_diameter, rating.cleanliness)
-
-
-def _pressure(elements: Any, race: str) -> Array:
-    """Largest Hertz pressure of each element on a raceway, of both its flanks where it has two groove arcs, Pa."""
-    first, second = getattr(elements, f"pressure_{race}"), getattr(elements, f"pressure_{race}_second", None)
-    return first if second is None else jnp.maximum(first, second)
 
 
 def _given(value: Any, computed: Callable[[], Array]) -> Array:

@@ -16,6 +16,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..bearings.bearing import AbstractBearing
+from ..bearings.flanks import on_heavier_flanks
 from ..bearings.mounted import running_scene
 from ..bearings.operation import HeldDisplacement
 from ..bearings.ring import held_ring
@@ -191,12 +192,12 @@ def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ..
 def pressure_centre(scene: AbstractBearing) -> Float[Array, ""]:
     r"""Where the contact normals of the unloaded bearing meet the axis, from the port along $e_x$, m: $-\frac{d_m}2
     \tan\alpha$, with the angle of the drawing, which of tapered bearings is that of the cup."""
-    return -0.5 * jnp.asarray(scene.geometry.pitch_diameter) * jnp.tan(scene.drawing_angle)
+    return -0.5 * jnp.asarray(scene.geometry.pitch_diameter) * jnp.tan(scene.leaning_angle)
 
 
 def largest_load(solution: Solution) -> Float[Array, ""]:
     """Largest load on the inner raceway, N."""
-    return jnp.max(solution.elements.load_inner)
+    return jnp.max(on_heavier_flanks(solution.elements).load_inner)
 
 
 FREEDOM_WORDS = dict(zip(RING_FREEDOMS, ("X", "Y", "Z", "the tilt", "the lateral tilt"), strict=True))

@@ -265,10 +265,10 @@ def _bearings(
 
 
 def _has_angle(place: Place) -> bool:
-    """True for a ball bearing that is given by its contact angle."""
+    """True for a ball bearing that is given by its contact angle and has one groove arc on each ring."""
     scene: Any = place.scene
     balls = isinstance(scene, AbstractBearing) and not scene.line_contacts
-    return balls and scene.geometry.contact_angle is not None
+    return balls and scene.geometry.contact_angle is not None and not scene.geometry.has_arcs
 
 
 def _set_result(

@@ -124,13 +124,20 @@ def pushed(scene: Any, n: Numbers, r: Results) -> tuple[list[Pushed], np.ndarray
     ball = np.stack([centre[0], radius * cosine, radius * sine])
     moved = [r[f"ring.{name}"][:, None] + 0.0 * cosine for name in ("axial", "radial", "lateral")]
     tilts = [r[f"ring.{name}"][:, None] + 0.0 * cosine for name in ("tilt", "tilt_lateral")]
-    turn = np.hypot(*tilts)
-    share = np.sinc(turn / np.pi)
-    normal = np.stack([np.cos(turn), -share * tilts[0], -share * tilts[1]])
-    away = ball - np.stack(moved)
-    height = np.sum(away * normal, axis=0)
-    flat = away - height * normal
-    outward = flat / np.linalg.norm(flat, axis=0)
+    if scene.operation.tilts:
+        turn = np.hypot(*tilts)
+        share = np.sinc(turn / np.pi)
+        normal = np.stack([np.cos(turn), -share * tilts[0], -share * tilts[1]])
+        away = ball - np.stack(moved)
+        height = np.sum(away * normal, axis=0)
+        flat = away - height * normal
+        outward = flat / np.linalg.norm(flat, axis=0)
+    else:
+        # to first order, as the package has it where no ring tilts: each groove centre in the half-plane of its ball
+        normal = np.stack([1.0 + 0.0 * cosine, 0.0 * cosine, 0.0 * cosine])
+        outward = np.stack([0.0 * cosine, cosine, sine])
+        along = moved[2] * cosine - moved[1] * sine
+        away = ball - np.stack([moved[0], moved[1] + along * sine, moved[2] - along * cosine])
     found = []
     for one in flanks_of(scene):
         if one.race == "outer":

@@ -4,6 +4,7 @@ import dataclasses
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -31,6 +32,8 @@ SPREAD_LOAD = 1e6
 """Load, N, for which the size of a patch is taken: Hertz's formula is smoothed near load 0."""
 SMALLEST_GUESS = 1e-3
 """Load of an inner contact that the frictionless bearing has lost, over a ball's load scale, where the films start."""
+LEAST_PRESSED, MOST_PRESSED, HALVINGS = 1e-9, 1e7, 30
+"""Range of the load by which films press a ball between its rings, N, and how often it is halved in logarithms."""
 CONTROL_AT_EQUAL_LOADS, CONTROL_BY_LOAD = -1.6, 8.0
 """First guess of outer race control: its logit, and by how much that rises with ln(Qo/Qi), from a few solved bearings
 (5-50 kN, 5 000-20 000 rpm); a start of the iteration and nothing else."""
@@ -140,18 +143,44 @@ def _held_load(grooves: Grooves, row: Row) -> Float[Array, ""]:
 
 def with_films(scene: BallBearing, core: BallCore) -> BallCore:
     """The bearing without friction whose balls are larger by the films of its mean load: a better first guess where the
-    unknowns are places."""
+    unknowns are places. Films that fill the play press the balls between both rings by more than that load."""
+    whole = core
+    stop = lambda leaf: jax.lax.stop_gradient(leaf) if eqx.is_inexact_array(leaf) else leaf
+    scene, core = jax.tree.map(stop, (scene, core))
     assert scene.contact is not None
     assert scene.oil is not None
+    laws, oil = scene.contact, scene.oil
     geometry, motion, angle = scene.geometry, core.kinematics, core.grooves.free_angle
     contacts = geometry.free_contacts(reduced_modulus(scene.materials.rings, scene.materials.balls)).shaped()
     rolling = motion.rolling(angle, angle, motion.outer_control(angle))
     speed = jnp.stack([motion.inner_race(rolling, angle).mean_speed, motion.outer_race(rolling, angle).mean_speed])
-    load = core.ball_scale() * jnp.ones(2)
     inlet = jax.tree.map(lambda leaf: leaf[:, 0] if jnp.ndim(leaf) == 2 else leaf, oil_of_races(scene))
-    film = scene.contact.film_state(contacts, load, speed, jnp.zeros(2), scene.oil, inlet).separation
-    grooves = core.grooves._replace(offset=core.grooves.offset - jax.lax.stop_gradient(film))
-    return dataclasses.replace(core, grooves=grooves)
+    film = lambda load: laws.film_state(contacts, load * jnp.ones(2), speed, jnp.zeros(2), oil, inlet).separation
+    load = core.ball_scale() + _pressed_load(core.grooves, film)
+    grooves = whole.grooves._replace(offset=whole.grooves.offset - film(load))
+    return dataclasses.replace(whole, grooves=grooves)
+
+
+def _pressed_load(grooves: Grooves, film: Callable[[Array], Array]) -> Float[Array, ""]:
+    r"""Load of the contacts of a ball by which films alone press it between the centred rings, N: the root of
+    $\sum_k[(Q/K_k)^{2/3} - h_k(Q)]/\cos a_k + P_d/2 = 0$ with the shim angles $a_k$ (0 of a ring with one arc); the
+    least load if the films leave play.
+
+    **Arguments:** `film`: from a load, N, to the films of both races, m.
+    """
+    ratios = [0.0 if apart is None else apart / grooves.offset[k] for k, apart in enumerate(grooves.arcs)]
+    cosine = jnp.stack([jnp.sqrt(1.0 - jnp.square(jnp.asarray(ratio))) for ratio in ratios])
+    play = jnp.sum(grooves.offset * cosine) - grooves.rest[1, 0]
+
+    def halved(_, ends: tuple[Array, Array]) -> tuple[Array, Array]:
+        low, high = ends
+        middle = 0.5 * (low + high)
+        load = jnp.exp(middle)
+        above = jnp.sum(((load / grooves.stiffness) ** (2.0 / 3.0) - film(load)) / cosine) + play > 0.0
+        return jnp.where(above, low, middle), jnp.where(above, middle, high)
+
+    ends = (jnp.asarray(np.log(LEAST_PRESSED)), jnp.asarray(np.log(MOST_PRESSED)))
+    return jnp.exp(jax.lax.fori_loop(0, HALVINGS, halved, ends)[0])
 
 
 def build_lubricated(

@@ -37,12 +37,13 @@ def ball_results(
     ellipse = contact.ellipse(load)
     pressure = jnp.where(load > 0, ellipse.pressure, 0.0)
     arcs, first = system.arcs, (0, system.arcs.first_outer)
-    races = (kinematics.inner_race(motion, angle[0]), kinematics.outer_race(motion, angle[first[1]]))
+    over = (kinematics.inner_race, kinematics.outer_race)
+    races = [over[race](motion, angle[k]) for k, race in enumerate(arcs.races)]
     rolling = jnp.abs(kinematics.inner_speed - kinematics.outer_speed) / kinematics.ratio
     ratios = [race.spin / jnp.sqrt(jnp.square(race.roll) + jnp.square(1e-12 * rolling) + 1e-24) for race in races]
     more |= computed_results(BallResults, SolvedBalls(system, state, films))
-    more |= _second(arcs, load, angle, pressure)
-    others: dict[str, Any] = {name: _every(scene, one) for name, one in more.items() if one is not None}
+    more |= _second(arcs, load, angle, pressure, ratios)
+    others: dict[str, Any] = {name: None if one is None else _every(scene, one) for name, one in more.items()}
     elements = BallResults(
         azimuth=azimuths(geometry, geometry.n_balls),
         load_inner=_every(scene, load[0]),
@@ -55,7 +56,7 @@ def ball_results(
         spin_speed=_every(scene, motion.spin_speed),
         attitude_angle=_every(scene, motion.attitude),
         spin_to_roll_inner=_every(scene, jnp.abs(ratios[0])),
-        spin_to_roll_outer=_every(scene, jnp.abs(ratios[1])),
+        spin_to_roll_outer=_every(scene, jnp.abs(ratios[first[1]])),
         **others,
     )
     contacts = Contacts(_places(arcs), load, pressure, MEAN_OF_POINT, angle=angle)
@@ -71,11 +72,12 @@ def _places(arcs: Arcs) -> tuple[str, ...]:
     return tuple(names[side].format(RACEWAYS[race]) for race, side in zip(arcs.races, arcs.sides, strict=True))
 
 
-def _second(arcs: Arcs, load: Array, angle: Array, pressure: Array) -> dict[str, Array | None]:
+def _second(arcs: Arcs, load: Array, angle: Array, pressure: Array, ratios: list[Array]) -> dict[str, Array | None]:
     """Results of the contacts on the flanks for thrust along -e_x, of rings that have them."""
     if arcs.single:
         return {}
-    named = arcs.named({"load": load, "contact_angle": angle, "pressure": pressure})
+    spins = jnp.abs(jnp.stack(ratios))
+    named = arcs.named({"load": load, "contact_angle": angle, "pressure": pressure, "spin_to_roll": spins})
     carrying = jnp.sum(load > LOADED * jnp.max(load), axis=0, dtype=float)
     return {"loaded_contacts": carrying, **{name: one for name, one in named.items() if name.endswith("_second")}}
 

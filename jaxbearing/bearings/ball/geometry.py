@@ -156,6 +156,14 @@ class BallGeometry(Checked):
         return jnp.where(open_, jnp.sqrt(jnp.where(open_, lift * (2.0 - lift), 1.0)), 0.0)
 
     @property
+    def nominal_angle(self) -> Scalar:
+        """Contact angle of the drawing, rad: the one that is given; of a ring with two arcs that of two contacts; 0 of
+        other bearings that are given by their clearance."""
+        if self.contact_angle is None and self.has_arcs:
+            return jnp.arctan2(self.free_sine, self.free_cosine)
+        return 0.0 if self.contact_angle is None else self.contact_angle
+
+    @property
     def aligned(self) -> Array:
         """Axial displacement of the inner ring at which the planes of the grooves coincide, m.
 

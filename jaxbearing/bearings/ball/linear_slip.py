@@ -27,16 +27,23 @@ from ...numerics.small_linear import solve_blocks
 from .arcs import Arcs
 from .kinematics import BallKinematics, BallMotion
 
+DRIVEN = 1e-2
+"""Weight of a ring that does not load a ball, over the load of the other ring."""
+
 
 def slip_weights(load: Float[Array, "contact ball"], arcs: Arcs, floor: float) -> Float[Array, "contact ball"]:
-    r"""Loads that weigh the sliding of each contact, N: $Q_k + \varepsilon^2/(\varepsilon + \sum Q)$ with the sum over
-    the contacts of its ring. A ring without load weighs $\varepsilon$; at 1 kN the
-    addition is 1e-9 N.
+    r"""Loads that weigh the sliding of each contact, N: $Q_k + \sigma[\sigma/(\sigma + \sum Q)]^5$ with the sum over
+    the contacts of its ring, and $\sigma = \varepsilon + 0.01\sum Q$ with the sum over those of the other ring.
+
+    A ball that lies in both arcs of the outer ring alone would stop there: nothing drives it. Such a ball rolls over
+    the unloaded ring too, as if its cage drove it. Between loaded rings the addition is 1e-12 of the load.
 
     **Arguments:** `floor`: $\varepsilon$, N.
     """
     on_ring = (arcs.on_inner(load), arcs.on_outer(load))
-    return jnp.stack([load[k] + floor**2 / (floor + on_ring[race]) for k, race in enumerate(arcs.races)])
+    least = [floor + DRIVEN * other for other in on_ring[::-1]]
+    added = [one * (one / (one + there)) ** 5 for one, there in zip(least, on_ring, strict=True)]
+    return jnp.stack([load[k] + added[race] for k, race in enumerate(arcs.races)])
 
 
 def linear_slip(

@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..flanks import SECOND
 from ..outline import RING_SIDE, RING_THICKNESS, Outline, Point, moved
 from .scene import BallBearing
 
@@ -16,10 +17,7 @@ def ball_outline(scene: BallBearing, of: Callable[[str], float] | None) -> Outli
     """See `AbstractBearing.outline`."""
     geometry = scene.geometry
     diameter, half = 1e3 * float(geometry.ball_diameter), 500.0 * float(geometry.ball_diameter)
-    # of a bearing that is given by its clearance: in the middle of its play
-    free = 0.0 if geometry.contact_angle is None else float(geometry.contact_angle)
-    if geometry.has_arcs:
-        free = math.atan2(float(geometry.free_sine), float(geometry.free_cosine))
+    free = float(geometry.nominal_angle)
     contacts: dict[str, tuple[Point, Point]] = {}
     rings = []
     for side, sign in (("outer", 1.0), ("inner", -1.0)):
@@ -31,9 +29,9 @@ def ball_outline(scene: BallBearing, of: Callable[[str], float] | None) -> Outli
             rings.append(_groove(diameter, conformity, direction, sign))
             continue
         rings.append(_two_arcs(diameter, conformity, direction, sign, 1e3 * float(apart)))
-        back = -free if of is None else of(f"contact_angle_{side}_second")
+        back = -free if of is None else of(f"contact_angle_{side}{SECOND}")
         direction = sign * math.sin(back), sign * math.cos(back)
-        contacts[f"{side}_second"] = moved((0.0, 0.0), direction, half), direction
+        contacts[f"{side}{SECOND}"] = moved((0.0, 0.0), direction, half), direction
     point = lambda sign, at: (sign * half * math.sin(at), sign * half * math.cos(at))
     labels = {
         "ball_diameter": (-0.6 * half, 0.0),
@@ -46,12 +44,18 @@ def ball_outline(scene: BallBearing, of: Callable[[str], float] | None) -> Outli
         diameter=diameter,
         rings=rings,
         element=None,
-        line=(contacts["inner"][0], contacts["outer"][0]),
+        line=(_carrying(contacts, "inner", of), _carrying(contacts, "outer", of)),
         contacts=contacts,
         shoulder=_SHOULDER * diameter,
         dimensions=[((-half, 0.0), (half, 0.0))],
         labels=labels,
     )
+
+
+def _carrying(contacts: dict[str, tuple[Point, Point]], race: str, of: Callable[[str], float] | None) -> Point:
+    """Place of the contact of a race that carries most; the first one of an unloaded bearing."""
+    sides = [side for side in (race, f"{race}{SECOND}") if side in contacts]
+    return contacts[sides[0] if of is None else max(sides, key=lambda side: of(f"load_{side}"))][0]
 
 
 def _groove(diameter: float, conformity: float, direction: Point, sign: float) -> list[Point]:

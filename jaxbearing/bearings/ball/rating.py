@@ -47,8 +47,7 @@ def rated_contacts(scene: BallBearing, elements: Any, force: Float[Array, " free
         n_elements=geometry.n_balls,
         diameter=geometry.ball_diameter,
         pitch_diameter=geometry.pitch_diameter,
-        # ratings are made for the nominal angle: 0 of a bearing that is given by its clearance
-        contact_angle=0.0 if geometry.contact_angle is None else geometry.contact_angle,
+        contact_angle=geometry.nominal_angle,
         rings=scene.materials.rings,
         elements=scene.materials.balls,
         inner=inner,

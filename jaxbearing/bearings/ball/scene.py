@@ -308,6 +308,14 @@ class BallBearing(AbstractMovingBearing):
 
         return rated_contacts(self, elements, force)
 
+    @property
+    def drawing_angle(self) -> Array:
+        return jnp.asarray(self.geometry.nominal_angle)
+
+    @property
+    def leaning_angle(self) -> Array:
+        return jnp.zeros(()) if self.geometry.has_arcs else self.drawing_angle
+
     def point_contacts(self, elements: Any) -> PointContact:
         cosines = (jnp.cos(elements.contact_angle_inner), jnp.cos(elements.contact_angle_outer))
         return self.geometry.contacts(*cosines, reduced_modulus(self.materials.rings, self.materials.balls))

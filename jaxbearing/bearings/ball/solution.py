@@ -35,8 +35,9 @@ def _result(unit: str, description: str) -> Any:
     return eqx.field(metadata=label(unit, description))
 
 
-def _control(at: SolvedBalls) -> Array:
-    return at.system.kinematics.raceway_control(*at.angle, at.state.motion.attitude)
+def _between_races(of: Callable[[SolvedBalls], Array]) -> Callable[[SolvedBalls], Array | None]:
+    """A result about race control, which only balls with two contacts have."""
+    return lambda at: of(at) if at.system.arcs.single else None
 
 
 def _computed(unit: str, description: str, of: Callable[[SolvedBalls], Array | None], **default: None) -> Any:
@@ -62,16 +63,20 @@ class BallResults(eqx.Module):
     orbital_speed: _Values = _result("rad/s", "speed of the ball centre about the bearing axis")
     spin_speed: _Values = _result("rad/s", "spin of the ball, relative to its orbit")
     attitude_angle: _Values = _result("rad", "attitude of the spin, beta")
-    raceway_control: _Values = _computed("percent", "100: outer race control, 0: inner race control", _control)
-    control_angle_inner: _Values = _computed(
+    raceway_control: _Values | None = _computed(
+        "percent",
+        "100: outer race control, 0: inner race control",
+        _between_races(lambda at: at.system.kinematics.raceway_control(*at.angle, at.state.motion.attitude)),
+    )
+    control_angle_inner: _Values | None = _computed(
         "rad",
         "attitude of the spin under inner race control, beta_i",
-        lambda at: at.system.kinematics.inner_control(at.angle[0]),
+        _between_races(lambda at: at.system.kinematics.inner_control(at.angle[0])),
     )
-    control_angle_outer: _Values = _computed(
+    control_angle_outer: _Values | None = _computed(
         "rad",
         "attitude of the spin under outer race control, beta_o",
-        lambda at: at.system.kinematics.outer_control(at.angle[1]),
+        _between_races(lambda at: at.system.kinematics.outer_control(at.angle[1])),
     )
     centrifugal_force: _Values = _computed(
         "N", "centrifugal force on the ball", lambda at: at.system.centrifugal(at.state.motion.orbital_speed)
@@ -114,6 +119,12 @@ class BallResults(eqx.Module):
     contact_angle_outer_second: _Values | None = _optional("rad", "contact angle on the second flank, outer")
     pressure_inner_second: _Values | None = _optional("Pa", "Hertz (peak) pressure on the second flank, inner raceway")
     pressure_outer_second: _Values | None = _optional("Pa", "Hertz (peak) pressure on the second flank, outer raceway")
+    spin_to_roll_inner_second: _Values | None = _optional(
+        "1", "spin about the contact normal over roll on the second flank, inner"
+    )
+    spin_to_roll_outer_second: _Values | None = _optional(
+        "1", "spin about the contact normal over roll on the second flank, outer"
+    )
     film_inner_second: _Values | None = _optional("m", "central film on the second flank of the inner raceway")
     film_outer_second: _Values | None = _optional("m", "central film on the second flank of the outer raceway")
     temperature_rise_inner_second: _Values | None = _optional("K", "inlet heating on the second flank, inner")

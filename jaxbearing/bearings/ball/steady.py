@@ -108,11 +108,11 @@ def overload(scene: BallBearing) -> Float[Array, ""]:
     that of Hamrock and Brewe's closed form of the ellipse, within 5 %: enough for a message, and short.
     """
     geometry, operation = scene.geometry, scene.operation
-    angle = jnp.asarray(0.0 if geometry.contact_angle is None else geometry.contact_angle)
+    angle, radial_row = jnp.asarray(geometry.nominal_angle), geometry.contact_angle is None and not geometry.has_arcs
     radial, axial = operation.radial_size, 2.0 * operation.moment_size / geometry.pitch_diameter
     if operation.axial_load is not None:
         axial = axial + jnp.abs(operation.axial_load)
-    share = 0.6 if geometry.contact_angle is None else 0.5
+    share = 0.6 if radial_row else 0.5
     equivalent = jnp.maximum(radial, share * radial + jnp.minimum(0.58 - 0.008 * jnp.degrees(angle), 0.5) * axial)
     modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
     rolling = 0.5 * geometry.ball_diameter * (1.0 - geometry.ball_diameter / geometry.pitch_diameter * jnp.cos(angle))

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ...bearings.flanks import on_heavier_flanks
 from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
 from ..display import digits, with_unit
 from .fit_facts import fit_facts
@@ -61,13 +62,14 @@ def _mixed_facts(solution: Solution) -> Iterator[tuple[str, str]]:
     total, rubbed = float(np.asarray(solution.power_loss.total)), float(np.asarray(power.total))
     part = f" ({digits(100.0 * rubbed / total, 3)} % of the losses)" if total else ""
     yield "Mixed friction", f"boundary friction {digits(rubbed)} W{part}"
+    elements = on_heavier_flanks(solution.elements)
     for side, place in (("inner", "inner raceway"), ("outer", "outer raceway"), ("flange", "rib")):
-        ratio = getattr(solution.elements, f"film_ratio_{side}", None)
+        ratio = getattr(elements, f"film_ratio_{side}", None)
         if ratio is None or np.all(np.isnan(ratio)):
             continue
-        share = 100.0 * float(np.nanmax(getattr(solution.elements, f"load_share_{side}")))
+        share = 100.0 * float(np.nanmax(getattr(elements, f"load_share_{side}")))
         text = f"film ratio from {digits(float(np.nanmin(ratio)), 3)}, asperities carry up to {digits(share, 3)} %"
-        flash = getattr(solution.elements, f"flash_{side}", None)
+        flash = getattr(elements, f"flash_{side}", None)
         if flash is not None:
             text += f", flash temperature up to {digits(float(np.nanmax(flash)), 3)} K"
         yield "", f"{place}: {text}"
@@ -104,15 +106,21 @@ def _supply(solution: Solution) -> Iterator[tuple[str, str]]:
 
 def _ball_facts(solution: Solution) -> Iterator[tuple[str, str]]:
     """Contact angles, attitude and spin of the most loaded ball."""
-    elements = solution.elements
+    elements = on_heavier_flanks(solution.elements)
     if getattr(elements, "attitude_angle", None) is None:
         return
     j = int(np.argmax(np.asarray(elements.load_inner)))
     of = lambda name: float(np.asarray(getattr(elements, name))[j])
     degrees = lambda name: f"{np.degrees(of(name)):.2f} deg"
     yield "Contact angles", f"inner {degrees('contact_angle_inner')}, outer {degrees('contact_angle_outer')}"
-    control = f"raceway control {of('raceway_control'):.1f} % (100: outer, 0: inner)"
-    yield "Ball's spin", f"{with_unit(of('spin_speed'), 'rad/s')} at {degrees('attitude_angle')}, {control}"
+    if elements.loaded_contacts is not None:
+        counts = np.asarray(elements.loaded_contacts)
+        least, most = int(np.min(counts[counts > 0], initial=4)), int(np.max(counts))
+        yield "Contacts", f"{most if least >= most else f'{least} to {most}'} of each loaded ball"
+    control = ""
+    if elements.raceway_control is not None:
+        control = f", raceway control {of('raceway_control'):.1f} % (100: outer, 0: inner)"
+    yield "Ball's spin", f"{with_unit(of('spin_speed'), 'rad/s')} at {degrees('attitude_angle')}{control}"
     ratios = f"inner {digits(of('spin_to_roll_inner'), 3)}, outer {digits(of('spin_to_roll_outer'), 3)}"
     yield "Spin to roll", ratios
     power = solution.raceway_power
@@ -203,6 +211,7 @@ def _stiffness(solution: Solution) -> Iterator[str]:
 
 def extremes(elements: Any, name: str, pick: Any) -> Iterator[str]:
     """The value that `pick` finds on each race, and where."""
+    elements = on_heavier_flanks(elements)
     for field in dataclasses.fields(elements):
         values = getattr(elements, field.name)
         touches = values is not None and not np.all(np.isnan(np.asarray(values)))

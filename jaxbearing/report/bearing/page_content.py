@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from ...bearings.flanks import on_heavier_flanks
 from ...bearings.solution import RING_FREEDOMS, Solution, stiffness_units
 from ...numerics.status import Status
 from ..display import digits, pretty, with_unit
@@ -84,7 +85,7 @@ def _section_caption(scene: Any, name: str) -> str:
 
 
 def _headlines(solution: Solution, total: float | None) -> Iterator[tuple[str, str]]:
-    elements, life = solution.elements, solution.life
+    elements, life = on_heavier_flanks(solution.elements), solution.life
     if total is not None:
         yield "power loss", with_unit(total, "W")
     loads = np.maximum(np.asarray(elements.load_inner), np.asarray(elements.load_outer))

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 
+from ...bearings.flanks import on_heavier_flanks
 from ...bearings.solution import Solution
 from ...numerics.status import Status
 from ..backends.screen import (
@@ -162,7 +163,7 @@ def _watts(values: list[float]) -> list[str]:
 def _print_loads(solution: Solution, console: Console, full: bool) -> None:
     """The largest loads and the loaded zone; in full a row for each loaded element."""
     elements = solution.elements
-    load = np.asarray(elements.load_inner)
+    load = np.asarray(on_heavier_flanks(elements).load_inner)
     largest = float(np.max(load))
     loaded = load > LOADED * largest if largest > 0.0 else np.zeros(load.shape, dtype=bool)
     azimuth = signed_degrees(elements.azimuth)
@@ -185,7 +186,7 @@ def _print_loads(solution: Solution, console: Console, full: bool) -> None:
 def _print_load_table(solution: Solution, loaded: np.ndarray, shown: list[tuple[str, str]], console: Console) -> None:
     """Loads, pressures and films of these elements."""
     elements = solution.elements
-    load, azimuth = np.asarray(elements.load_inner), signed_degrees(elements.azimuth)
+    load, azimuth = np.asarray(on_heavier_flanks(elements).load_inner), signed_degrees(elements.azimuth)
     rows = np.array(sorted(loaded, key=lambda j: azimuth[j]), dtype=int)
     first = {"azimuth\ndeg": [f"{azimuth[j]:.1f}" for j in rows]}
     if load.size > 1 and np.all(load == load[0]):  # one element was solved for all

@@ -19,10 +19,12 @@ from jaxbearing.bearings.ball.core import FORCE_FLOOR, BallCore
 from jaxbearing.bearings.ball.geometry import BallGeometry
 from jaxbearing.bearings.ball.groove_motion import inner_arm, length_of, ring_frame
 from jaxbearing.bearings.ball.kinematics import BallKinematics
-from jaxbearing.bearings.ball.linear_slip import linear_slip
+from jaxbearing.bearings.ball.linear_slip import linear_slip, slip_weights
 from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
+from jaxbearing.bearings.flanks import by_flank, on_heavier_flanks
 from jaxbearing.materials import Material
 from jaxbearing.numerics.newton import NewtonOptions, newton_solve
+from jaxbearing.report.bearing.facts import extremes
 
 RPM = 2.0 * np.pi / 60.0
 STEEL = Material(np.float64(207e9), np.float64(0.3), np.float64(7850.0))
@@ -229,6 +231,17 @@ def test_linear_slip_of_one_ball():
     close(motion.radial_spin, 17.256132)
 
 
+def test_an_unloaded_ball_rolls_over_the_inner_ring():
+    """A ball in both arcs of the outer ring alone orbits as one that rolls, whatever it weighs: it does not stop."""
+    kinematics = BallKinematics(*(jnp.asarray(value) for value in (100.0 * np.pi, 0.0, 72.5e-3, 17.4625e-3)))
+    spread, angle = build_core(bearing(G4, axial_load=5e3)).spread, jnp.asarray([[0.55], [-0.55], [0.55], [-0.55]])
+    rolling = 0.5 * 100.0 * np.pi * (1.0 - 17.4625 / 72.5 * np.cos(0.55))
+    for thrown in (0.1, 10.0, 1e3):
+        weight = slip_weights(jnp.asarray([[0.0], [0.0], [thrown], [thrown]]), G4.arcs, FORCE_FLOOR)
+        motion = linear_slip(kinematics, angle, weight, spread, (0, 0, 1, 1))
+        np.testing.assert_allclose(motion.orbital_speed, rolling, rtol=0.03)
+
+
 def test_check_value_at_speed():
     """15 000 rpm under axial load, where the second contact of the outer ring carries part of the centrifugal force."""
     solution = jb.solve(bearing(G4, 15000, axial_load=5e3))
@@ -244,6 +257,9 @@ def test_check_value_at_speed():
     close(elements.contact_angle_outer_second, -0.5396374)
     np.testing.assert_array_equal(elements.loaded_contacts, 3.0)
     assert any("more than two contacts" in text for text in solution.warnings)
+    # race control is for balls with two contacts
+    assert elements.raceway_control is None
+    assert elements.control_angle_outer is None
 
 
 @pytest.mark.slow
@@ -271,6 +287,26 @@ def test_reversed_thrust_mirrors_the_sides():
         np.testing.assert_allclose(getattr(back.elements, f"{name}_second"), first, rtol=1e-9, atol=1e-9)
         np.testing.assert_allclose(getattr(back.elements, name), second, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(back.ring.axial, -forth.ring.axial, rtol=1e-8)
+
+
+def test_reversed_thrust_has_the_same_life_and_report():
+    """What is said of the bearing follows the flank that carries: life, safety, extremes, the section's ball."""
+    scene = jb.load_scene("four_point_qj")
+    forth, back = (jb.solve(scene.at_operation(axial_load=sign * 5e3)) for sign in (1.0, -1.0))
+    for name in ("L10r", "L10", "contact_static_safety", "static_capacity"):
+        np.testing.assert_allclose(getattr(back.life, name), getattr(forth.life, name), rtol=1e-9)
+    for name, pick in (("load", np.argmax), ("pressure", np.argmax)):
+        there, here = (list(extremes(one.elements, name, pick)) for one in (back, forth))
+        assert there == here
+    # rated as an angular contact bearing of its contact angle
+    two = dataclasses.replace(scene.geometry, contact_angle=scene.geometry.nominal_angle, diametral_clearance=None)
+    two = dataclasses.replace(two, shim_inner=None, shim_outer=None)
+    alone = jb.solve(dataclasses.replace(scene, geometry=two))
+    for name in ("L10r", "L10", "dynamic_capacity", "static_capacity"):
+        np.testing.assert_allclose(getattr(alone.life, name), getattr(forth.life, name), rtol=1e-8)
+    one, other = by_flank(back.elements)
+    np.testing.assert_array_equal(on_heavier_flanks(back.elements).load_inner, other.load_inner)
+    assert np.all(other.load_inner > one.load_inner)
 
 
 HARD = {

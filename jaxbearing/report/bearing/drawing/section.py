@@ -5,6 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from ....bearings.facts import LOADED
+from ....bearings.flanks import SECOND, on_heavier_flanks
 from ....bearings.outline import Outline, moved
 from ....bearings.solution import Solution
 from ...backends.svg import Drawing
@@ -21,7 +23,7 @@ _EDGE = {"stroke": INK, "stroke_width": 1.0}
 def section(scene: Any, solution: Solution) -> str:
     """SVG; the axis of the bearing lies below, its positive direction points to the right."""
     elements = solution.elements
-    j = int(np.argmax(np.asarray(elements.load_inner)))
+    j = int(np.argmax(np.asarray(on_heavier_flanks(elements).load_inner)))
     of = lambda name: float(np.asarray(getattr(elements, name))[j])
     outline = scene.outline(of)
     diameter, name, contacts = outline.diameter, solution.element_name, outline.contacts
@@ -30,17 +32,19 @@ def section(scene: Any, solution: Solution) -> str:
     loads = {side: of(f"load_{side}") for side in contacts}
     largest, lowest = max(loads.values()), 0.0
     for side, (place, direction) in contacts.items():
+        race = side.removesuffix(SECOND)
+        if f"{race}{SECOND}" in contacts and loads[side] <= LOADED * largest:
+            continue  # an open flank
         length = _LONGEST * diameter * loads[side] / largest if largest > 0.0 else 0.0
         end = moved(place, direction, length)
-        race = side.removesuffix("_second")
         colour = {"inner": INNER, "outer": OUTER, "flange": RIB}[race]
         drawing.arrow(place, end, colour, width=3.0, data_load=loads[side])
         # that of the rib stands beside the ring
         gap, anchor = (0.45 * diameter, "end") if side == "flange" else (18.0 / drawing.scale, "middle")
         beside = moved(end, direction, gap)
         drawing.text(beside, f"{_SAID[race]} {digits(loads[side])} N", anchor=anchor, fill=colour)
-        lowest = beside[1] if side == "inner" else lowest
-    _axial_load(drawing, solution, contacts["inner"][0][0], lowest, diameter)
+        lowest = min(beside[1], lowest) if race == "inner" else lowest
+    _axial_load(drawing, solution, outline.line[0][0], lowest, diameter)
     return drawing.markup()
 
 

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from ....bearings.flanks import by_flank
 from ....bearings.operation import LOAD_FIELDS
 from ....bearings.solution import Solution
 from ...backends.svg import Drawing
@@ -32,7 +33,9 @@ def front_view(scene: Any, solution: Solution) -> str:
     azimuth = np.asarray(elements.azimuth)
     for angle in azimuth:
         drawing.circle(place_at(angle, sizes.pitch), 0.5 * sizes.diameter, fill=ROLLER, stroke=INK, stroke_width=1.0)
-    _loads(drawing, sizes, azimuth, np.asarray(elements.load_inner), np.asarray(elements.load_outer))
+    # both flanks of a race together
+    load = lambda race: np.sum([getattr(one, f"load_{race}") for one in by_flank(elements)], axis=0)
+    _loads(drawing, sizes, azimuth, load("inner"), load("outer"))
     _applied(drawing, sizes, solution)
     drawing.text(place_at(0.0, sizes.pitch), "0", size=9.0)
     drawing.circle(
