@@ -266,6 +266,8 @@ def test_numbers_of_the_text_on_the_predicted_loss():
     assert f"wrong by about {law * part:.1f} per cent from this cause" in sentence
     assert f"the total error is about {np.hypot(largest, law * part):.0f} per cent" in sentence
     assert f"if both go the same way, {largest + law * part:.0f} per cent" in sentence
+    low, high = (1e-3 * whole * (1.0 + sign * 0.01 * (largest + law * part)) for sign in (-1.0, 1.0))
+    assert f"means {low:.1f} to {high:.1f} kW" in sentence
     assert f"uncertain by 50 to {largest + law * part:.0f} %" in belief("turbine_roller", guide.UNKNOWN)
     assert COMPARISONS["turbine_roller"].believe is None
 

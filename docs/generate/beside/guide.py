@@ -77,8 +77,8 @@ ROWS = (
     Row("traction coefficient", "oil of the catalogue, not fitted", UNKNOWN),
     Row(
         "loss, ball bearing",
-        "760 cm³/min of oil flowing through at 121 °C, 35 mm bore, 28 000 to 72 000 rpm, temperatures computed, drag law "
-        "of a lone ball; one bearing, four speeds",
+        "760 cm³/min of oil flowing through at 121 °C, 35 mm bore, 28 000 to 72 000 rpm, temperatures computed, drag "
+        "law of a lone ball; one bearing, four speeds",
         f"{BELIEVE} to {{nasa_35}}; 22 % too low at 28 000 rpm, right at 72 000 rpm. The oil fraction was probably "
         "fitted to such bearings; whether the drag law was chosen before these data were seen is not on record",
         "nasa_35",

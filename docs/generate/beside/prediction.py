@@ -187,7 +187,8 @@ COMPARISONS = (
         "per cent of the loss and may be wrong by 50 per cent (the 32008), so the loss may be wrong by "
         "about 36.4 per cent from this cause. If the two errors are unrelated, the total error is about 46 "
         "per cent; if both go the same way, 65 per cent. The first is an interval of 90 per cent "
-        "probability and the second a band of one other bearing, so their sum is rough. The data sets "
+        "probability and the second a band of one other bearing, so their sum is rough. Here a per cent "
+        "is one of the estimate itself: 65 per cent means 1.8 to 8.5 kW. The data sets "
         "narrow only the first part, and only under the assumption above.",
         compute=turbine_roller,
     ),
