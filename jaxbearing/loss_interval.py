@@ -1,7 +1,7 @@
 """Interval of a power loss by all inputs that are known by a distribution only."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -47,7 +47,22 @@ class PowerInterval(NamedTuple):
 
     def as_dict(self) -> dict[str, Any]:
         """Numbers and words by name."""
-        return self._asdict() | {"parts": [part._asdict() for part in self.parts]}
+        parts = [part._asdict() for part in self.parts]
+        return self._asdict() | {"parts": parts, "not_counted": not_counted(part.path for part in self.parts)}
+
+
+TABLES = ("geometry", "operation", "oil")
+"""Tables of a scene of which it is said whether an interval counts any of their numbers."""
+
+
+def not_counted(paths: Iterable[str]) -> str:
+    """Says what an interval leaves out: the tables of which no number scatters, and the laws.
+
+    **Arguments:** `paths`: dotted paths of the inputs that it counts.
+    """
+    counted = {name for path in paths for name in path.split(".")}
+    left_out = [name for name in TABLES if name not in counted]
+    return f"not counted: {', '.join([*left_out, 'errors of the laws'])}"
 
 
 class _Uncertain(NamedTuple):
@@ -124,7 +139,11 @@ def _uncertain(scene: Any, given: Mapping[str, Distribution], drag_prior: bool) 
         for path, one in assumed.items()
         if one is not None and path not in given
     ]
-    return found + [_Uncertain(path, one, _in_words(one)) for path, one in given.items() if one.deviation > 0.0]
+    for path, one in given.items():
+        if one.deviation > 0.0:
+            meaning = priors.meaning(scene, path)
+            found.append(_Uncertain(path, one, f"{_in_words(one)}; {meaning}" if meaning else _in_words(one)))
+    return found
 
 
 def _without_words(scene: AbstractScene) -> AbstractScene:

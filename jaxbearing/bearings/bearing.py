@@ -113,7 +113,7 @@ class AbstractBearing(AbstractScene):
             operation=self.operation,
             fit=jax.tree.map(lambda one: jnp.where(good, one, jnp.nan), fit),
             checks={**solution.checks, **checks},
-            notes=(*solution.notes, *self.fits.assumptions()),
+            notes=(*solution.notes, *self.fits.assumptions(self.temperatures is not None)),
             failure_causes={**solution.failure_causes, **impossible},
         )
 

@@ -69,14 +69,15 @@ def _yield(result: SolvedBearing) -> Excess:
 
 def _skid(result: SolvedBearing) -> Excess:
     text = (
-        f"{result.elements} skid on {{place}} (sliding above a tenth of rolling): film and rolling resistance are laws "
-        "for rolling"
+        f"{result.elements} with more than a tenth of the largest load skid on {{place}} (sliding above a tenth of "
+        "rolling): film and rolling resistance are laws for rolling"
     )
 
     def skidding(contacts: Contacts) -> Array | None:
         if contacts.sliding is None or contacts.mean_speed is None or not result.scene.slips:
             return None
-        return contacts.most(jnp.abs(contacts.sliding / smooth_abs(contacts.mean_speed, SPEED_SMOOTHING))) - SKIDDING
+        slide = jnp.abs(contacts.sliding / smooth_abs(contacts.mean_speed, SPEED_SMOOTHING))
+        return contacts.most(slide, BUSY) - SKIDDING
 
     return result.said(text, skidding)
 

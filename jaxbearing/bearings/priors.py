@@ -5,6 +5,7 @@ from typing import Any
 
 from ..contacts.oil_supply import LEVELS
 from ..distribution import Distribution
+from ..lubricants import WaltherPower
 
 DRAG_FIELD = "drag.coefficient"
 """Dotted path of the drag coefficient."""
@@ -20,6 +21,8 @@ lower it by a factor that nobody has measured. The heat of a 35-mm ball bearing 
 0.66 if all of it were drag, and leaves 0.2 to 0.6 beside the rolling resistance. Median and spread are a judgement.
 """
 
+COEFFICIENT_FIELD = "oil.viscosity.pressure_coefficient"
+"""Dotted path of the factor in the pressure-viscosity coefficient of a standard oil."""
 SUPPLY_FIELD = "contact.supply.gap_over_central"
 """Dotted path of the gap at the inlet over the central film."""
 LEVEL_FIELD = "contact.supply.level"
@@ -51,6 +54,21 @@ def supply_prior(scene: Any) -> Distribution | None:
     supply = getattr(getattr(scene, "contact", None), "supply", None)
     level = None if supply is None else supply.level
     return None if level is None else Distribution.lognormal(LEVELS[level], SUPPLY_DEVIATION)
+
+
+def meaning(scene: Any, path: str) -> str:
+    """Says what a number of a law stands for, with its effect at the oil's inlet temperature; "" where its name does.
+
+    **Arguments:** `path`: dotted path of the number.
+    """
+    if path != COEFFICIENT_FIELD:
+        return ""
+    viscosity = getattr(getattr(scene, "oil", None), "viscosity", None)
+    temperature = getattr(getattr(scene, "operation", None), "oil_temperature", None)
+    if not isinstance(viscosity, WaltherPower) or temperature is None:
+        return ""
+    alpha, celsius = 1e9 * float(viscosity.coefficient(temperature)), float(temperature) - 273.15
+    return f"s in alpha = s (nu/cSt)^t, and alpha is {alpha:.3g} 1/GPa at {celsius:.4g} degC"
 
 
 def prior_in_words(one: Distribution) -> str:

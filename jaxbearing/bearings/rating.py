@@ -20,6 +20,8 @@ CLEANLINESS_CLASSES = (
 _ISO_4406 = re.compile(r"(?:(?:\d{1,2}|[-\u2013*])\s*/)?\s*(\d{1,2})\s*/\s*(\d{1,2})")
 _FILTERS = {f"online_filter_{code}": (code, code - 3) for code in (13, 15, 17, 19)}
 """Classes of circulating oil by the code numbers of ISO 4406 at 6 and 14 um."""
+ISO_4406 = "the ISO 4406 code of circulating oil, such as '-/17/14'"
+"""Further names of contamination classes in words."""
 LAMINAE = 30
 """Laminae of a roller in the reference life where a scene does not say."""
 
@@ -76,7 +78,9 @@ class Rating(Checked):
     roughness_rings: Scalar | None = optional_number(bound="> 0", unit="m")
     roughness_elements: Scalar | None = optional_number(bound="> 0", unit="m")
     reliability: float = constant("rating.reliability", 0.90, among=RELIABILITIES)
-    cleanliness: str | None = choice("rating.cleanliness", CLEANLINESS_CLASSES, None, also=cleanliness_named)
+    cleanliness: str | None = choice(
+        "rating.cleanliness", CLEANLINESS_CLASSES, None, also=cleanliness_named, also_words=ISO_4406
+    )
     n_laminae: int | None = count("rating.n_laminae", None, least=1)
     edge_factor: bool | None = switch("rating.edge_factor", None)
     grooves: Literal["catalogue", "scene"] = choice("rating.grooves", ("catalogue", "scene"), "catalogue")

@@ -170,7 +170,10 @@ def _said(kind: str, what: str, text: str, clearance: str) -> tuple[str, str]:
             return clearance, f"{text}: clearance class without a table here; set geometry.diametral_clearance"
         return text, ""
     if what == "set":
-        of_pairs = "a scene of the kind shaft ('jaxbearing fields shaft') makes a pair of it"
+        of_pairs = (
+            "a scene of the kind shaft names this file twice and makes a set of it: twenty lines to copy stand in "
+            "docs/worked_examples.md, 'The pair 7312-B itself'; 'jaxbearing fields shaft' lists all fields"
+        )
         return clearance, f"{text}: of bearings for sets; the scene has one bearing, without preload: {of_pairs}"
     if what == "tolerance":
         return clearance, f"{text}: tolerance class, not modelled; [fits] takes the normal class"

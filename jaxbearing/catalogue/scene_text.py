@@ -17,13 +17,20 @@ GROOVES = {"inner": (0.52, 0.51, 0.53), "outer": (0.53, 0.515, 0.54)}
 
 
 LAWS_HINT = (
-    '# laws = "best"  # adds films, friction, rolling resistance, a cage and drag. It needs [oil], such as',
+    '# laws = "best"  # adds {best}. It needs [oil], such as',
     '#                # grade = "ISO VG 68", and in [operation] oil_temperature, and oil_flow for the drag;',
-    '#                # `jaxbearing new {} --oil "ISO VG 68"` writes them.',
+    '#                # `jaxbearing new {name} --oil "ISO VG 68"` writes them.',
 )
-"""Lines of a dry file; `{}` stands for the designation."""
+"""Lines of a dry file; `{name}` stands for the designation, `{best}` for the words of its family."""
+BEST_IN_WORDS = {
+    "cylindrical": "films, friction, rolling resistance and cage",
+    "tapered": "films, friction of the rib and rolling resistance (rollers roll without sliding, without a cage)",
+}
+"""Kind of rollers -> what the best laws model, beside the drag."""
+BEST_OF_BALLS = "films, friction, attitude of the balls, rolling resistance and cage"
 LAWS = (
-    'laws = "best"  # films, inlet heating, friction, rolling resistance, attitude of balls, cage; with oil_flow drag.',
+    'laws = "best"  # {best};',
+    "#              # with oil_flow drag too.",
     '#              # A field of your own prevails; [contact] rolling_resistance = "none" leaves that one out.',
 )
 """Lines of a file with an oil."""
@@ -33,7 +40,8 @@ def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, flo
     """The file: boundary dimensions, internal geometry with intervals, materials, rating, oil and operation."""
     kind = KINDS.get(bearing.kind, "ball_bearing")
     dry = duty.oil is None
-    laws = [line.format(bearing.text) for line in LAWS_HINT] if dry else LAWS
+    words = {"name": bearing.text, "best": best_in_words(bearing)}
+    laws = [line.format(**words) for line in (LAWS_HINT if dry else LAWS)]
     parts = [*_head(bearing, geometry, given), "", f'kind = "{kind}"', *laws, ""]
     parts += _table("geometry", list(_geometry(bearing, geometry)))
     if bearing.design in ("NJ", "NUP"):
@@ -60,6 +68,8 @@ def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, flo
     mean = 0.5 * (bearing.bore + bearing.outside)
     capacity = given.get("dynamic_capacity", geometry.dynamic_capacity)
     parts += _table("operation", list(operation_lines(duty, bearing.kind, mean, capacity)))
+    if bearing.kind == "tapered":
+        parts += [*_middle(geometry), ""]
     parts += _hints(bearing)
     return "\n".join(parts).rstrip() + "\n"
 
@@ -172,6 +182,20 @@ def shape_of(geometry: Geometry) -> TaperedShape:
     """Cones and ends of the rollers of a tapered roller bearing."""
     sizes = (geometry.diameter, geometry.pitch_diameter, geometry.length, geometry.contact_angle)
     return tapered_shape(*(one.value for one in sizes))
+
+
+def best_in_words(bearing: Designation) -> str:
+    """What `laws = "best"` models of such a bearing, beside the drag."""
+    return BEST_IN_WORDS.get(bearing.kind, BEST_OF_BALLS)
+
+
+def _middle(geometry: Geometry) -> Iterator[str]:
+    """The place of the middle of the row on the axis, as `bearings.tapered` counts it from the apex."""
+    shape, length = shape_of(geometry), geometry.length.value
+    along = 0.5 * shape.roller_diameter / math.tan(shape.half_angle) - 0.5 * length * math.cos(shape.half_angle)
+    place = -along * math.cos(geometry.contact_angle.value - shape.half_angle)
+    yield "# Loads across the axis act at the apex of the cones; at the middle of the rollers with this in [operation]:"
+    yield f'# load_position = "{_short(place)}"'
 
 
 def _clearance(bearing: Designation) -> Line:

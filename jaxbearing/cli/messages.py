@@ -38,10 +38,10 @@ def bad_input(notes: list[str] | None = None) -> Iterator[None]:
                 warnings.simplefilter("always", category)
             yield
         for one in caught:
-            if issubclass(one.category, notable):
-                said.append(str(one.message))
-            else:
+            if not issubclass(one.category, notable):
                 warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
+            elif str(one.message) not in said:
+                said.append(str(one.message))
     except SceneError as error:
         refuse(str(error) + _of_a_bearing(error))
     for text in said if notes is None else ():

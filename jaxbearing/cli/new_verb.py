@@ -161,7 +161,7 @@ def _fields(found: "Bearing") -> list[str]:
 def _show(found: "Bearing") -> None:
     from rich.table import Table
 
-    from ..catalogue.scene_text import sharper
+    from ..catalogue.scene_text import best_in_words, sharper
 
     bearing, geometry = found.designation, found.geometry
     element = "roller" if bearing.kind in ("cylindrical", "tapered") else "ball"
@@ -186,7 +186,7 @@ def _show(found: "Bearing") -> None:
     if found.duty.oil is None:
         out.print("dry: no films and no losses; --oil 'ISO VG 68' adds both", markup=False)
     else:
-        words = "films, friction, rolling resistance and cage by laws = 'best', which solve lists"
+        words = f"{best_in_words(bearing)} by laws = 'best', which solve lists"
         out.print(f"oil {found.duty.oil}: {words}", markup=False)
     options = sharper(bearing, found.given)
     if options:

@@ -1,5 +1,6 @@
 """`jaxbearing report`: a solve as one HTML page."""
 
+import dataclasses
 import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -39,9 +40,11 @@ def report(
     convergence and validity. The power loss has an interval where inputs are known by a distribution only. With
     `--json` the object that `solve` prints, and the page's name on stderr."""
     target = out if out is not None else Path(f"{Path(scene).stem}_report.html")
-    with bad_input():
+    said: list[str] = []
+    with bad_input(said):
         from ..scenes.bearing.catalogue import load_catalogue
         from ..scenes.inputs import scene_inputs
+        from ..scenes.marks import notes_of_file
         from ..scenes.overrides import split_assignments
         from ..scenes.states import base_scene, has_states, load_states
         from ..spectrum.states import require_rated
@@ -54,6 +57,7 @@ def report(
         except (TypeError, ValueError) as error:
             refuse(f"{scene}: {error}")
         inputs = scene_inputs(scene, overrides, model)
+        marked = notes_of_file(scene, overrides)
         catalogue = load_catalogue(scene, overrides)
         check_files([("--out", target, SUFFIXES)])
 
@@ -61,11 +65,13 @@ def report(
     from .quiet import without_false_alarms
 
     label = labelled(scene, changes)
+    said += marked
     enable_compilation_cache()
     with without_false_alarms():
         from ..solve import solve_once
 
         solution = solve_once(model)
+        solution = dataclasses.replace(solution, notes=(*solution.notes, *said)) if said else solution
         converged = bool(solution.converged)
         title = labelled(Path(scene).name, changes)
         listings = [_spectrum(states)] if states and converged else []

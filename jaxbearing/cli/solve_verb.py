@@ -72,11 +72,13 @@ def solve(
     line contact, its film."""
     said: list[str] = []
     with bad_input(said):
+        from ..scenes.marks import notes_of_file
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
 
         assignments = split_assignments(changes or [])
         model = load_scene(scene, assignments)
+        marked = notes_of_file(scene, assignments)
         asked = extra.asked(sensitivities, sensitivities_of, sensitivities_by, drag_prior)
         wanted = _line_contact(line_contact, model, scene)
         contact = None if wanted is None else wanted.path
@@ -87,6 +89,7 @@ def solve(
     from .quiet import without_false_alarms
 
     label = labelled(scene, changes)
+    said += marked
     enable_compilation_cache()
     with without_false_alarms():
         solution, slopes = extra.solved(model, asked)

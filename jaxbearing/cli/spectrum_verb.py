@@ -1,5 +1,6 @@
 """`jaxbearing spectrum`: life of a bearing under the load spectrum of its scene file."""
 
+import dataclasses
 import json
 import time
 from typing import TYPE_CHECKING, Annotated, Any
@@ -34,7 +35,9 @@ def spectrum(
     share, life, loss, pressure and static safety by state, then the life, the equivalent load and the state that
     governs; with --over the life at each value of a field."""
     begin = time.monotonic()
-    with bad_input():
+    said: list[str] = []
+    with bad_input(said):
+        from ..scenes.marks import notes_of_file
         from ..scenes.overrides import split_assignments
         from ..scenes.states import load_states
         from ..spectrum.states import require_rated
@@ -43,6 +46,7 @@ def spectrum(
         varied = None if over is None else _values(scene, over, overrides)
         texts = [{}] if varied is None else [{varied[0].path: varied[0].text(value)} for value in varied[1]]
         cases = [load_states(scene, {**overrides, **text}) for text in texts]
+        marked = notes_of_file(scene, {**overrides, **texts[0]})
         try:
             for states in cases:
                 require_rated(_scenes(states))
@@ -53,11 +57,13 @@ def spectrum(
     from .quiet import without_false_alarms
 
     label = labelled(scene, changes)
+    said += marked
     enable_compilation_cache()
     with without_false_alarms():
         from ..spectrum.verb import solve_cases
 
         found = solve_cases([_scenes(states) for states in cases], [one.share for one in cases[0]])
+        found = [dataclasses.replace(one, notes=tuple(said)) for one in found]
         seconds = time.monotonic() - begin
         if varied is None:
             typed = {one.name: one.changes for one in cases[0]}

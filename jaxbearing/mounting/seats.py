@@ -126,9 +126,9 @@ class Fits(Checked):
         _check_covered("shaft_tolerance", self.shaft_tolerance, bore)
         _check_covered("housing_tolerance", self.housing_tolerance, outside_diameter)
 
-    def assumptions(self) -> tuple[str, ...]:
-        """Notes for the user."""
-        said = []
+    def assumptions(self, warm: bool = True) -> tuple[str, ...]:
+        """Notes for the user. **Arguments:** `warm`: whether the parts have temperatures."""
+        said = [] if warm else ["fits: no [temperatures] are given, all parts are at 20 degC"]
         if self.smoothing is None and (self.on_shaft or self.in_housing):
             said.append("fits.smoothing is not given: each tight seat loses 2 um, as ground ones do")
         if self.in_housing and self.housing_outside is None:

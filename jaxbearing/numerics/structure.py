@@ -73,11 +73,13 @@ def choice(
     default: Any = dataclasses.MISSING,
     *,
     also: Callable[[Any], Any] | None = None,
+    also_words: str = "",
     **kwargs: Any,
 ) -> Any:
     """Static field that holds one of the words `choices`. Messages call it `name`. `None` passes as the default.
 
-    **Arguments:** `also`: from a further name of a choice to the choice; it returns anything else as it is.
+    **Arguments:** `also`: from a further name of a choice to the choice; it returns anything else as it is;
+    `also_words`: these further names in words, for messages.
     """
     words = tuple(choices)
 
@@ -87,7 +89,9 @@ def choice(
         require_choice(name, value, words)
         return str(value)
 
-    return _field(read, default, kwargs, {"choices": words} | ({} if also is None else {"also": also}))
+    return _field(
+        read, default, kwargs, {"choices": words} | ({} if also is None else {"also": also, "also_words": also_words})
+    )
 
 
 def _field(read: Callable[[Any], Any], default: Any, kwargs: dict[str, Any], said: dict[str, Any]) -> Any:

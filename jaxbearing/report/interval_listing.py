@@ -2,23 +2,22 @@
 
 from collections.abc import Iterator
 
-from ..loss_interval import PowerInterval
+from ..loss_interval import PowerInterval, not_counted
 from .display import with_unit
 from .page_content import Listing
 
 TITLE = "How well the power loss is known"
 HEADINGS = ("by", "5 % of the losses are below", "95 % are below", "distribution")
-REMARK = (
-    "All other inputs are as the scene has them. The inputs are independent of each other. The error of the laws "
-    "themselves is not counted."
-)
+REMARK = "Only these inputs are counted, each independent of the others. All other inputs are as the scene has them."
 
 
 def interval_listing(interval: PowerInterval) -> Listing:
     """The interval by all inputs that have a distribution, then that by each alone, the widest first."""
     rows = [(part.path, with_unit(part.low, "W"), with_unit(part.high, "W"), part.assumed) for part in interval.parts]
     together = ("all of these", with_unit(interval.low, "W"), with_unit(interval.high, "W"), "")
-    return Listing(TITLE, HEADINGS, [together, *rows] if len(rows) > 1 else rows, (REMARK,))
+    left_out = not_counted(part.path for part in interval.parts)
+    remarks = (REMARK, f"{left_out[0].upper()}{left_out[1:]}.")
+    return Listing(TITLE, HEADINGS, [together, *rows] if len(rows) > 1 else rows, remarks)
 
 
 def interval_headline(interval: PowerInterval) -> tuple[str, str]:
@@ -29,4 +28,6 @@ def interval_headline(interval: PowerInterval) -> tuple[str, str]:
 def interval_lines(interval: PowerInterval) -> Iterator[str]:
     """The same in sentences."""
     name, limits = interval_headline(interval)
-    yield f"{name} {limits}, {'by' if len(interval.parts) == 1 else 'mostly by'} {interval.by} ({interval.assumed})"
+    paths = [part.path for part in interval.parts]
+    said = f"{name} {limits}, {'by' if len(paths) == 1 else 'mostly by'} {interval.by} ({interval.assumed})"
+    yield f"{said}; counted: only {', '.join(paths)}; {not_counted(paths)}"

@@ -13,7 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from .._scene import AbstractScene
-from ..loss_interval import PowerInterval
+from ..loss_interval import PowerInterval, not_counted
 from ..sensitivity import ABSOLUTE, Sensitivities, UsualTolerance, largest
 from .display import digits, with_unit
 
@@ -128,10 +128,12 @@ def _print_interval(interval: PowerInterval | None, console: Console) -> None:
         return
     limits = " and ".join(with_unit(one, "W") for one in (interval.low, interval.high))
     text = f"Power loss {with_unit(interval.value, 'W')}, 90 % between {limits}"
+    left_out = not_counted(part.path for part in interval.parts)
     if len(interval.parts) == 1:
-        console.print(Padding(Text(f"{text}, by {interval.by} alone ({interval.assumed})."), (0, 2)))
+        console.print(Padding(Text(f"{text}, by {interval.by} alone ({interval.assumed}); {left_out}."), (0, 2)))
         return
-    console.print(Padding(Text(f"{text}, mostly by {interval.by}. By each input alone:"), (0, 2)))
+    said = f"{text} (counted: only the inputs below; {left_out}), mostly by {interval.by}. By each input alone:"
+    console.print(Padding(Text(said), (0, 2)))
     width = lambda part: part.high - part.low
     small = [part.path for part in interval.parts if width(part) < SMALL * width(interval.parts[0])]
     for part in interval.parts[: len(interval.parts) - len(small)]:

@@ -31,7 +31,7 @@ class Draft:
     def __init__(self, model: type[Table], raw: Mapping[str, Any], refused: Collection[str] = (), nested: bool = False):
         self._model, self._raw, self._nested = model, raw, nested
         absent = [name for name in model.model_fields if name not in raw]
-        near = [nearest(str(name), model.model_fields) for name in raw if name not in model.model_fields]
+        near = [_meant(str(name), model) for name in raw if name not in model.model_fields]
         self._refused = {*refused, *(absent if "" in near else near)}
 
     def __getattr__(self, name: str) -> Any:
@@ -73,6 +73,14 @@ class Draft:
                 continue
             if isinstance(value, Draft):
                 yield from value.problems(f"{inside}{name}.")
+
+
+def _meant(name: str, model: type[Table]) -> str:
+    """The field that an unknown name may be meant for: a table that has a field of this name, or the nearest name; ""
+    where there is none."""
+    tables = ((field, plain_table_at(model, field)) for field in model.model_fields)
+    inside = next((field for field, table in tables if table is not None and name in table.model_fields), None)
+    return nearest(name, model.model_fields) if inside is None else inside
 
 
 @functools.cache

@@ -13,7 +13,7 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from ..numerics.refusals import Refusals
 from .engineers_words import usual_word
-from .fields import is_optional, names_at, path_of, required_names, type_at
+from .fields import is_optional, names_at, parts_of, path_of, required_names, type_at
 from .units import describe, shortened
 
 LAW_ERROR = "law_name"
@@ -199,6 +199,8 @@ def _path_and_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str,
         given = detail["input"]
         near = nearest(given, valid) if isinstance(given, str) else ""
         expected = one_of(valid)
+        further = next((one for one in parts_of(type_at(model, location)) if isinstance(one, str)), "")
+        expected += f", {further}" if further else ""
         if is_optional(model, location):
             expected += f", or leave it out (--set {path}=none)"
         return path, {"found": describe(given), "expected": expected, "suggestion": near}

@@ -12,8 +12,10 @@ from pydantic import BaseModel
 
 from .._scene import AbstractScene
 from ..materials import Material
+from .errors import SceneError
 from .fields import tables_at
-from .overrides import apply
+from .marks import marks_of
+from .overrides import preset
 from .reader import model_of, read_tables, scene_model
 
 _ARGUMENT = re.compile(r"^\s*- (?P<names>`\w+`.*?): (?P<text>.*)$")
@@ -26,12 +28,14 @@ _NO_NEWS = re.compile(
 
 @dataclass(frozen=True)
 class SceneInput:
-    """One field: its dotted path, its value as the file or `--set` has it, what it is. `given`: otherwise a default."""
+    """One field: its dotted path, its value as the file or `--set` has it, what it is. `given`: otherwise a default.
+    `mark`: where its value comes from, in words, if nobody gave it."""
 
     path: str
     text: str
     description: str
     given: bool = True
+    mark: str = ""
 
 
 def scene_inputs(
@@ -41,8 +45,16 @@ def scene_inputs(
     label, mapping = read_tables(source)
     overrides = overrides or {}
     model = scene_model(mapping, overrides, label)
+    filled, problems = preset(mapping, overrides, model, label)
+    if problems:
+        raise SceneError.of_all(problems)
+    marks = {path: f"{mark.word}, by the file" for path, mark in marks_of(source, overrides).items() if mark.word}
+    marks |= dict.fromkeys(filled.added, "by laws = 'best'")
+    marks |= dict.fromkeys(filled.estimated, "estimated by laws = 'best'")
+    marks |= dict.fromkeys(filled.assumed, "assumed by laws = 'best'")
     found: dict[str, list[SceneInput]] = {}
-    for one in _fields(apply(mapping, overrides, model, label), (), model, scene):
+    for one in _fields(filled.tables, (), model, scene):
+        one = dataclasses.replace(one, mark=marks.get(one.path, ""))
         table = one.path.partition(".")[0] if "." in one.path else ""
         found.setdefault(table, []).append(one)
     return found

@@ -14,6 +14,7 @@ from pydantic import BaseModel
 from pydantic_core import PydanticCustomError
 
 from ..bearings.priors import DRAG
+from ..designations import readings
 from .distributions import means_of
 from .errors import SceneError
 from .fields import names_at, tables_at
@@ -30,6 +31,8 @@ NONE = "none"
 GUIDING_CLEARANCE, POCKET_CLEARANCE, LAND_WIDTH = 0.004, 0.02, 0.15
 """Estimated cage: diametral clearance of the land over the pitch diameter (0.003 to 0.006 are usual), clearance in the
 pocket and width of a land over the diameter of the rolling elements (0.015 to 0.025, and 0.1 to 0.2)."""
+OUTER_RIBS = ("NU", "NJ", "NUP")
+"""Types of cylindrical roller bearings whose outer ring has two ribs, which guide the cage."""
 FREE_GAP = 0.3
 """Largest part of the gap between two rolling elements that an estimated pocket clearance takes."""
 
@@ -48,12 +51,14 @@ class Given(NamedTuple):
 class Filling(NamedTuple):
     """The tables of a scene with what a preset adds.
 
-    **Arguments:** `added`: dotted path -> value; `estimated`: those of them that are estimates; `left_out`: in words.
+    **Arguments:** `added`: dotted path -> value; `estimated`, `assumed`: those of them that are estimates or assumed;
+    `left_out`: in words.
     """
 
     tables: dict[str, Any]
     added: dict[str, Any]
     estimated: tuple[str, ...] = ()
+    assumed: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
 
 
@@ -108,9 +113,18 @@ def _text(length: float) -> str:
     return f"{1e3 * length:.3g} mm"
 
 
+def _guidance(tables: Mapping[str, Any]) -> str:
+    """The ring with ribs of a cylindrical roller bearing whose type is known; the inner ring of any other bearing."""
+    catalogue = tables.get("catalogue")
+    designation = catalogue.get("designation") if isinstance(catalogue, Mapping) else None
+    read = next(iter(readings(designation)), None) if isinstance(designation, str) else None
+    rollers = kind_named(tables.get("kind")) == "cylindrical_roller_bearing"
+    return "outer_ring" if rollers and read is not None and read.design in OUTER_RIBS else "inner_ring"
+
+
 _TRACTION = Given(_flow_law, "the flow law with which the oil's friction was fitted, else 'maxwell_eyring'")
 _CAGE = {
-    "guidance": Given("inner_ring"),
+    "guidance": Given(_guidance, "assumed: 'outer_ring' of NU, NJ and NUP by the designation, else 'inner_ring'"),
     "guiding_clearance": Given(_guiding, f"estimated: {GUIDING_CLEARANCE:g} of the pitch diameter"),
     "pocket_clearance": Given(_pocket, f"estimated: {POCKET_CLEARANCE:g} of the diameter of the rolling elements"),
     "land_width": Given(_land, f"estimated: {LAND_WIDTH:g} of the diameter of the rolling elements"),
@@ -151,6 +165,7 @@ BEST: dict[str, dict[str, dict[str, Given]]] = {
 }
 """Kind of scene -> table -> field -> what `laws = "best"` stands for."""
 _ESTIMATED = ("cage.guiding_clearance", "cage.pocket_clearance", "cage.land_width", "drag.coefficient")
+_ASSUMED = ("cage.guidance",)
 _OF_SLIDING = {
     "ball_bearing": ("kinematics", "cage", "drag"),
     "cylindrical_roller_bearing": ("cage", "drag"),
@@ -194,11 +209,12 @@ def filling(tables: Mapping[str, Any], removed: tuple[str, ...], model: type[Bas
         own = filled.get(table, {})
         if not isinstance(own, Mapping):
             continue  # the validation refuses it
-        found = _fields(table, fields, own, known, (*removed, *_not_for(kind, table, filled, left_out)), model)
+        out = (*removed, *_not_for(kind, table, filled, removed, left_out))
+        found = _fields(table, fields, own, known, out, model)
         filled[table] = {name: value for name, value in own.items() if value != NONE} | found
         added |= {f"{table}.{name}": value for name, value in found.items()}
-    estimated = tuple(path for path in added if path in _ESTIMATED)
-    return Filling(filled, added, estimated, tuple(left_out))
+    estimated, assumed = (tuple(path for path in added if path in of) for of in (_ESTIMATED, _ASSUMED))
+    return Filling(filled, added, estimated, assumed, tuple(left_out))
 
 
 def _on_shaft(tables: Mapping[str, Any], removed: tuple[str, ...], model: type[BaseModel], file: str) -> Filling:
@@ -214,6 +230,7 @@ def _on_shaft(tables: Mapping[str, Any], removed: tuple[str, ...], model: type[B
             put(found.tables, keys, one.tables),
             found.added | {f"{above}.{path}": value for path, value in one.added.items()},
             (*found.estimated, *(f"{above}.{path}" for path in one.estimated)),
+            (*found.assumed, *(f"{above}.{path}" for path in one.assumed)),
             (*found.left_out, *(f"{above}.{text}" for text in one.left_out)),
         )
     return found
@@ -250,15 +267,20 @@ def _without(kind: str, table: str, filled: Mapping[str, Any], removed: tuple[st
     return None
 
 
-def _not_for(kind: str, table: str, filled: Mapping[str, Any], left_out: list[str]) -> tuple[str, ...]:
+def _not_for(
+    kind: str, table: str, filled: Mapping[str, Any], removed: tuple[str, ...], left_out: list[str]
+) -> tuple[str, ...]:
     """Fields of the preset that do not go with the rest of the scene; adds to `left_out` why."""
     if kind != "cylindrical_roller_bearing" or table != "contact":
         return ()
     operation = filled.get("operation")
     tilts = isinstance(operation, Mapping) and any(operation.get(name) is not None for name in _TILTS)
-    if not tilts and filled.get("profile") is None:
+    if tilts or filled.get("profile") is not None:
+        left_out.append("contact.traction: tilting or profiled rollers roll without sliding")
+    elif "cage" in removed or filled.get("cage") == NONE:
+        left_out.append("contact.traction: sliding rollers need a cage")
+    else:
         return ()
-    left_out.append("contact.traction: tilting or profiled rollers roll without sliding")
     return ("contact.traction", "contact.traction_model")
 
 
@@ -288,10 +310,12 @@ def said_of(found: Filling) -> str:
     """What the preset of a scene stands for, law by law, in words; "" without a preset."""
     if not found.added and not found.left_out:
         return ""
-    laws = [f"{path} = {_shown(value)}" for path, value in found.added.items() if path not in found.estimated]
+    guessed = (*found.estimated, *found.assumed)
+    laws = [f"{path} = {_shown(value)}" for path, value in found.added.items() if path not in guessed]
     text = f"laws = 'best' stands for {', '.join(laws)}" if laws else "laws = 'best' adds no law"
-    if found.estimated:
-        text += f"; estimated: {', '.join(f'{path} = {_shown(found.added[path])}' for path in found.estimated)}"
+    for word, paths in (("estimated", found.estimated), ("assumed", found.assumed)):
+        if paths:
+            text += f"; {word}: {', '.join(f'{path} = {_shown(found.added[path])}' for path in paths)}"
     if found.left_out:
         text += f"; left out: {'; '.join(found.left_out)}"
     return text

@@ -11,7 +11,16 @@ from .._scene import AbstractScene
 from ..life.duty import SUM_TOLERANCE
 from .errors import SceneError, nearest
 from .overrides import Overrides, applied, as_texts
-from .reader import STATES, is_shaft, read_all, scene_from_tables, scene_model, warn_of_means, without_states
+from .reader import (
+    STATES,
+    is_shaft,
+    read_all,
+    scene_from_tables,
+    scene_model,
+    warn_of_means,
+    warn_of_preset,
+    without_states,
+)
 from .units import describe, number
 
 NAME, SHARE = "name", "share"
@@ -42,7 +51,9 @@ def base_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
     label, mapping = read_all(source)
     mapping = without_states(mapping)
     warn_of_means(mapping, label, overrides)
-    return scene_from_tables(mapping, label, overrides)
+    scene = scene_from_tables(mapping, label, overrides)
+    warn_of_preset(mapping, label, overrides)
+    return scene
 
 
 def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple[FileState, ...]:
@@ -75,6 +86,7 @@ def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple
             problems += error.problems
     if problems:
         raise SceneError.of_all(problems)
+    warn_of_preset(mapping, label, texts)
     return tuple(found)
 
 

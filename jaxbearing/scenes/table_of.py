@@ -60,7 +60,7 @@ def type_of(field: Any) -> Any:
         return Annotated[tuple[float, ...], units.several_note(said["each"], said["unit"])]
     if "choices" in said:
         words: Any = Literal[said["choices"]]
-        return Annotated[words, BeforeValidator(said["also"])] if "also" in said else words
+        return Annotated[words, BeforeValidator(said["also"]), said["also_words"]] if "also" in said else words
     if "count" in said:
         return Annotated[int, units.count_note(*said["count"])]
     if "switch" in said:

@@ -75,7 +75,7 @@ class Preload(Checked):
     """Preload of a set: one of the following.
 
     - `force`: the force between the two opposed groups in the mounted set at rest, without load, N. One closure is
-      found that is common to all bearings, and stays.
+      found that is common to all bearings, and stays. That of no force is that of the first contact.
     - `class_force`: the force at which ONE bearing of the set reaches the closure that all get, N, as makers define the
       preload classes of universally ground bearings.
     - `offset`: the closure of every bearing, m; a negative one is play.

@@ -26,6 +26,8 @@ BALANCED = 1e-16
 """Last step of the search for the mounted set's place, m."""
 TOLERANCE = 1e-13
 """Relative error of the preload, and of the displacement, at which the search ends."""
+SMALL_FORCE = 1.0
+"""Force from whose place that of the first contact is found, N: balls are some 0.1 um away from it there."""
 EXPONENT = 2.0 / 3.0
 """The force to this power grows nearly in proportion to the displacement of balls."""
 
@@ -94,12 +96,15 @@ class Group(NamedTuple):
 
 
 def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearing"]) -> Float[Array, " group"]:
-    """Axial displacement of each group at which it carries its force, m, with first derivatives.
+    """Axial displacement of each group at which it carries its force, m, with first derivatives. A group without a
+    force has that of the first contact, to which the displacement tends with the force: one step from the place of
+    `SMALL_FORCE` along the power `EXPONENT` of the force. Its derivative by the force, infinite there, is taken as 0.
 
     **Arguments:** `additional`: closure of each bearing beyond that of its group, m.
     """
     members = np.stack([group.members for group in groups]).astype(float)
-    target = jnp.stack([jnp.asarray(group.force, dtype=float) for group in groups])
+    forces = jnp.stack([jnp.asarray(group.force, dtype=float) for group in groups])
+    target = jnp.where(forces > 0, forces, SMALL_FORCE)
     fixed: Any = jax.lax.stop_gradient((rest, target, additional))
 
     def look(state: _Search) -> _Search:
@@ -128,7 +133,8 @@ def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearin
     slope = jnp.maximum(members @ held.slope, 1.0)
     force = members @ axial_forces(rest, members.T @ place + additional, held.elements)
     # one step of Newton's has the derivatives of the root
-    return place - (force - target) / slope
+    carried = place - (force - target) / slope
+    return jnp.where(forces > 0, carried, carried - target / (EXPONENT * slope))
 
 
 class Mounted(NamedTuple):

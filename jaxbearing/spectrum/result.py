@@ -18,12 +18,14 @@ class Spectrum(eqx.Module):
     - `names`, `shares`: of the states; the shares of the time add up to 1.
     - `solutions`: one for each state, as `jb.solve` gives it.
     - `life`: see `life.duty.SpectrumLife`.
+    - `notes`: on the scene of all states.
     """
 
     names: tuple[str, ...] = eqx.field(static=True)
     shares: Float[Array, " state"]
     solutions: tuple[Any, ...]
     life: SpectrumLife
+    notes: tuple[str, ...] = eqx.field(static=True, default=())
 
     def __getitem__(self, name: str) -> Any:
         """The solution of a state. **Raises:** `KeyError` for an unknown name."""
@@ -53,13 +55,14 @@ class Spectrum(eqx.Module):
 
     @property
     def warnings(self) -> list[str]:
-        """The warnings of the states; what only some of them have names these."""
+        """The warnings of the states, where what only some of them have names these; then the notes on the scene."""
         found: dict[str, list[str]] = {}
         for name, one in zip(self.names, self.solutions, strict=True):
             for text in one.warnings:
                 found.setdefault(text, []).append(name)
         every = len(self.names)
-        return [text if len(names) == every else f"{', '.join(names)}: {text}" for text, names in found.items()]
+        said = [text if len(names) == every else f"{', '.join(names)}: {text}" for text, names in found.items()]
+        return [*said, *self.notes]
 
     def raise_if_failed(self) -> None:
         """Does nothing while JAX traces.

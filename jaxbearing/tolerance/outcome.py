@@ -127,7 +127,8 @@ class Tolerances:
     **Arguments:**
     - `fields`: distribution of each field that scatters, by dotted path, in SI units.
     - `units`: SI units of these fields.
-    - `origins`: where a distribution comes from, of fields whose distribution is not given itself.
+    - `origins`: where a distribution comes from, of fields whose distribution is not given itself; or what a field of
+      an oil's law stands for.
     - `results`: scatter of each result, by the path of the result.
     - `samples`: `None` without samples.
     - `warnings`: notes in words.

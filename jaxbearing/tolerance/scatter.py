@@ -129,6 +129,7 @@ def scatter_of(
     notes = [*left_out, *_unscattered(scene)]
     if joint is not None:
         origins |= dict.fromkeys(joint.fields, "posterior")
+    origins |= {path: said for path in fields if (said := priors.meaning(scene, path))}
     prior = priors.drag_prior(scene) if drag_prior else None
     if prior is not None and fields.setdefault(priors.DRAG_FIELD, prior) == prior:
         origins[priors.DRAG_FIELD] = priors.prior_in_words(prior)

@@ -12,6 +12,7 @@ from rich.table import Table
 
 from .. import __version__
 from ..distribution import Distribution
+from ..loss_interval import not_counted
 from ..report.backends.json import finite
 from ..report.backends.screen import counted, headline, print_line, print_rule, print_warnings
 from ..report.display import digits, displayed, with_unit
@@ -111,7 +112,8 @@ def _likely(found: Tolerances) -> Iterator[str]:
     low, high = (with_unit(value, spread.unit) for value in spread.likely)
     path, share = max(spread.contributions.items(), key=lambda item: item[1])
     by = "by" if share > 1.0 - _LEAST else "mostly by" if share > 0.5 else "first of all by"
-    yield f"{with_unit(spread.value, spread.unit)}, 90 % between {low} and {high}, {by} {path}"
+    said = f"{with_unit(spread.value, spread.unit)}, 90 % between {low} and {high}, {by} {path}"
+    yield f"{said}; counted: only the fields above; {not_counted(found.fields)}"
 
 
 def _percent(share: float) -> str:
@@ -154,6 +156,7 @@ def tolerances_to_dict(found: Tolerances) -> dict[str, Any]:
             }
             for path, one in found.fields.items()
         },
+        "not_counted": not_counted(found.fields),
         "tolerances": {name: _spread(name, one) for name, one in found.results.items()},
         "samples": sampling,
     }

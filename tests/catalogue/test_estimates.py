@@ -247,3 +247,12 @@ def test_hundred_scenes_solve():
         solution = jb.solve(find(name).scene(), throw=False)
         assert int(solution.status) == Status.CONVERGED, name
         assert 0.0 < float(solution.life.L10r) < 1e4, name
+
+
+def test_the_middle_of_tapered_rollers_stands_in_the_file():
+    """The comment has the place of the middle on the axis, and is a field once its sign of a comment is taken away."""
+    bearing = find("32210")
+    (line,) = [one for one in bearing.text().splitlines() if one.startswith("# load_position")]
+    place = line.partition('"')[2].rstrip('"')
+    assert 1e-3 * float(place.removesuffix(" mm")) == pytest.approx(float(bearing.scene().middle_position), rel=1e-3)
+    assert float(bearing.scene().middle_position) < 0.0

@@ -1,6 +1,11 @@
 """`laws = "best"` on the command line: the note, the list of `fields`, copies."""
 
 import json
+import sys
+
+import pytest
+from filled_results import MadeUpProgram, solution_of
+from html_pages import Page
 
 import jaxbearing as jb
 
@@ -31,3 +36,55 @@ def test_a_copy_marks_what_is_estimated(jaxbearing_command, folder):
     comments = " ".join(line.lstrip("# ") for line in text.splitlines() if line.startswith("#"))
     assert "estimated: cage.guiding_clearance = '0.154 mm'" in comments
     assert jb.load_scene(folder / "a.toml").cage is not None
+
+
+STATES = """
+[[state]]
+name = "one"
+share = 0.4
+[[state]]
+name = "two"
+share = 0.6
+operation.radial_load = "2 kN"
+"""
+
+
+@pytest.fixture
+def new_scene(folder, monkeypatch):
+    """A scene as `jaxbearing new` writes it, with a load spectrum; results without a solve."""
+    text = jb.catalogue.find("NU 2210", oil="ISO VG 68").text()
+    (folder / "a.toml").write_text(text, encoding="utf-8")
+    (folder / "states.toml").write_text(text + STATES, encoding="utf-8")
+    monkeypatch.setattr("jaxbearing.spectrum.verb.LaneProgram", MadeUpProgram)
+    monkeypatch.setattr(sys.modules["jaxbearing.solve"], "solve_once", solution_of)
+
+
+SAID = (
+    "estimated: cage.guiding_clearance = '0.282 mm'",
+    "by the marks in the scene file: estimated: geometry.n_rollers, geometry.pitch_diameter",
+    "an example: operation.inner_speed",
+    "geometry.diametral_clearance is the clearance before mounting",
+)
+
+
+@pytest.mark.usefixtures("new_scene")
+@pytest.mark.parametrize("command", [("solve", "a.toml"), ("spectrum", "states.toml")])
+def test_screen_and_json_say_what_nobody_gave(jaxbearing_command, command):
+    shown = " ".join(jaxbearing_command(*command).out.split())
+    warnings = json.loads(jaxbearing_command(*command, "--json").out)["warnings"]
+    for text in SAID:
+        assert text in shown
+        assert sum(text in one for one in warnings) == 1
+
+
+@pytest.mark.usefixtures("new_scene")
+def test_so_does_the_page(jaxbearing_command, folder):
+    result = jaxbearing_command("report", "a.toml", "--out", "a.html")
+    assert (result.code, result.err) == (0, "")
+    page = Page((folder / "a.html").read_text(encoding="utf-8"))
+    for text in SAID:
+        assert any(text in one for one in page.data("solution")["warnings"])
+    said = " ".join(page.text.split())
+    assert "before mounting, and is taken as that of the running bearing" in said
+    assert "estimated by laws = 'best'" in said
+    assert "estimated, by the file" in said

@@ -27,9 +27,15 @@ def test_rows_of_the_table():
 
 def test_sentence():
     (line,) = interval_lines(BOTH)
-    assert line == "power loss, 90 % between 730.0 W and 3015 W, mostly by drag.coefficient (assumed: lognormal)"
+    counted = (
+        "drag.coefficient, oil.viscosity.pressure_coefficient; not counted: geometry, operation, errors of the laws"
+    )
+    limits = "power loss, 90 % between 730.0 W and 3015 W, mostly by drag.coefficient (assumed: lognormal)"
+    assert line == f"{limits}; counted: only {counted}"
     (line,) = interval_lines(ONE)
     assert ", by drag.coefficient (" in line
+    assert line.endswith("not counted: geometry, operation, oil, errors of the laws")
+    assert BOTH.as_dict()["not_counted"] == "not counted: geometry, operation, errors of the laws"
 
 
 def test_page_shows_the_interval():

@@ -5,6 +5,7 @@ import itertools
 import pytest
 
 import jaxbearing as jb
+from jaxbearing.scenes.errors import SceneError
 
 # one fault each, by the path that is refused
 ROLLER = {
@@ -157,3 +158,16 @@ def test_an_error_of_the_program_is_no_refusal(monkeypatch):
     monkeypatch.setattr(jb.RollerGeometry, "_problems", broken)
     with pytest.raises(TypeError, match="a rule of the program"):
         jb.load_scene("turbine_roller")
+
+
+def test_a_field_without_its_table_is_one_problem():
+    """It is no table of temperatures, although the names are near."""
+    with pytest.raises(SceneError) as refused:
+        jb.load_scene("deep_groove_6205", {"oil_temperature": "60 degC"})
+    assert len(refused.value.problems) == 1
+    assert "Did you mean 'operation.oil_temperature'?" in str(refused.value)
+
+
+def test_a_class_of_cleanliness_may_be_a_code():
+    with pytest.raises(SceneError, match="the ISO 4406 code of circulating oil, such as '-/17/14'"):
+        jb.load_scene("deep_groove_6205", {"rating.cleanliness": "normal"})

@@ -54,7 +54,8 @@ def test_oil_of_a_grade():
     assert oil.pressure_viscosity.viscosity is oil.viscosity
     assert oil.viscosity.density is oil.density
     assert (oil.rheology.viscous_function, oil.rheology.exponent) == ("elsharkawy_hamrock", 2.0)
-    (note,) = oil.notes
+    coefficient, note = oil.notes
+    assert "9.904 (nu/cSt)^0.139 1/GPa, a prior of +-35 %" in coefficient
     assert "a prior" in note
     assert "0.07 of the pressure (0.04 to 0.1)" in note
     assert all(

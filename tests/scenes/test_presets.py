@@ -189,3 +189,19 @@ def test_first_scenes_are_solved():
     assert float(ball.power_loss.total) > 0.0
     found = jb.solve(roller()[0])
     assert float(found.power_loss.total) > 0.0
+
+
+@pytest.mark.parametrize(
+    ("designation", "ring"),
+    [("NU 210", "outer_ring"), ("NJ 210", "outer_ring"), ("N 210", "inner_ring"), (None, "inner_ring")],
+)
+def test_ribs_guide_the_cage_of_rollers(designation, ring):
+    scene, said = roller(**({} if designation is None else {"catalogue__designation": designation}))
+    assert scene.cage.guidance == ring
+    assert f"assumed: cage.guidance = '{ring}'" in said
+
+
+def test_without_a_cage_rollers_roll():
+    scene, said = roller(cage="none")
+    assert (scene.cage, scene.contact.traction) == (None, None)
+    assert "contact.traction: sliding rollers need a cage" in said

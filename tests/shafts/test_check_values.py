@@ -149,6 +149,15 @@ def test_tapered_pairs():
         close([one.force[1] for one in solved.bearings.values()], radial, 1e-6)
 
 
+def test_no_preload_is_the_limit_of_small_ones():
+    """The closure goes as the force to the power 2/3, and that of no force is the first contact, but for the 1e-3 N on
+    each ball."""
+    light, none = (jb.solve(pair(preload=Preload(force=force))) for force in (1.0, 0.0))
+    close(light.sets["set"].closure, 8.87786930e-6 * (1.0 / 180.0) ** (2.0 / 3.0), 0.1)
+    close(none.sets["set"].closure, 0.0, atol=5e-9)
+    close(none.sets["set"].preload, 0.0, atol=0.2)
+
+
 @pytest.mark.slow
 def test_loss_of_preload():
     """B10; the sheet's numbers are without the 1e-3 N on each ball."""

@@ -138,10 +138,14 @@ def test_derivatives_of_a_preloaded_pair():
         ])  # fmt: skip
 
     x = jnp.asarray([1000.0, 180.0, 100.0])
-    forward, compiled = jax.jit(jax.jacfwd(results))(x), jax.jit(results)
+    derived, compiled = jax.jit(jax.jacfwd(results)), jax.jit(results)
+    forward = derived(x)
     for place, one in enumerate(np.diag(1e-4 * np.asarray(x))):
         difference = (compiled(x + one) - compiled(x - one)) / (2.0 * one[place])
         np.testing.assert_allclose(forward[:, place], difference, rtol=1e-5, atol=1e-6 * np.max(np.abs(difference)))
+    without = derived(x * jnp.asarray([1.0, 0.0, 1.0]))
+    assert np.all(np.isfinite(without))
+    assert np.all(without[:2, 2] != 0.0)
 
 
 def test_a_lane_without_equilibrium_says_so():

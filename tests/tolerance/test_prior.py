@@ -242,6 +242,7 @@ def test_the_screen_names_the_largest_and_each_alone(capsys):
     said = " ".join(capsys.readouterr().out.split())
     assert "90 % between" in said
     assert f"mostly by {PATH}. By each input alone:" in said
+    assert "not counted: geometry, operation, errors of the laws)" in said
     assert f"{PATH}: between" in said
     assert f"{SUPPLY_FIELD}, {OF_OIL[0]}" in said
     assert "less than 1" in said

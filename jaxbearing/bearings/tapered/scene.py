@@ -44,6 +44,9 @@ from ..warm import thermal_problems
 from ..warming.settings import WarmUpSimulation
 from .geometry import TaperedGeometry
 
+LOAD_POSITION = "reference point from the apex (of the rollers' middle: negative)"
+"""Label of the field."""
+
 
 class TaperedOperation(AbstractOperation):
     """Operating point of a tapered roller bearing: the batched part of a sweep.
@@ -52,10 +55,11 @@ class TaperedOperation(AbstractOperation):
     rollers are alike, and one of them is solved for.
 
     **Arguments:** those of `AbstractOperation`, of the reference point, and
-    - `load_position`: of the reference point, from the apex along the axis, m; the rollers are on its negative side.
+    - `load_position`: of the reference point, from the common apex of the cones along the axis, m. The rollers are on
+      the apex's negative side: the middle of their row is at `middle_position` of the scene, a negative number.
     """
 
-    load_position: Scalar = number(0.0, kw_only=True, metadata=label("m", "reference point from the apex"))
+    load_position: Scalar = number(0.0, kw_only=True, metadata=label("m", LOAD_POSITION))
 
     def _conflicts(self) -> Iterator[str | ValueError]:
         yield from super()._conflicts()
@@ -199,6 +203,11 @@ class TaperedRollerBearing(AbstractBearing):
         geometry, half = self.geometry, jnp.asarray(self.geometry.roller_half_angle)
         along = 0.5 * geometry.roller_diameter / jnp.tan(half) - 0.5 * geometry.roller_length * jnp.cos(half)
         return along * jnp.cos(geometry.axis_angle) + self.operation.load_position
+
+    @property
+    def middle_position(self) -> Array:
+        """The `load_position` of the middle of the row of rollers, m: less than 0."""
+        return self.operation.load_position - self.port_distance
 
     def unused_parts(self) -> tuple[str, ...]:
         """Tables that the scene names but that have no effect."""

@@ -195,7 +195,10 @@ def _point_of_moments(solution: Solution) -> str:
     position = getattr(solution.operation, "load_position", None)
     if position is None:
         return ""
-    return " about the apex" if float(np.asarray(position)) == 0.0 else " about the load position"
+    place = float(np.asarray(position))
+    if place == 0.0:
+        return " about the apex (operation.load_position = 0)"
+    return f" about the load position, {1e3 * place:.4g} mm from the apex (operation.load_position)"
 
 
 def _stiffness(solution: Solution) -> Iterator[str]:

@@ -33,22 +33,25 @@ def operating_point(solution: Solution) -> str:
     """The operating point in words: "inner ring speed 10500 rpm, radial load 25 kN". A fixed outer ring is not said."""
     hidden, operation = unused_operation(solution), solution.operation
     said = []
-    for field, given in _numbers(operation):
+    for part, field, given in _numbers(operation):
         value = float(np.asarray(given))
+        moved = float(np.asarray(getattr(solution.ring, field.name, np.nan)))
+        if part is operation.displacement and np.isfinite(moved):
+            value = moved  # on a shaft the displacement is a result
         if field.name in hidden or (field.name in ("outer_speed", "load_position") and value == 0.0):
             continue
         said.append(f"{field.metadata['description']} {_with_unit(value, field.metadata['unit'])}")
     return ", ".join(said)
 
 
-def _numbers(part: Any) -> Iterator[tuple[dataclasses.Field[Any], Any]]:
-    """Fields of an operating point that hold a number, those of its parts too, and the number."""
+def _numbers(part: Any) -> Iterator[tuple[Any, dataclasses.Field[Any], Any]]:
+    """Fields of an operating point that hold a number, those of its parts too: the part, the field, the number."""
     for field in dataclasses.fields(part):
         given = getattr(part, field.name)
         if dataclasses.is_dataclass(given):
             yield from _numbers(given)
         elif given is not None:
-            yield field, given
+            yield part, field, given
 
 
 def field_text(operation: AbstractOperation, name: str, significant: int = 6) -> str:

@@ -15,6 +15,8 @@ NAMES = "bearing\n"
 """Heading of the names of bearings."""
 _LEAST_MOVE = 1e-13
 """Displacements, m, and tilts, rad, up to which they are shown as 0: round-off."""
+CARRIES = 1e-3
+"""Axial force over the largest one of a set up to which a bearing carries none."""
 _LEAST = 1e-9
 """Loads smaller than this part of the largest one are shown as 0: round-off."""
 
@@ -94,10 +96,12 @@ def loss_of(one: BearingOnShaft) -> float | None:
 def set_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     """Name of a set, and what is known of it in words."""
     for name, one in solution.sets.items():
-        yield name, ", ".join(_set_parts(one))
+        own = [bearing for bearing in solution.bearings.values() if bearing.name.startswith(f"{name}.")]
+        yield name, ", ".join(_set_parts(one, own))
 
 
-def _set_parts(one: SetResult) -> Iterator[str]:
+def _set_parts(one: SetResult, bearings: Sequence[BearingOnShaft]) -> Iterator[str]:
+    """**Arguments:** `bearings`: those of the set."""
     preload, closure = number(one.preload), number(one.closure)
     if preload is not None:
         yield f"preload {with_unit(preload, 'N')} mounted"
@@ -107,8 +111,15 @@ def _set_parts(one: SetResult) -> Iterator[str]:
     if springs is not None:
         yield f"springs {with_unit(springs, 'N')}"
     if loss is not None:
-        yield f"lost at {with_unit(loss, 'N')} axial load at rest"
+        yield f"lost at {with_unit(loss, 'N')} axial load at rest without radial load ({_carry(bearings)})"
     yield f"support distance {1e3 * float(one.support_distance):.1f} mm"
+
+
+def _carry(bearings: Sequence[BearingOnShaft]) -> str:
+    """Says which bearings of a set carry no axial force here."""
+    forces = {one.name: abs(float(one.on_shaft[0])) for one in bearings}
+    free = [name for name, force in forces.items() if force <= CARRIES * max(forces.values())]
+    return f"here {', '.join(free)} is unloaded" if free else "here all bearings carry"
 
 
 def life_fact(solution: ShaftSolution) -> str:
