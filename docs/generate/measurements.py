@@ -50,7 +50,7 @@ def block(one: Comparison, found: Found) -> str:
         f"**Kind of data:** {one.kind}.",
         f"**Conditions:** {one.conditions}",
         f"{DEVIATION}{found.deviation}.",
-        f"**Fitted or chosen:** {one.free}",
+        f"**Fitted or chosen:** {' '.join(filter(None, (one.free, found.told)))}",
         f"**Not known and assumed:** {one.assumed}",
         f"**Not reproduced:** {one.missed}",
         f"**Verdict:** {one.sentence}",

@@ -44,6 +44,7 @@ def test_the_kept_numbers_are_what_is_computed(name):
     assert list(found.headings) == list(kept.headings)
     assert_same_numbers(found.table, kept.table)
     assert_same_numbers(found.deviation, kept.deviation)
+    assert_same_numbers(found.told, kept.told)
     assert found.deviations.keys() == kept.deviations.keys()
     for what, one in found.deviations.items():
         assert one == pytest.approx(kept.deviations[what], rel=2e-3, abs=2e-5 if name == "hertz" else 2e-4), what
@@ -119,8 +120,7 @@ def test_numbers_of_the_text_on_heat():
     assert belief("nasa_35", guide.NO).endswith(f"up to {max(percents('nasa_35', cold))} % too high")
     found, said = (heats[one] for one in KEPT["nasa_35"].headings[6:8])
     off = [one - other for one, other in zip(found, said, strict=True)]
-    assert f"the inner ring is {-min(off):.0f} K too cold to {max(off):.0f} K too hot" in PAGE
-    assert f"{-min(off):.0f} K colder to {max(off):.0f} K hotter" in PAGE
+    assert f"the computed inner ring is {-min(off):.0f} K below to {max(off):.0f} K above them" in PAGE
     assert f"up to {max(off):.0f} K hotter" in COMPARISONS["nasa_35"].missed
 
 
@@ -140,6 +140,21 @@ def test_numbers_of_the_text_on_the_bath():
     assert palmgren <= 28 < palmgren + 2
     assert "within 28 per cent" in COMPARISONS["trb_32216"].sentence
     left_out = percents("trb_32216_left_out", "supply of a bath")
+    bath = percents("trb_32216", "supply of a bath")
+    least, worst = (1.0 + 0.01 * one for one in (min(bath), max(left_out)))
+    answer = belief("trb_32216", guide.BELIEVE)
+    assert f"to a factor of {worst:.1f}, on the high side" in answer
+    assert f"between {1.0 / worst:.2f} and {1.0 / least:.2f} of the result" in answer
+    assert f"it is {1.0 + 0.01 * min(left_out):.1f} to {worst:.1f} times the measured one" in answer
+    assert f"to a factor of {worst:.1f}, on the high side" in COMPARISONS["trb_32216"].sentence
+    also = 1.0 + 0.01 * max(percents("trb_32216_left_out", "flooded"))
+    assert f"in Figure 7 up to {also:.1f} times" in COMPARISONS["trb_32216"].sentence
+    parts = [
+        numbers(one)[0] / numbers(other)[0]
+        for one, other in zip(column("trb_32216", "supply of a bath"), column("trb_32216", "flooded"), strict=True)
+    ]
+    assert {f"{one:.2f}" for one in parts} == {"0.65"}
+    assert "this gave 0.65 of the flooded torque" in PAGE
     assert numbers(KEPT["trb_32216_left_out"].deviation)[:2] == [min(left_out), max(left_out)]
     assert min(left_out) > COMPARISONS["trb_32216"].believe
     assert not {point.figure for point in torque.points_32216()} & set(torque.LEFT_OUT)
@@ -160,6 +175,12 @@ def test_numbers_of_the_text_on_the_32008():
     assert f"{min(fast)} to {max(fast)} per cent too high" in one.sentence
     assert f"there the torque comes out {min(fast)} to {max(fast)} % too high at 2200 rpm" in PAGE
     assert max(at(400)) < 0 < min(at(1800, 2200))
+    answer = belief("trb_32008", guide.BELIEVE)
+    assert f"{-max(at(400))} to {-min(at(400))} % too low at 400 rpm" in answer
+    assert f"{min(fast)} to {max(fast)} % too high at 2200 rpm" in answer
+    compared = [off for (_, rpm), point in points.items() for off in point[3:] if rpm > torque.SLOW]
+    assert f"{len(compared)} comparisons" in one.sentence
+    assert f"it is off by {min(compared)} to +{max(compared)} %" in PAGE
     speeds = {rpm for _, rpm in points}
     assert len(KEPT["trb_32008"].deviations) == 2 * 2 * (len(speeds) - 1)
     agree = {place for place, point in points.items() if abs(point[1] / point[0] - 1.0) < 0.07}
@@ -179,13 +200,17 @@ def test_numbers_of_the_text_on_the_32008():
 def test_numbers_of_the_text_on_reference_speeds():
     flooded = -min(percents("reference_model", "model, flooded, rpm"))
     assert f"flooded it is up to {flooded} per cent too low" in COMPARISONS["reference_model"].sentence
-    assert f"flooded {flooded} %" in belief("reference_model", guide.BELIEVE)
+    assert f"flooded to 60 % ({flooded} % is the largest" in belief("reference_model", guide.BELIEVE)
     losses = [float(row[-1]) for row in KEPT["reference_model"].rows]
     said = f"{min(losses)} to {max(losses)} times the heat that leaves"
     assert said in COMPARISONS["reference_model"].sentence
     assert said in belief("reference_model", guide.NO)
     medians = {row[0]: numbers(row[2])[0] for row in KEPT["reference_formula"].rows}
     assert [series for series, one in medians.items() if one >= 0] == ["NU 4"]
+    high = {row[0]: numbers(row[3].replace(" to ", " "))[1] for row in KEPT["reference_formula"].rows}
+    assert [series for series, one in high.items() if one >= 0] == ["NU 4"]
+    assert f"up to {high['NU 4']:.0f} per cent too high" in COMPARISONS["reference_formula"].sentence
+    assert f"up to {high['NU 4']:.0f} % high" in belief("reference_formula", guide.BELIEVE)
 
 
 def test_numbers_of_the_text_on_traction_and_shocks():
@@ -204,7 +229,11 @@ def test_numbers_of_the_text_on_traction_and_shocks():
     missed = COMPARISONS["shocks"].missed
     assert f"the printed load grows {min(own):.1f} to {max(own):.1f} times" in missed
     assert f"the computed mean {min(growth):.1f} to {max(growth):.1f} times" in missed
-    # with the load the printed shocks grow and the computed means fall
+    # with the load the printed shocks and the computed rear loads grow, the computed front loads and means fall
+    for row in (0, 1):
+        for light, heavy in zip(pairs[row], pairs[row + 2], strict=True):
+            assert heavy[0] < light[0]
+            assert heavy[1] > light[1]
     assert all(printed[row + 2] > printed[row] for row in (0, 1))
     assert all(means[row + 2][place] < means[row][place] for row in (0, 1) for place in range(3))
 
@@ -231,12 +260,15 @@ def test_numbers_of_the_text_on_the_predicted_loss():
     value, *ends = (float(cell) for cell in rows[1][4:7])
     largest, law = 100.0 * max(abs(end / value - 1.0) for end in ends), COMPARISONS["trb_32008"].believe
     sentence, part = COMPARISONS["turbine_roller"].sentence, 1.0 - plain / whole
-    assert f"{1e-3 * whole:.1f} kW within about 50 per cent" in sentence
-    assert f"leave up to {largest:.0f} per cent" in sentence
-    assert f"is {law:.0f} per cent uncertain" in sentence
-    assert f"makes {100.0 * part:.0f} per cent of the total, which is {law * part:.0f} per cent of it" in sentence
-    assert f"make {np.hypot(largest, law * part):.0f} per cent together" in sentence
-    assert f"if they add, {largest + law * part:.0f} per cent" in sentence
+    assert f"{1e-3 * whole:.1f} kW within about 50 to 65 per cent" in sentence
+    assert f"leave up to {largest:.1f} per cent" in sentence
+    assert f"is {100.0 * part:.0f} per cent of the loss and may be wrong by {law:.0f} per cent" in sentence
+    assert f"wrong by about {law * part:.1f} per cent from this cause" in sentence
+    assert f"the total error is about {np.hypot(largest, law * part):.0f} per cent" in sentence
+    assert f"if both go the same way, {largest + law * part:.0f} per cent" in sentence
+    low, high = (1e-3 * whole * (1.0 + sign * 0.01 * (largest + law * part)) for sign in (-1.0, 1.0))
+    assert f"means {low:.1f} to {high:.1f} kW" in sentence
+    assert f"uncertain by 50 to {largest + law * part:.0f} %" in belief("turbine_roller", guide.UNKNOWN)
     assert COMPARISONS["turbine_roller"].believe is None
 
 
@@ -262,6 +294,9 @@ def test_every_quantity_has_an_answer():
     # a whole series of spindle bearings with one conformity
     series = [abs(one) for cell in column("rigidity", KEPT["rigidity"].headings[3]) for one in numbers(cell)]
     assert max(series) < 15.0
+    every_one = [numbers(cell.replace(" to ", " ")) for cell in column("rigidity", "conformities of the bearings")]
+    fitted = f"lie between {min(map(min, every_one)):.3f} and {max(map(max, every_one)):.3f}"
+    assert any(fitted in row.belief for row in guide.ROWS if row.quantity == "axial stiffness")
     assert any("to 15 %" in row.belief for row in guide.ROWS if row.comparison == "rigidity")
 
 

@@ -173,13 +173,14 @@ COMPARISONS = (
         free="Nothing was fitted.",
         assumed="The factors f0 (part of the speed) and f1 (part of the load) are those of another maker (INA), for "
         "an oil bath.",
-        missed="The formula is too low: the median of every series but NU 4 lies below the print. The maker "
-        "uses its own law of friction, as far as we know. Whether this is the whole reason is not known.",
+        missed="The formula is too low: the median of every series but NU 4 lies below the print. NU 4 has three "
+        "bearings, of which four in five means nothing; they are up to 4 % too high. The maker uses its "
+        "own law of friction, as far as we know. Whether this is the whole reason is not known.",
         believe=60.0,
         data_error=10.0,
-        verdict="Believe the standard's formula to about {believe} per cent, on the low side for ball and for roller "
-        "bearings; four bearings of five lie within. A low reference speed is the cautious side. This checks a formula "
-        "against a maker's calculation, and no measured temperature.",
+        verdict="Believe the standard's formula to about {believe} per cent; four bearings of five lie within. It "
+        "is on the low and thus cautious side, but for NU 4, whose three bearings are up to 4 per cent too "
+        "high. This checks a formula against a maker's calculation, and no measured temperature.",
         compute=reference_speeds,
         dear=False,
     ),
@@ -198,10 +199,11 @@ COMPARISONS = (
         "is farther off than the formula, and the reason is not known.",
         believe=50.0,
         data_error=10.0,
-        verdict='With `contact.supply.level = "bath"` believe a thermal reference speed to about {believe} per '
-        "cent, on the low and thus cautious side; flooded it is up to 54 per cent too low. The loss at the printed "
-        "speed is 2.1 to 3.6 times the heat that leaves there, so do not believe an absolute loss in an oil bath "
-        "from this.",
+        verdict='Four bearings, three with balls and one NU. With `contact.supply.level = "bath"` believe a '
+        "thermal reference speed to about {believe} per cent, on the low and thus cautious side. Of these "
+        "four, flooded it is up to 54 per cent too low; so flooded believe it to 60 per cent. The loss at "
+        "the printed speed is 2.1 to 3.6 times the heat that leaves there, so do not trust an absolute "
+        "loss in an oil bath.",
         compute=model_speeds,
     ),
     Comparison(
@@ -218,11 +220,13 @@ COMPARISONS = (
         "prints no conformity, and that one number does not fit all sizes.",
         believe=5.0,
         data_error=2.0,
-        verdict="Believe an axial stiffness to about {believe} per cent, if the conformity was fitted to one printed "
-        "rigidity of the same bearing, and to about 15 per cent, if one conformity stands for a whole series. Four "
-        "bearings of five lie within. The smallest bearings are no check, since their print is rounded by up to 10 per "
-        "cent. A preload was not compared: it is an input here. The preload for a wanted stiffness is about three "
-        "times as uncertain as the stiffness.",
+        verdict="Believe an axial stiffness at rest to about {believe} per cent, if the conformity was fitted to "
+        "one printed rigidity of the same bearing. Believe it to about 15 per cent, if one conformity was "
+        "fitted to all printed rigidities of its series. Four bearings of five lie within. With a "
+        "conformity that was not fitted, or at speed, the error is not computed here. The smallest "
+        "bearings are no check, since their print is rounded by up to 10 per cent. A preload was not "
+        "compared: it is an input here. Stiffness grows only as the cube root of preload, so an error of 5 "
+        "per cent in stiffness is about 15 per cent in preload.",
         compute=rigidity,
     ),
 )

@@ -20,12 +20,14 @@ class Found(NamedTuple):
     - `headings`, `rows`: of its table, texts.
     - `deviations`: what -> model over measurement, less 1: those that the verdict is about.
     - `said`: the deviation in words, where it is none in per cent.
+    - `told`: a sentence on what was fitted, where numbers of the comparison stand in it.
     """
 
     headings: Sequence[str]
     rows: Sequence[Sequence[str]]
     deviations: Mapping[str, float]
     said: str = ""
+    told: str = ""
 
     @property
     def deviation(self) -> str:

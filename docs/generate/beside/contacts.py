@@ -145,8 +145,10 @@ COMPARISONS = (
         missed="The one number that was left out is missed by 4.4 %. It is probably a misprint.",
         believe=1.0,
         data_error=0.5,
-        verdict="Believe the distribution of the load over the balls to {believe} per cent of the classical theory "
-        "with rigid rings. A flexible housing is not checked by it.",
+        verdict="Believe the integrals of the load over the balls, Jr and Ja, and their ratio to {believe} per "
+        "cent of the classical theory with rigid rings. One printed ratio, probably a misprint, is left "
+        "out of this number. The load of a single ball was not compared, and a flexible housing is not "
+        "checked by it.",
         compute=load_distribution,
         dear=False,
     ),
@@ -164,8 +166,10 @@ COMPARISONS = (
         "orbit or lighter balls. The reason is not known.",
         believe=0.2,
         data_error=0.01,
-        verdict="Believe the balance of forces on a fast ball to {believe} per cent, for a known orbit. It is one "
-        "point, and half of a fit. It does not check cage speed and slip.",
+        verdict="At this one point believe contact angles, loads and pressures to {believe} per cent, for a known "
+        "orbit and with three inputs fitted to the print, the density of the balls among them. Half of it "
+        "is a fit, and about three numbers are checks. With inputs that are not fitted the error is not "
+        "computed here. Do not trust cage speed and slip: those of the print are not reproduced.",
         compute=harris_mindel,
         dear=False,
     ),
@@ -185,7 +189,8 @@ COMPARISONS = (
         believe=5.0,
         data_error=0.5,
         verdict="Believe the formulas of smooth, flooded, isothermal line contacts to about {believe} per cent, on "
-        "the low side. These are calculations. No measured film and no film of a ball contact is among the data.",
+        "the low side. They were compared with four numbers of two calculations, and two readings of the "
+        "print were chosen to fit. No measured film and no film of a ball contact is among the data.",
         compute=films,
     ),
     Comparison(
@@ -205,8 +210,9 @@ COMPARISONS = (
         "possible reasons. The true one is not known.",
         believe=35.0,
         data_error=10.0,
-        verdict="Measure the traction curve of your own oil. The law that is fitted to it then follows to about "
-        "{believe} per cent at each point. Do not take a traction coefficient of an oil that was not measured as a "
+        verdict="Measure the traction curve of your own oil. One curve of an unnamed oil was fitted, and the law "
+        "follows it to about {believe} per cent at each point. How well it follows the curve of another "
+        "oil is not computed here. Do not take a traction coefficient of an oil that was not measured as a "
         "prediction: nothing here checks one.",
         compute=traction,
     ),

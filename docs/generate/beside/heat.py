@@ -51,20 +51,26 @@ COMPARISONS = (
         kind="measured",
         conditions="The bore is 35 mm, with 16 balls of 7.14 mm and a contact angle of 24°. The axial load is 667 N. "
         "760 cm³/min of oil enter at 394 K (121 °C). Mobil Jet II is our assumption.",
-        free="No number was fitted. The drag coefficient is the law of a lone ball, not the package's estimate for "
-        "balls in a row. The fraction of oil in the bearing is Parker's law. The same author probably fitted it to "
-        "bearings of this size, so this is not a fully independent test.",
+        free="No number was fitted. The drag coefficient is the law of a lone ball, not the package's estimate "
+        "for balls in a row; the heat with that estimate is not computed here. Whether this law was chosen "
+        "before these data were seen is not on record. The fraction of oil in the bearing is Parker's law. "
+        "The same author probably fitted it to bearings of this size, so this is not a fully independent "
+        "test.",
         assumed="Conformities, cage, its clearances and its guidance, the oil and its heat capacity are assumed. No "
         "heat goes to the ambient. A cage guided by the outer ring would change the heat at the highest speed by up "
         "to 18 %.",
-        missed="The measured heat rises less steeply with the speed than the computed one. The computed inner ring "
-        "is up to 40 K hotter than the temperature that a third party gives. Neither reason is known. Three times "
-        "the heat transfer from ring to oil would remove the 40 K.",
+        missed="The measured heat rises less steeply with the speed than the computed one. The computed inner "
+        "ring is up to 40 K hotter than the temperature that a third party gives. Three times the heat "
+        "transfer from ring to oil would remove the 40 K. But that temperature is unverified, so it counts "
+        "neither for nor against the model. Neither reason is known.",
         believe=25.0,
         data_error=3.0,
-        verdict="Between 28 000 and 72 000 rpm believe the heat to about {believe} per cent, if the temperatures are "
-        "computed from the losses (table `[thermal]` of the scene file). If all oil is taken at its inlet temperature, "
-        "the heat is up to 53 per cent too high. Do not extrapolate to lower speeds: the error has a slope.",
+        verdict="One bearing, four speeds. Between 28 000 and 72 000 rpm believe the heat to about {believe} per "
+        "cent, if the temperatures are computed from the losses (table `[thermal]` of the scene file) and "
+        "the balls' drag is that of a lone ball. With the package's estimate for balls in a row the error "
+        "is not computed here. If all oil is taken at its inlet temperature, the heat is up to 53 per cent "
+        "too high. Do not extrapolate to lower speeds: the error has a slope. No data say whether bore "
+        "times speed carries it to another bore.",
         compute=heat_35,
     ),
     Comparison(

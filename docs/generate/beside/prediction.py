@@ -121,9 +121,11 @@ def turbine_roller() -> Found:
     before, both = (_in_words(intervals[place]) for place in (1, -1))
     said = (
         f"none, because nothing was measured; the estimate is {before} by our judgement alone, {both} after both data "
-        f"sets; on the test rigs the balls' drag coefficient is {balls.median:.2f} within a factor of "
-        f"{math.exp(balls.deviation):.2f}, the layer at the inlets of the bath {bath.median:.1f} central films within "
-        f"{math.exp(bath.deviation):.2f}"
+        "sets"
+    )
+    told_by = (
+        f"The tests point to a drag coefficient of {in_range(balls, 2)} for balls and to a layer at the inlets of the "
+        f"bath of {in_range(bath, 1)} central films; two thirds of the probability lie in the brackets."
     )
     headings = [
         "model",
@@ -133,7 +135,13 @@ def turbine_roller() -> Found:
         "total, W",
     ]
     headings += ["5 % limit", "95 % limit"]
-    return Found(headings, rows, {}, said)
+    return Found(headings, rows, {}, said, told_by)
+
+
+def in_range(one: Told, places: int) -> str:
+    """The median, and the ends of one standard deviation of the logarithm."""
+    low, high = (one.median * math.exp(sign * one.deviation) for sign in (-1.0, 1.0))
+    return f"{one.median:.{places}f} ({low:.{places}f} to {high:.{places}f})"
 
 
 def _in_words(one: PowerInterval) -> str:
@@ -174,10 +182,14 @@ COMPARISONS = (
         "times smaller.",
         believe=None,
         data_error=100.0,
-        verdict="This is an estimate that nothing checks: 5.1 kW within about 50 per cent. The uncertain drag and "
-        "supply leave up to 28 per cent. The law of rolling resistance is 50 per cent uncertain (the 32008) and "
-        "makes 73 per cent of the total, which is 36 per cent of it. Independent errors make 46 per cent together; "
-        "if they add, 65 per cent. The data sets narrow only the first part, and only under the assumption above.",
+        verdict="This is an estimate for one bearing at one point, and nothing checks it: 5.1 kW within about 50 "
+        "to 65 per cent. The uncertain drag and supply leave up to 28.5 per cent. Rolling resistance is 73 "
+        "per cent of the loss and may be wrong by 50 per cent (the 32008), so the loss may be wrong by "
+        "about 36.4 per cent from this cause. If the two errors are unrelated, the total error is about 46 "
+        "per cent; if both go the same way, 65 per cent. The first is an interval of 90 per cent "
+        "probability and the second a band of one other bearing, so their sum is rough. Here a per cent "
+        "is one of the estimate itself: 65 per cent means 1.8 to 8.5 kW. The data sets "
+        "narrow only the first part, and only under the assumption above.",
         compute=turbine_roller,
     ),
 )

@@ -49,13 +49,14 @@ COMPARISONS = (
         free="Nothing was fitted. Three drag coefficients were tried, and the deviation covers all three. We know "
         "of no way to choose one in advance.",
         assumed="The drag coefficient, and contact stiffness and damping between roller and pocket are assumed.",
-        missed="The printed load grows with the radial load, the computed one falls, because a higher load lowers "
-        "the slip. Why the source's does not is not known. From 10 000 to 14 000 rpm the printed load grows 1.4 to "
-        "1.5 times, the computed mean 1.5 to 4.1 times.",
+        missed="The printed load grows with the radial load. The computed front loads and means fall, because a "
+        "higher load lowers the slip, and all computed rear loads rise. Why the source's does not fall is "
+        "not known. From 10 000 to 14 000 rpm the printed load grows 1.4 to 1.5 times, the computed mean "
+        "1.5 to 4.1 times.",
         believe=None,
         data_error=100.0,
         verdict="Do not trust a shock load. A single one is from a twentieth to 8.5 times the printed one. Do not "
-        "trust its trend with the load either.",
+        "trust its trend with the load either: front and rear loads have opposite ones.",
         compute=shocks,
         dear=False,
     ),
@@ -73,9 +74,10 @@ COMPARISONS = (
         "has less slip is not known.",
         believe=None,
         data_error=100.0,
-        verdict="Believe that the loss grows with speed and oil flow, and falls with oil temperature. About half of "
-        "the statements fail. Do not trust the trend of the loss with the load, the cage slip, the trend with the "
-        "guiding clearance of the cage, or the part of the cage lands.",
+        verdict="Believe that the loss grows with speed and oil flow, and falls with oil temperature. About half "
+        "of the statements fail. Do not trust the trend of the loss with the load, the cage slip, or the "
+        "heat of flanges and of sliding at light load. Nor trust the trend with the guiding clearance of "
+        "the cage, or the part of the cage lands.",
         compute=claims,
         dear=False,
     ),
