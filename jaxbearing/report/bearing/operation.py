@@ -38,7 +38,8 @@ def operating_point(solution: Solution) -> str:
     said = []
     for part, field, given in _numbers(operation):
         value = float(np.asarray(given))
-        words, moved = field.metadata["description"], float(np.asarray(getattr(solution.ring, field.name, np.nan)))
+        words, own = field.metadata["description"], getattr(solution.ring, field.name, None)
+        moved = np.nan if own is None else float(np.asarray(own))
         if part is operation.displacement and np.isfinite(moved) and not math.isclose(moved, value, rel_tol=1e-9):
             # on a shaft the displacement is a result
             value, words = moved if abs(moved) > ROUND_OFF else 0.0, words.removeprefix("given ")
