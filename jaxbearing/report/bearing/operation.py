@@ -11,6 +11,9 @@ from ...bearings.operation import AbstractOperation
 from ...bearings.solution import Solution
 from ..display import ZERO_CELSIUS, display_unit, displayed
 
+ROUND_OFF = 1e-13
+"""Displacement that is shown as 0, m."""
+
 
 def unused_operation(solution: Solution) -> set[str]:
     """Names in the operating point that no modelled part depends on: a scene need not give them."""
@@ -35,12 +38,14 @@ def operating_point(solution: Solution) -> str:
     said = []
     for part, field, given in _numbers(operation):
         value = float(np.asarray(given))
-        moved = float(np.asarray(getattr(solution.ring, field.name, np.nan)))
-        if part is operation.displacement and np.isfinite(moved):
-            value = moved  # on a shaft the displacement is a result
+        words, own = field.metadata["description"], getattr(solution.ring, field.name, None)
+        moved = np.nan if own is None else float(np.asarray(own))
+        if part is operation.displacement and np.isfinite(moved) and not math.isclose(moved, value, rel_tol=1e-9):
+            # on a shaft the displacement is a result
+            value, words = moved if abs(moved) > ROUND_OFF else 0.0, words.removeprefix("given ")
         if field.name in hidden or (field.name in ("outer_speed", "load_position") and value == 0.0):
             continue
-        said.append(f"{field.metadata['description']} {_with_unit(value, field.metadata['unit'])}")
+        said.append(f"{words} {_with_unit(value, field.metadata['unit'])}")
     return ", ".join(said)
 
 

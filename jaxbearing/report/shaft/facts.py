@@ -50,7 +50,7 @@ def bearing_columns(solution: ShaftSolution) -> dict[str, list[str]]:
         "at\ndeg": [_azimuth(one) if radial[i] else "-" for i, one in enumerate(bearings)],
         "moment\nN m": [f"{_above(float(one.moment), moment):{_width(moment, 2)}}" for one in bearings],
         "Q max\nN": [text(one.largest_load) for one in bearings],
-        "L10r\n10^6 rev": [_life(one) for one in bearings],
+        "L10r\n10^6 rev": _lives(bearings),
         "loss\nW": [text(loss_of(one)) for one in bearings],
     }
 
@@ -75,16 +75,22 @@ def _column(values: Sequence[float], decimals: int) -> list[str]:
     return [f"{value:.{decimals}f}" for value in values]
 
 
-def _life(one: BearingOnShaft) -> str:
-    """Life in millions of revolutions; "-" without a rating, and of a bearing that carries nothing."""
-    found = None if one.life is None else number(one.life.L10r)
-    return (
-        "-"
-        if found is None
-        else f"{found:.3g}"
-        if found < 1e4
-        else f"{found:.2e}".replace("e+0", "e").replace("e+", "e")
-    )
+def _lives(bearings: Sequence[BearingOnShaft]) -> list[str]:
+    """Lives in millions of revolutions, all in one form; "-" without a rating, and of a bearing without load."""
+    found = [None if one.life is None else number(one.life.L10r) for one in bearings]
+    powers = any(life is not None and life >= 1e4 for life in found)
+    return ["-" if life is None else _power_of_ten(life) if powers else f"{life:.4g}" for life in found]
+
+
+def _power_of_ten(value: float) -> str:
+    return f"{value:.2e}".replace("e+0", "e").replace("e+", "e")
+
+
+def hours_fact(solution: ShaftSolution) -> str:
+    """Life of each bearing in hours; "" without one."""
+    lives = {name: one.life for name, one in solution.bearings.items() if one.life is not None}
+    hours = {name: number(life.L10r_hours) for name, life in lives.items()}
+    return ", ".join(f"{name} {digits(value)} h" for name, value in hours.items() if value is not None)
 
 
 def loss_of(one: BearingOnShaft) -> float | None:
