@@ -116,8 +116,9 @@ def test_numbers_of_the_text_on_heat():
     assert f"that of the model grows to the power of {min(solved):.1f} to {max(solved):.1f}" in PAGE
     assert f"at its inlet temperature to the power of {exponent(rpm, heats[cold]):.1f}" in PAGE
     sentence = COMPARISONS["nasa_35"].sentence
-    assert f"the heat is up to {max(percents('nasa_35', cold))} per cent too high" in sentence
-    assert belief("nasa_35", guide.NO).endswith(f"up to {max(percents('nasa_35', cold))} % too high")
+    low, high = -min(percents("nasa_35", cold)), max(percents("nasa_35", cold))
+    assert f"the heat is between {low} per cent too low and {high} per cent too high" in sentence
+    assert belief("nasa_35", guide.NO).endswith(f"between {low} % too low and {high} % too high")
     found, said = (heats[one] for one in KEPT["nasa_35"].headings[6:8])
     off = [one - other for one, other in zip(found, said, strict=True)]
     assert f"the computed inner ring is {-min(off):.0f} K below to {max(off):.0f} K above them" in PAGE
@@ -256,7 +257,9 @@ def test_numbers_of_the_text_on_the_predicted_loss():
     plain, whole = (float(row[4]) for row in rows[:2])
     assert f"the total is {whole / plain:.1f} times as large" in PAGE
     assert f"{whole / plain:.1f} times smaller" in COMPARISONS["turbine_roller"].missed
-    assert f"{whole / plain:.1f} times smaller" in belief("turbine_roller", guide.UNKNOWN)
+    for text in (belief("turbine_roller", guide.UNKNOWN), COMPARISONS["turbine_roller"].sentence):
+        assert f"prints {1e-3 * plain:.1f} kW" in text
+        assert f"{1e-3 * whole:.1f} kW" in text
     value, *ends = (float(cell) for cell in rows[1][4:7])
     largest, law = 100.0 * max(abs(end / value - 1.0) for end in ends), COMPARISONS["trb_32008"].believe
     sentence, part = COMPARISONS["turbine_roller"].sentence, 1.0 - plain / whole
@@ -268,6 +271,7 @@ def test_numbers_of_the_text_on_the_predicted_loss():
     assert f"if both go the same way, {largest + law * part:.0f} per cent" in sentence
     low, high = (1e-3 * whole * (1.0 + sign * 0.01 * (largest + law * part)) for sign in (-1.0, 1.0))
     assert f"means {low:.1f} to {high:.1f} kW" in sentence
+    assert f"the upper end {1e-3 * whole * (1.0 + part + 0.01 * largest):.0f} kW" in sentence
     assert f"uncertain by 50 to {largest + law * part:.0f} %" in belief("turbine_roller", guide.UNKNOWN)
     assert COMPARISONS["turbine_roller"].believe is None
 

@@ -86,7 +86,7 @@ ROWS = (
     Row(
         "loss, ball bearing",
         "the same, but all oil taken at its inlet temperature",
-        f"{NO}; it is up to 53 % too high",
+        f"{NO}; it is between 9 % too low and 53 % too high",
         "nasa_35",
     ),
     Row(
@@ -114,8 +114,9 @@ ROWS = (
     Row(
         "loss, cylindrical roller bearing",
         "circulating or jet oil",
-        f"{UNKNOWN}; an estimate for one bearing at one point (`turbine_roller`) is uncertain by 50 to 65 %. The "
-        "built-in scenes leave out the rolling resistance, and their total is 3.7 times smaller",
+        f"{UNKNOWN}; an estimate for one bearing at one point (`turbine_roller`) is uncertain by 50 to 65 %. That "
+        "is with rolling resistance and a jet's supply, 5.1 kW. The built-in scene as it stands leaves both out and "
+        "prints 1.4 kW: do not apply the per cent to that number",
         "turbine_roller",
     ),
     Row(
@@ -145,7 +146,7 @@ ROWS = (
         f"{BELIEVE} to a factor of 2.8, on the high side: the truth is between 0.36 and 0.83 of the result. Twelve "
         "points are within {trb_32216}; at five of Figure 7 it is 2.6 to 2.8 times the measured one. The "
         "default layer was chosen with knowledge of these torques. Palmgren's formula is the better choice: within "
-        "28 % at the twelve points",
+        "28 % at the twelve points; with Figure 7 it was not compared",
         "trb_32216",
     ),
     Row(
@@ -217,7 +218,7 @@ ROWS = (
         "speed limit: thermal reference speed",
         "formula of ISO 15312; 269 deep groove and NU bearings, bores of 10 to 480 mm",
         f"{BELIEVE} to {{reference_formula}}, on the low, cautious side but for NU 4 (up to 4 % high); four bearings "
-        "of five",
+        "of five, and of the fifth no number is here",
         "reference_formula",
     ),
     Row("other speed limits", "mechanical limit, cage strength, critical speeds of a shaft", UNKNOWN),

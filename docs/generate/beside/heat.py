@@ -68,9 +68,9 @@ COMPARISONS = (
         verdict="One bearing, four speeds. Between 28 000 and 72 000 rpm believe the heat to about {believe} per "
         "cent, if the temperatures are computed from the losses (table `[thermal]` of the scene file) and "
         "the balls' drag is that of a lone ball. With the package's estimate for balls in a row the error "
-        "is not computed here. If all oil is taken at its inlet temperature, the heat is up to 53 per cent "
-        "too high. Do not extrapolate to lower speeds: the error has a slope. No data say whether bore "
-        "times speed carries it to another bore.",
+        "is not computed here. If all oil is taken at its inlet temperature, the heat is "
+        "between 9 per cent too low and 53 per cent too high. Do not extrapolate to lower speeds: the error has a "
+        "slope. No data say whether bore times speed carries it to another bore.",
         compute=heat_35,
     ),
     Comparison(

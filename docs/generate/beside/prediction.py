@@ -183,13 +183,16 @@ COMPARISONS = (
         believe=None,
         data_error=100.0,
         verdict="This is an estimate for one bearing at one point, and nothing checks it: 5.1 kW within about 50 "
-        "to 65 per cent. The uncertain drag and supply leave up to 28.5 per cent. Rolling resistance is 73 "
+        "to 65 per cent. It has rolling resistance and a jet's supply. The built-in scene as it stands has neither "
+        "and prints 1.4 kW, to which the per cent do not apply. The uncertain drag and supply "
+        "leave up to 28.5 per cent. Rolling resistance is 73 "
         "per cent of the loss and may be wrong by 50 per cent (the 32008), so the loss may be wrong by "
         "about 36.4 per cent from this cause. If the two errors are unrelated, the total error is about 46 "
         "per cent; if both go the same way, 65 per cent. The first is an interval of 90 per cent "
         "probability and the second a band of one other bearing, so their sum is rough. Here a per cent "
-        "is one of the estimate itself: 65 per cent means 1.8 to 8.5 kW. The data sets "
-        "narrow only the first part, and only under the assumption above.",
+        "is one of the estimate itself, in both directions: 65 per cent means 1.8 to 8.5 kW. If the rolling "
+        "resistance were 50 per cent too low, the truth would be twice that part, and the upper end 10 kW. The data "
+        "sets narrow only the first part, and only under the assumption above.",
         compute=turbine_roller,
     ),
 )
