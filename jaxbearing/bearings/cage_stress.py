@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 class CageSection(eqx.Module):
-    """What the stresses of a cage depend on beside its speed and its loads."""
+    """The stresses of a cage depend on these numbers beside its speed and its loads."""
 
     mean_radius: Float[Array, ""] = eqx.field(metadata=label("m", "mean radius of the cage"))
     density: Float[Array, ""] = eqx.field(metadata=label("kg/m^3", "density of the cage"))

@@ -185,7 +185,7 @@ def shape_of(geometry: Geometry) -> TaperedShape:
 
 
 def best_in_words(bearing: Designation) -> str:
-    """What `laws = "best"` models of such a bearing, beside the drag."""
+    """Names what `laws = "best"` models of such a bearing, beside the drag."""
     return BEST_IN_WORDS.get(bearing.kind, BEST_OF_BALLS)
 
 

@@ -28,7 +28,7 @@ _LINE = re.compile(r"""\s*([\w.-]+)\s*=(?:[^#"']|"[^"]*"|'[^']*')*#\s*(.*)""")
 
 
 class Mark(NamedTuple):
-    """What the comment of a field says of its value.
+    """Tells what the comment of a field says of its value.
 
     **Arguments:** `word`: one of the values of `WORDS`, "" without a mark; `unmounted`: whether it is a clearance
     before mounting.

@@ -33,7 +33,7 @@ _KIND_EXAMPLE = 'kind = "cylindrical_roller_bearing"'
 
 
 class _Kind(NamedTuple):
-    """Where the code of a kind of scene is.
+    """Tells where the code of a kind of scene is.
 
     - `folder`: package with the modules `schema`, `build` and `writer`.
     - `table`: class in `schema` that validates a scene file.

@@ -48,7 +48,7 @@ the rolling that it stands for has a pole near 90 degrees."""
 
 
 PRESSED_ROUNDING = 10.0
-"""Of `AbstractArrowSystem.rounding`: a clearance of -2 um holds balls of 30 mm by 100 N beside a load of 1 N."""
+"""This is `AbstractArrowSystem.rounding`: a clearance of -2 um holds balls of 30 mm by 100 N beside a load of 1 N."""
 
 ORBIT_FLOOR = 1.0
 """Added to the scale of orbital speeds, rad/s, in squares: a bearing at rest has none."""
