@@ -119,8 +119,8 @@ def skidding(history: History) -> dict[str, Any]:
     """Tells where and when elements skid on each raceway; it is empty for families without `slide_to_roll`.
 
     It has the share of instants and elements with more than `SKID`, the largest and the mean sliding over rolling, the
-    share by azimuth (`SECTORS` from the load line) and the stretches of time (s) in which more than half of the elements
-    skid."""
+    share by azimuth (`SECTORS` from the load line) and the stretches of time (s) in which more than half of the
+    elements skid."""
     instants, found = history.instants, {}
     time = np.asarray(history.time)
     azimuth = np.mod(np.asarray(instants.elements.azimuth), 2.0 * math.pi)
