@@ -231,8 +231,8 @@ def assembled(
 def _assembled_through_inputs(
     system: AbstractArrowSystem, point: ArrowPoint, values: Array, tangents: Array, inner: Array
 ) -> tuple[Equations, ArrowJacobian]:
-    """As `assembled`, for a system with local inputs. The derivatives with respect to the local inputs are multiplied
-    by the derivatives of the inputs with respect to the globals (chain rule).
+    """Does what `assembled` does, for a system with local inputs. The derivatives with respect to the local inputs are
+    multiplied by the derivatives of the inputs with respect to the globals (chain rule).
 
     The block `contributions` then holds the derivatives of the global residuals, so `chain` is the unit matrix.
     """
