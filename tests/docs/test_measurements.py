@@ -252,27 +252,27 @@ def test_verdict_on_the_statements():
 
 
 def test_numbers_of_the_text_on_the_predicted_loss():
-    """The 50 per cent of the estimate: the judgement's interval, and the law's error on its part of the total."""
-    rows = KEPT["turbine_roller"].rows
-    plain, whole = (float(row[4]) for row in rows[:2])
+    """The range of the estimate: the judgement's interval, and the error of the law on the part that it adds."""
+    rows, sentence = KEPT["turbine_roller"].rows, COMPARISONS["turbine_roller"].sentence
+    answer = belief("turbine_roller", guide.UNKNOWN)
+    # kW: the total and the ends of its interval
+    (plain, *of_drag), (whole, *ends), *_, (flooded, *_) = ([1e-3 * float(cell) for cell in row[4:7]] for row in rows)
+    assert rows[0][0].startswith("without rolling resistance")
+    assert rows[-1][0] == "all losses, flooded inlets"
     assert f"the total is {whole / plain:.1f} times as large" in PAGE
     assert f"{whole / plain:.1f} times smaller" in COMPARISONS["turbine_roller"].missed
-    for text in (belief("turbine_roller", guide.UNKNOWN), COMPARISONS["turbine_roller"].sentence):
-        assert f"prints {1e-3 * plain:.1f} kW" in text
-        assert f"{1e-3 * whole:.1f} kW" in text
-    value, *ends = (float(cell) for cell in rows[1][4:7])
-    largest, law = 100.0 * max(abs(end / value - 1.0) for end in ends), COMPARISONS["trb_32008"].believe
-    sentence, part = COMPARISONS["turbine_roller"].sentence, 1.0 - plain / whole
-    assert f"{1e-3 * whole:.1f} kW within about 50 to 65 per cent" in sentence
-    assert f"leave up to {largest:.1f} per cent" in sentence
-    assert f"is {100.0 * part:.0f} per cent of the loss and may be wrong by {law:.0f} per cent" in sentence
-    assert f"wrong by about {law * part:.1f} per cent from this cause" in sentence
-    assert f"the total error is about {np.hypot(largest, law * part):.0f} per cent" in sentence
-    assert f"if both go the same way, {largest + law * part:.0f} per cent" in sentence
-    low, high = (1e-3 * whole * (1.0 + sign * 0.01 * (largest + law * part)) for sign in (-1.0, 1.0))
-    assert f"means {low:.1f} to {high:.1f} kW" in sentence
-    assert f"the upper end {1e-3 * whole * (1.0 + part + 0.01 * largest):.0f} kW" in sentence
-    assert f"uncertain by 50 to {largest + law * part:.0f} %" in belief("turbine_roller", guide.UNKNOWN)
+    assert f"with flooded inlets it is {flooded:.1f} kW" in sentence
+    assert f"lowers the loss from {flooded:.1f} to {whole:.1f} kW" in PAGE
+    added, law = whole - plain, 0.01 * COMPARISONS["trb_32008"].believe
+    part = added / (1.0 + law), added / (1.0 - law)
+    low, high = (end + one - added for end, one in zip(ends, part, strict=True))
+    for text in (answer, sentence):
+        assert f"prints {plain:.1f} kW" in text
+        assert f"{whole:.1f} kW, and the truth between {low:.1f} and {high:.1f} kW" in text
+    assert "on the screen, {:.1f} to {:.1f} kW".format(*of_drag) in sentence
+    assert "drag and supply leave {:.1f} to {:.1f} kW".format(*ends) in sentence
+    assert f"adds {added:.1f} of the {whole:.1f} kW and is believed to {100.0 * law:.0f} per cent" in sentence
+    assert "this part is between {:.1f} and {:.1f} kW".format(*part) in sentence
     assert COMPARISONS["turbine_roller"].believe is None
 
 

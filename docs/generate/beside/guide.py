@@ -114,9 +114,10 @@ ROWS = (
     Row(
         "loss, cylindrical roller bearing",
         "circulating or jet oil",
-        f"{UNKNOWN}; an estimate for one bearing at one point (`turbine_roller`) is uncertain by 50 to 65 %. That "
-        "is with rolling resistance and a jet's supply, 5.1 kW. The built-in scene as it stands leaves both out and "
-        "prints 1.4 kW: do not apply the per cent to that number",
+        f"{UNKNOWN}; we have an estimate for one bearing at one point (`turbine_roller`): 5.1 kW, and the truth "
+        "between 3.0 and 10.3 kW. It needs `contact.rolling_resistance = true` and "
+        '`contact.supply.level = "jet"`. The built-in scene as it stands has neither and prints 1.4 kW: do not '
+        "believe that number as a total",
         "turbine_roller",
     ),
     Row(

@@ -66,7 +66,7 @@ def prediction(found: Found) -> Page:
     axes.set_yticks(place, labels, fontsize=9)
     axes.set_ylim(len(labels) - 0.5, -0.5)
     axes.set_xlim(0.0, 1.15 * float(np.max(high)))
-    axes.set_xlabel("total loss of turbine_roller, W; interval of 90 %", fontsize=9)
+    axes.set_xlabel("total loss of turbine_roller, W; interval of 90 % from drag and supply alone", fontsize=9)
     axes.axvline(value[0], color=FAINT, linewidth=0.9, zorder=0)
     grid_lines(axes)
     return figure
