@@ -88,7 +88,7 @@ def summary(page: str, comparisons: Mapping[str, Comparison]) -> str:
     lines = ["| quantity | data | kind | deviation | believe to | verdict |", "|---|---|---|---|---|---|"]
     lines += [
         f"| [{one.quantity}](#{anchor(page, name)}) | {one.data} | {one.kind} | {deviation_of(page, name)} | "
-        f"{one.believed} | "
+        f"{one.believed}{one.beyond} | "
         f"{one.sentence if deviation_of(page, name) != '-' else 'not computed yet'} |"
         for name, one in comparisons.items()
     ]

@@ -17,7 +17,7 @@ def interval_listing(interval: PowerInterval) -> Listing:
     together = ("all of these", with_unit(interval.low, "W"), with_unit(interval.high, "W"), "")
     left_out = not_counted(part.path for part in interval.parts)
     remarks = (REMARK, f"{left_out[0].upper()}{left_out[1:]}.")
-    return Listing(TITLE, HEADINGS, [together, *rows] if len(rows) > 1 else rows, remarks)
+    return Listing(TITLE, HEADINGS, [together, *rows] if len(rows) > 1 else rows, remarks, in_words=True)
 
 
 def interval_headline(interval: PowerInterval) -> tuple[str, str]:

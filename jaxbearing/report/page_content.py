@@ -19,12 +19,16 @@ class Sketch:
 
 @dataclass(frozen=True)
 class Listing:
-    """A table of texts under a heading of its own, with remarks below it."""
+    """A table of texts under a heading of its own, with remarks below it.
+
+    - `in_words`: the last column holds words and is set as text; all other columns behind the first hold numbers.
+    """
 
     title: str
     headings: Sequence[str]
     rows: Sequence[Sequence[str]]
     remarks: Sequence[str] = ()
+    in_words: bool = False
 
 
 @dataclass(frozen=True)

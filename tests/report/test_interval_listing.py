@@ -41,7 +41,11 @@ def test_sentence():
 def test_page_shows_the_interval():
     scene = jb.load_scene("reference_roller", {"contact": "none"})
     solution = jb.solve(scene)
-    page = Page(html_report(scene, solution, "x", {}, WHEN, interval=BOTH)).text
+    text = html_report(scene, solution, "x", {}, WHEN, interval=BOTH)
+    # numbers stand at the right of their columns; words, which may take several lines, at the left
+    assert '<td class="n">733.0 W</td>' in text
+    assert f"<td>{DRAG.assumed}</td>" in text
+    page = Page(text).text
     assert TITLE in page
     assert "power loss, 90 % between" in page
     for row in interval_listing(BOTH).rows:

@@ -7,15 +7,18 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from pictures import outside, overlapping
 from roller_cases import HARD_CASES, changed, dry_roller, reference_roller, turbine_roller
 
 import jaxbearing as jb
 from jaxbearing.bearings.cylindrical.solution import PowerLoss
 from jaxbearing.numerics.status import Status
+from jaxbearing.report.backends.matplotlib.panels import draw
 from jaxbearing.report.bearing.panels import power_losses
 from jaxbearing.report.display import axis_unit
 from jaxbearing.report.drawing import draw_bearing
+from jaxbearing.report.panels import Bars
 from jaxbearing.report.plots import plot_solution, save_plot
 
 FIRST_BYTES = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}
@@ -55,6 +58,17 @@ def test_bars_are_the_power_losses(solution):
     largest = axes.texts[0].get_text()
     assert f"{widths[0]:.1f} W" in largest
     assert f"{100 * widths[0] / sum(widths):.1f} %" in largest
+
+
+@pytest.mark.parametrize(("count", "places"), [(1, 4), (4, 4), (6, 6)])
+def test_few_bars_are_no_thicker_than_four(count, places):
+    names = [f"loss {number}" for number in range(count)]
+    panel = Bars("loss", "Loss", "", "loss", "W", names, [1.0] * count, ["-"] * count, float(count), "#56789b")
+    axes = Figure().add_subplot()
+    draw(axes, panel)
+    bottom, top = axes.get_ylim()
+    assert (bottom, top) == (places - 0.5, -0.5)  # the first bar stands above
+    assert len({bar.get_height() for bar in axes.patches}) == 1
 
 
 def test_curves_are_those_of_the_elements(solution):

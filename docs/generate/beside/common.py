@@ -67,6 +67,7 @@ class Comparison:
     - `verdict`: short sentences; `{believe}` stands for the number.
     - `compute`: the table and the deviations.
     - `dear`: whether that takes more than some seconds.
+    - `beyond`: what the summary says beside the number, of points that are left out of it.
     """
 
     name: str
@@ -82,10 +83,11 @@ class Comparison:
     verdict: str
     compute: Callable[[], Found]
     dear: bool = True
+    beyond: str = ""
 
     @property
     def believed(self) -> str:
-        """The number of the verdict in the summary."""
+        """The number of the verdict."""
         return "-" if self.believe is None else f"{self.believe:g} %"
 
     def __post_init__(self):

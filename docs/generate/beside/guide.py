@@ -77,8 +77,9 @@ ROWS = (
     Row("traction coefficient", "oil of the catalogue, not fitted", UNKNOWN),
     Row(
         "loss, ball bearing",
-        "760 cm³/min of oil flowing through at 121 °C, 35 mm bore, 28 000 to 72 000 rpm, temperatures computed, drag "
-        "law of a lone ball; one bearing, four speeds",
+        "760 cm³/min of oil flowing through at 121 °C, 35 mm bore, 667 N axially, 28 000 to 72 000 rpm, temperatures "
+        "computed (`[thermal]`), drag law of a lone ball (no `drag.coefficient` in the scene); one bearing, four "
+        "speeds",
         f"{BELIEVE} to {{nasa_35}}; 22 % too low at 28 000 rpm, right at 72 000 rpm. The oil fraction was probably "
         "fitted to such bearings; whether the drag law was chosen before these data were seen is not on record",
         "nasa_35",
@@ -91,7 +92,7 @@ ROWS = (
     ),
     Row(
         "loss, ball bearing",
-        "the same, with the package's estimate of drag for balls in a row",
+        'the same, with the package\'s estimate of drag for balls in a row (`laws = "best"` sets it)',
         f"{UNKNOWN}, nor computed",
     ),
     Row(
@@ -129,8 +130,8 @@ ROWS = (
     ),
     Row(
         "torque, tapered roller bearing",
-        "forced oil, called flooded; scene without `contact.supply`; one bearing (32008), 400 to 2200 rpm, 55 and "
-        "65 °C",
+        "forced oil, called flooded; scene without `contact.supply`; one bearing (32008), 12.85 kN axially, 400 to "
+        "2200 rpm, 55 and 65 °C",
         f"{BELIEVE} to {{trb_32008}}; 5 to 26 % too low at 400 rpm, 14 to 32 % too high at 2200 rpm. With "
         '`contact.supply.level = "jet"`: not computed here',
         "trb_32008",
@@ -143,7 +144,8 @@ ROWS = (
     ),
     Row(
         "torque, tapered roller bearing",
-        'oil bath, with `contact.supply.level = "bath"`; one bearing (32216), 500 to 4000 rpm, 42 and 50 °C',
+        'oil bath, with `contact.supply.level = "bath"`; one bearing (32216), 6 to 6.5 kN axially, '
+        "500 to 4000 rpm, 42 and 50 °C",
         f"{BELIEVE} to a factor of 2.8, on the high side: the truth is between 0.36 and 0.83 of the result. Twelve "
         "points are within {trb_32216}; at five of Figure 7 it is 2.6 to 2.8 times the measured one. The "
         "default layer was chosen with knowledge of these torques. Palmgren's formula is the better choice: within "

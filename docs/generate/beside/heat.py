@@ -51,8 +51,9 @@ COMPARISONS = (
         kind="measured",
         conditions="The bore is 35 mm, with 16 balls of 7.14 mm and a contact angle of 24°. The axial load is 667 N. "
         "760 cm³/min of oil enter at 394 K (121 °C). Mobil Jet II is our assumption.",
-        free="No number was fitted. The drag coefficient is the law of a lone ball, not the package's estimate "
-        "for balls in a row; the heat with that estimate is not computed here. Whether this law was chosen "
+        free="No number was fitted. The drag coefficient is the law of a lone ball, which holds where a scene has no "
+        "`drag.coefficient`, not the package's estimate for balls in a row; the heat with that estimate is not "
+        "computed here. Whether this law was chosen "
         "before these data were seen is not on record. The fraction of oil in the bearing is Parker's law. "
         "The same author probably fitted it to bearings of this size, so this is not a fully independent "
         "test.",
@@ -67,8 +68,9 @@ COMPARISONS = (
         data_error=3.0,
         verdict="One bearing, four speeds. Between 28 000 and 72 000 rpm believe the heat to about {believe} per "
         "cent, if the temperatures are computed from the losses (table `[thermal]` of the scene file) and "
-        "the balls' drag is that of a lone ball. With the package's estimate for balls in a row the error "
-        "is not computed here. If all oil is taken at its inlet temperature, the heat is "
+        "the balls' drag is that of a lone ball: the scene has no `drag.coefficient`. With the package's estimate "
+        'for balls in a row, which `laws = "best"` sets, the error is not computed here. If all oil is taken at its '
+        "inlet temperature, the heat is "
         "between 9 per cent too low and 53 per cent too high. Do not extrapolate to lower speeds: the error has a "
         "slope. No data say whether bore times speed carries it to another bore.",
         compute=heat_35,

@@ -22,6 +22,8 @@ _POINTS = {
 }
 _ROW, _NAMES = 0.34, 0.46
 """Height of a row of numbers, inches, and the part of the axes that the names of the rows have at most."""
+_FEWEST_BARS = 4
+"""Bars that find room: fewer ones are no thicker."""
 _SCALE_AZIMUTH = math.radians(157.5)
 """Angle of the numbers of the polar plot: away from the load line."""
 
@@ -46,7 +48,7 @@ def _bars(axes: Any, panel: Bars) -> None:
     """The values stand at the bars, which need no axis and no grid beside them."""
     column = list(panel.values)
     bars = axes.barh(list(panel.names), column, color=panel.colour, height=0.68)
-    axes.invert_yaxis()
+    axes.set_ylim(max(len(column), _FEWEST_BARS) - 0.5, -0.5)
     shown = zip(column, panel.shares, strict=True)
     texts = [f"{panel.text(value)} {panel.unit}   {share}" for value, share in shown]
     axes.bar_label(bars, texts, padding=5, fontsize=9, color=INK)
