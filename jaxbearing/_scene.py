@@ -38,9 +38,10 @@ def optional_number(*, bound: str = "finite", **kwargs: Any) -> Any:
 
 
 class AbstractScene(Shown):
-    """Base of scenes: makes changed copies, by the attribute names of the scene file.
+    """Base of scenes. It makes copies with other values; a dotted path of attributes names each value.
 
-    A class of scenes says what the verbs and the pages ask of its kind: they know no list of kinds.
+    A class of scenes overrides the methods that its kind supports. `jb.solve`, `jb.simulate`, the command line and the
+    report call these methods and need no list of kinds.
     """
 
     kind: ClassVar[str] = ""
@@ -98,7 +99,8 @@ class AbstractScene(Shown):
         return part
 
     def path_in_file(self, path: str) -> str:
-        """The path of scene files of the number that the tree of the scene's numbers has at this path."""
+        """The path that a number has in a scene file. **Arguments:** `path`: dotted path of the attributes that lead to
+        the number. Both are the same here; a shaft, whose parts are numbered lists, has names in files."""
         return path
 
     def at_operation(self: Scene, **changes: Any) -> Scene:
@@ -160,7 +162,7 @@ class AbstractSolution(Shown):
         return [*self.broken_rules, *left, *self.notes]
 
     def raise_if_failed(self) -> None:
-        """Does nothing while JAX traces: each lane has its status.
+        """Raises if this solve failed. It does nothing while JAX traces; look at `status` then.
 
         **Raises:** `SolveError` for a single failed solve.
         """
@@ -174,8 +176,8 @@ class AbstractSolution(Shown):
 
 
 class AbstractHistory(AbstractSolution):
-    """Interface of all results of a run in time. `time`: of its instants, s; `stop`: to which it was to go, s;
-    `accepted`: steps taken; `interrupted`: True if a person ended it."""
+    """Interface of all results of a run in time. `time`: times of the stored instants, s; `stop`: time at which the run
+    was to end, s; `accepted`: number of steps taken; `interrupted`: True if a person ended it."""
 
     time: eqx.AbstractVar[Float[Array, " time"]]
     stop: eqx.AbstractVar[Float[Array, ""]]

@@ -1,7 +1,7 @@
-"""Shape-annotated aliases, defined once.
+"""Names of the types of arguments and results of numeric functions. They state shapes, not units.
 
-A law is written for one point: its arguments broadcast against each other, and batches come
-from broadcasting or from `jax.vmap` outside.
+A law is a formula that maps numbers to a number. Its arguments may be arrays that broadcast against each other;
+`jax.vmap` makes batches too.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -19,4 +19,4 @@ else:
     """A number or an array of numbers that broadcasts against its companions."""
 
     Batch = Float[Array, "*batch"]
-    """What a law returns: the broadcast shape of its arguments."""
+    """An array that a law returns. It has the shape to which the arguments broadcast."""

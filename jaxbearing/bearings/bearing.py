@@ -5,8 +5,8 @@ Terms: a *scene* is the complete description of a problem. The *port* is the poi
 displacements are exchanged with a shaft (see `ring`). The *row* of a bearing is the set of its rolling elements without
 films and friction. The first stage of the search for the equilibrium of a shaft uses this simplified model. The *seats*
 are the fits of the rings on shaft and in housing (`[fits]` in a scene file). A *catalogue load* is a load by which a
-maker rates a bearing. A tilt is *exact* if the grooves move with the rotation of the ring, and linearised if they move
-with its first-order displacement.
+maker rates a bearing. The *load line* is the radial direction at azimuth 0. A tilt is *exact* if the grooves move with
+the rotation of the ring, and linearised if they move with its first-order displacement.
 """
 
 import abc
@@ -164,7 +164,8 @@ class AbstractBearing(AbstractScene):
 
     @abc.abstractmethod
     def range_checks(self) -> RangeChecks:
-        """The range checks that only this family has."""
+        """Checks whether results lie in the range in which the models of this family hold; those that other families
+        have too are not among them."""
 
     @abc.abstractmethod
     def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
@@ -190,7 +191,7 @@ class AbstractBearing(AbstractScene):
 
     @property
     def mean_diameter(self) -> Any:
-        """Diameter of a rolling element, at its middle, m."""
+        """Diameter of a rolling element, at its middle, m; not the pitch diameter of the bearing."""
         return getattr(self.geometry, f"{self.element}_diameter")
 
     @property
@@ -235,8 +236,8 @@ class AbstractBearing(AbstractScene):
     @property
     @abc.abstractmethod
     def port_distance(self) -> Array:
-        """Axial distance along $+e_x$ from the port to the reference point of the solution, m. The field `ring` of the
-        solution gives the displacement of the reference point."""
+        """Axial distance along the axis $e_x$ from the port to the point of the ring at which the family writes its
+        equations, m. The field `ring` of a solution of the bearing alone gives the displacement of that point."""
 
     @property
     @abc.abstractmethod
@@ -271,8 +272,9 @@ class AbstractBearing(AbstractScene):
     def unknown_freedoms(self) -> tuple[str, ...]:
         """Freedoms of the inner ring that are unknowns of a solve, under given loads.
 
-        Freedoms that symmetry keeps at 0 are left out. If all rolling elements are loaded alike, only the axial freedom
-        remains. If the load line is a line of symmetry, the lateral freedom is left out.
+        A freedom whose displacement is given is left out, and so is a freedom that symmetry keeps at 0. If all rolling
+        elements are loaded alike, only the axial one of the three displacements remains. If the load line is a line of
+        symmetry, the lateral freedom is left out. A tilt is an unknown only if its moment is given.
         """
         operation: AbstractOperation = self.operation
         forces = ["axial"]

@@ -2,9 +2,10 @@
 its port.
 
 A load is given for each unknown freedom, and a displacement for each of the others. The *port* is the point of the ring
-at which loads and displacements are exchanged with a shaft. A `Port` consists of the load that holds the ring at a
-displacement, and of the derivatives of that load. The load is equal and opposite to the force of the rolling elements
-on the ring.
+at which loads and displacements are exchanged with a shaft. The *reference point* is the point whose displacements the
+results show: the port if a shaft holds the ring, otherwise the point at which the family writes its equations. A `Port`
+consists of the load that holds the ring at a displacement, and of the derivatives of that load. The load is equal and
+opposite to the force of the rolling elements on the ring.
 
 Frame and signs: $e_x$ along the axis; azimuth 0 is the load line (radial), azimuth 90 degrees is lateral. A positive
 `tilt` moves the ring along $+e_x$ at azimuth 0, a positive `tilt_lateral` at azimuth 90 degrees. Loads are conjugate to
@@ -38,13 +39,13 @@ LENGTH_UNIT = 1e-5
 
 ANCHOR = 1e-4
 """Artificial stiffness of a roller or a ring without contact, N/m. It appears only in derivatives, never in balances.
-It is 1e-12 of the stiffness of a loaded contact; 100 times as much would change derivatives of barely loaded rollers by
-6e-6."""
+The systems of the families add it (`convex.anchored`). It is 1e-12 of the stiffness of a loaded contact; 100 times as
+much would change derivatives of barely loaded rollers by 6e-6 of their value."""
 
 
 class Port(NamedTuple):
     """The load that holds the inner ring at a displacement, with its derivatives. It acts at the reference point of the
-    results. If a shaft holds the ring, this is the port (see the module).
+    results (see the module).
 
     - `force`: loads on its five freedoms that balance the forces of the rolling elements, N and N m.
     - `stiffness`: derivatives of `force` with respect to the displacements, with all else in equilibrium, N/m, N/rad,
@@ -67,8 +68,9 @@ class InnerRing(eqx.Module):
     - `freedoms`: names of the unknown freedoms, in the order of `RING_FREEDOMS`.
     - `expansion`: growth of the inner raceway's radius less that of the outer one, m; `None` if there is none.
     - `distance`: axial distance from the reference point of the results to the point whose displacements are used here,
-      m; `None` if they are the same point. The reference point of a ring that a shaft holds is its port.
-    - `closure`: axial displacement that is subtracted in the results, m; `None` if there is none.
+      m; `None` if they are the same point.
+    - `closure`: axial displacement that mounting has given the ring of a preloaded set, m. The contacts feel it, and
+      the results leave it out. `None` if there is none.
     - `held_load`: estimate of the load that the given displacements cause, N. It only scales the equations. `None` if
       it is not needed.
     - `asks`: True if `held_load` is needed, because the given displacements cause loads whose size cannot be estimated
@@ -204,8 +206,8 @@ def held_ring(
 
 
 def inner_ring(scene: AbstractBearing, lever: Array, freedoms: tuple[str, ...] | None = None) -> InnerRing:
-    """The ring of a scene, under the loads of its operating point. A freedom with neither load nor displacement is held
-    at 0.
+    """The ring of a scene, under the loads of its operating point. An unknown freedom without a load has the load 0.
+    Each other freedom is held at its given displacement, or at 0 without one.
 
     **Arguments:** `lever`: see `InnerRing`, m; `freedoms`: the unknown ones, by default those of the scene.
     """

@@ -38,8 +38,8 @@ class RingDisplacement(eqx.Module):
 
     The zero of `axial` is the middle of the play for ball bearings that are given by their clearance (the planes of the
     grooves coincide there) and for cylindrical roller bearings with flanges. It is the first contact of elements and
-    races for ball bearings that are given by their contact angle and for tapered bearings, where they have seats that
-    on the drawing.
+    races for ball bearings that are given by their contact angle and for tapered bearings. If a tapered bearing has
+    seats (`[fits]`), its zero is the first contact with the dimensions of the drawing.
     """
 
     axial: Float[Array, ""] = eqx.field(
@@ -150,14 +150,19 @@ Losses = TypeVar("Losses")
 
 
 class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
-    """Result of a steady solve. A solve that did not converge returns NaN for every result, never its last iterate.
+    """Result of a steady solve. If it did not converge, every physical result is NaN, never the last iterate; `status`,
+    `iterations` and the residuals still describe the solve.
 
     `BallSolution`, `RollerSolution` and `TaperedSolution` name the classes of `operation`, `elements` and
     `power_loss` of a bearing family. Drive power and torques are `None` if the scene models no loss.
 
     **Arguments:** the labels of the fields describe them; others are
     - `checks`: text of a warning or rule -> True if a law leaves its range or an input breaks the rule.
-    - `ring_freedom`: freedoms of the ring whose displacement is a result or was given.
+    - `worst_equation`: index in `equation_names`; `worst_element`: index of the rolling element, without meaning if the
+      worst equation belongs to no single element.
+    - `force`: loads that must act on the ring from outside, positive along its displacements.
+    - `ring_freedom`: freedoms of the ring whose displacement is a result, and those, also named in `held_freedom`,
+      whose displacement was given.
     - `equation_names`: equations of one rolling element, then those that belong to no single element.
     - `global_equations`: number of equations that belong to no single rolling element.
     - `notes`: what the model assumes or leaves out.

@@ -1,4 +1,5 @@
-"""Checks of arguments of public functions: choices, numbers, angles, temperatures, counts. Traced values pass."""
+"""Checks of arguments of public functions: choices, numbers, angles, temperatures, counts. Traced values pass, except
+where a function must stand outside of a program (`require_outside`)."""
 
 import difflib
 from collections.abc import Iterable
@@ -13,7 +14,7 @@ from .compiling import inside_a_program
 
 COLDEST = 150.0
 """Lowest temperature that is accepted, K. Every lubricant is solid there, so a lower number is in another unit. There
-is no upper limit, because the laws state how they continue."""
+is no upper limit, because each law of an oil says how it goes on above the range that it was fitted in."""
 
 
 _ARRAYS = np.generic | np.ndarray | jax.Array
@@ -44,7 +45,7 @@ def require_numbers(bound: str, **values: Any) -> None:
     """Checks that each value is a number, or an array of numbers, within a bound. NaN passes, because a failed solve
     returns it, and so do traced values.
 
-    **Arguments:** `bound`: a key of `checks.RANGES`; `values`: name of the argument = its value.
+    **Arguments:** `bound`: a key of `checks.RANGES`, such as "> 0"; `values`: name of the argument = its value.
 
     **Raises:** `ValueError` that names the first argument that is wrong.
     """
@@ -80,7 +81,7 @@ def require_choice(name: str, value: Any, choices: Iterable[str]) -> None:
 
 
 def require_angle(name: str, value: Any) -> None:
-    """Checks that angles are in rad, from 0 to below a right angle.
+    """Checks that angles are in rad, from 0 to below a right angle. NaN is refused.
 
     **Raises:** `ValueError`; for a number that may be in degrees it shows the angle in rad.
     """
@@ -93,8 +94,8 @@ def require_angle(name: str, value: Any) -> None:
 
 
 def require_temperature(value: Any, name: str = "temperature") -> None:
-    """Checks that temperatures are in K: a value in degrees Celsius is below `COLDEST`. NaN passes, because a failed
-    solve returns it, and so do traced values, such as the trial values of a solver.
+    """Checks that temperatures are at least `COLDEST`, which catches degrees Celsius below 150. NaN passes, because a
+    failed solve returns it, and so do traced values, such as the trial values of a solver.
 
     **Raises:** `ValueError`; for a number that may be in degrees Celsius it shows the temperature in K.
     """

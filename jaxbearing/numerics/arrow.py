@@ -123,7 +123,8 @@ class AbstractArrowSystem(eqx.Module):
     ) -> tuple[Float[Array, " g"], Float[Array, ""]]:
         """Global residuals, and the largest residual of nested solves (0: there are none).
 
-        **Arguments:** `globals_`: global unknowns; `totals`: contributions of `element`, summed over the elements.
+        **Arguments:** `globals_`: global unknowns; `totals`: result of `gathered`, by default the contributions of
+        `element`, summed over the elements.
         """
 
     @abc.abstractmethod
@@ -144,9 +145,12 @@ class ArrowJacobian(NamedTuple):
 
     - `local`: derivatives of the local residuals with respect to the element's unknowns.
     - `right_border`: derivatives of the local residuals with respect to the globals: the right border of the matrix.
-    - `contributions`: derivatives of the contributions with respect to the element's unknowns.
-    - `corner`: derivatives of the global residuals with respect to the globals.
-    - `chain`: derivatives of the global residuals with respect to the totals.
+    - `contributions`: derivatives of the contributions with respect to the element's unknowns; of a system with local
+      inputs, those of the global residuals.
+    - `corner`: derivatives of the global residuals with respect to the globals, with the unknowns of the elements held;
+      the totals follow the globals.
+    - `chain`: derivatives of the global residuals with respect to the totals; of a system with local inputs, the unit
+      matrix.
     """
 
     local: Float[Array, "m m element"]
@@ -276,7 +280,7 @@ def schur_complement(jacobian: ArrowJacobian) -> Float[Array, "g g"]:
     return eliminated(jacobian)[1]
 
 
-def condensed(matrix: Float[Array, "g g"], count: int) -> Float[Array, "k k"]:
+def condensed(matrix: Float[Array, "g g"], count: int) -> Float[Array, "count count"]:
     """Schur complement of a matrix on its first `count` unknowns: the other unknowns stay in equilibrium."""
     others = matrix[count:, count:]
     if not others.size:
@@ -293,8 +297,8 @@ def uphill_step(
 
     Each equation is expected to grow with its own unknown while the unknowns before it are in equilibrium. Where it
     falls, the Newton step points away from a root that lies beyond a maximum of the residual; with the sign of the
-    pivot changed, it points towards that root. Elements with more than 4 unknowns are eliminated by LAPACK, and their
-    pivots are not changed.
+    pivot changed, it points towards that root. Elements with more than `UNROLLED_LIMIT` unknowns are eliminated by
+    LAPACK, and their pivots are not changed.
 
     **Returns:** the step x; True for each element that has a negative pivot; True if one of the globals has one.
     """

@@ -23,8 +23,8 @@ from .precision import as_float
 from .refusals import is_collecting, refuse_all
 
 STAND_IN = jax.ShapeDtypeStruct((), np.dtype(np.float64))
-"""Placeholder for a refused number: the remaining checks can go on while problems are collected
-(`refusals.collecting`)."""
+"""Placeholder for a number that failed its check, while problems are collected (`refusals.collecting`). A rule that
+needs the number meets the placeholder and is passed over."""
 
 
 class Interval(NamedTuple):
@@ -109,7 +109,9 @@ def bounded(bound: str, *, unit: str = "", difference: bool = False, name: str =
 class Checked(eqx.Module):
     """A part of a scene whose fields state their bounds.
 
-    **Raises:** `ValueError` on construction, for a known number outside its bound.
+    **Raises:** `ValueError` on construction, for a known number outside its bound; `Refusals` if several are. While
+    problems are collected (`refusals.collecting`) nothing is raised: the problem is kept, and `STAND_IN` takes the
+    place of the number.
     """
 
     part: ClassVar[str] = ""
@@ -200,7 +202,8 @@ def demand(rule: str, fine: Any, message: Callable[[], str]) -> None:
 
     **Arguments:**
     - `rule`: the rule in words; it begins with the dotted path of a field, where `{path}` stands for that of the part.
-    - `fine`: True if the rule holds, False if a number is NaN; `check_inputs` collects a traced value.
+    - `fine`: True if the rule holds, otherwise False, also if a number is NaN. A traced value is left to
+      `check_inputs`, which collects it.
     - `message`: returns the text of the error, for known numbers that break the rule.
 
     **Raises:** `ValueError` if the rule is known not to hold.
@@ -254,12 +257,14 @@ def check_inputs(scene: Any) -> InputChecks:
 
 
 def nan_unless(tree: Any, valid: Bool[Array, ""]) -> Any:
-    """Replaces every number of the tree by NaN if the inputs are not valid, so that its solve ends at once."""
+    """Replaces every number of the tree by NaN if the inputs are not valid. Newton's iteration ends at a NaN at
+    once."""
     return jax.tree.map(lambda leaf: jnp.where(valid, as_float(leaf), jnp.nan), tree)
 
 
 def gate(tree: Any, valid: Bool[Array, ""]) -> Any:
-    """Stops derivatives with respect to the tree's traced numbers if the inputs are not valid."""
+    """Returns the tree with the same values. If the inputs are not valid, the derivatives with respect to its traced
+    numbers are 0."""
     traced, others = eqx.partition(tree, lambda leaf: isinstance(leaf, Tracer))
     return eqx.combine(derivatives_if(valid, traced), others)
 

@@ -1,5 +1,6 @@
-"""Damped Newton iteration for block-arrow systems. Each member of a batch, a lane, has a status of its own; derivatives
-follow from the implicit function theorem.
+"""Damped Newton iteration for block-arrow systems: every element has a few unknowns of its own, and elements are
+coupled only through a few global unknowns (module `arrow`). Each member of a batch, a lane, has a status of its own;
+derivatives follow from the implicit function theorem.
 
 `newton_steps` computes a step, tests a trial and chooses the next one; `continuation` chooses an easier system if the
 first try fails.
@@ -39,10 +40,10 @@ _GOING = -1
 class NewtonResult(NamedTuple):
     """Result of the iteration. If the lane failed, `point` is finite and not a solution.
 
-    `jacobian`, `residual_norm` (the largest scaled residual), `worst_equation` and `worst_element` belong to the last
-    trial of the given system, not to a trial of an easier one. If the lane converged, `point` lies one Newton step
-    (shorter than the step tolerance) beyond that trial. `worst_element` means something only if the worst equation
-    belongs to an element.
+    `jacobian`, `residual_norm` (the largest scaled residual), `inner_residual`, `worst_equation` and `worst_element`
+    are values at the last trial of the given system, not at a trial of an easier one. If the lane converged, `point`
+    lies one Newton step (shorter than the step tolerance) beyond that trial. `worst_equation` counts the equations of
+    one element first and the global ones after them; `worst_element` has a meaning only if it is one of the first kind.
     """
 
     point: ArrowPoint
@@ -219,7 +220,9 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
     Returns a copy of the system and the result of the iteration. Results must be evaluated with the returned copy: it
     has the same values, but passes no derivatives if the solve failed. The derivative of the solution (and of the
     Jacobian at the solution) is that of the implicit function, in both modes and to any order. The iteration itself is
-    never differentiated, and a solve that is not differentiated does not pay for derivatives.
+    never differentiated, and a solve that is not differentiated does not pay for derivatives. Where a program has found
+    the root before (module `known_roots`), it is taken with the same derivatives and not searched again; the Jacobian
+    then has a derivative only if the caller asked for that of the stiffness, and NaN otherwise.
 
     If the system states that each equation grows with its own unknown at the root (`increasing`), Newton's step is
     changed wherever a pivot of the Jacobian is negative (`arrow.uphill_step`). If the iteration fails and the system

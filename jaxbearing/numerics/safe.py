@@ -1,4 +1,4 @@
-"""Functions whose values and gradients stay finite and correct where those of the plain formula do not.
+"""Functions for laws that are differentiated: they avoid overflow, kinks and gradients that are NaN.
 
 A function that differs from the plain formula states its error; the others agree with it to round-off. No function
 hides a wrong answer. Each is one inner `jax.jit`: a program has it once for each shape and calls it from many places.
@@ -12,7 +12,8 @@ import jax.numpy as jnp
 from .._types import Batch, Scalar, Values
 
 NORM_FLOOR = 1e-150
-"""Length, in the unit of the vector, below which `safe_norm` is smooth and not exact."""
+"""Default `floor` of `safe_norm`, in the unit of the vector. At lengths far above it the result is exact to
+round-off."""
 
 
 @jax.custom_jvp
@@ -113,6 +114,8 @@ def regular_power(x: Values, exponent: float, width: float, order: int = 2) -> B
 @partial(jax.jit, static_argnames=("floor",))
 def safe_norm(x: Values, y: Values, floor: float = NORM_FLOOR) -> Batch:
     r"""$\sqrt{x^2 + y^2 + f^2}$: length of a plane vector, with gradient 0 (not NaN) at the origin.
+
+    It is too large by f at the origin and by less than $f^2/(2r)$ at a length r > 0.
 
     **Arguments:** `x`, `y`: components; `floor`: f > 0, the length at the origin, in their unit.
     """

@@ -10,11 +10,12 @@ class Status(enum.IntEnum):
     NOT_CONVERGED = 1
     """The steps ran out, or a nested solve failed."""
     DIVERGED = 2
-    """A value was not finite, or the steps in time became too small."""
+    """A value was not finite, or a run in time needed a step below the smallest one that is allowed."""
     NO_EQUILIBRIUM = 3
     """There is no steady state: no position balances the loads, or there is too little entrainment for a film."""
     INVALID_INPUT = 4
-    """Traced numbers break a rule, which `checks` or the failure message names."""
+    """Numbers that JAX traces break a rule, which `checks` or the failure message names. A known number that breaks one
+    raises `ValueError` before the solve."""
     OUTSIDE_VALIDITY = 5
     """A law does not describe this operating point."""
     THERMAL_RUNAWAY = 6

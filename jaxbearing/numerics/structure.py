@@ -28,7 +28,7 @@ def count(
     **kwargs: Any,
 ) -> Any:
     """Static field that holds a whole number from `least` to `most`. Without `least` it is at least 0 if `most` is
-    given. Messages call the field `name`. `None` passes if it is the default."""
+    given; without both it may be negative. Messages call the field `name`. `None` passes if it is the default."""
 
     def read(value: Any) -> int:
         number = static_count(name, value, least if most is None else None)
@@ -47,8 +47,8 @@ def constant(
     among: Iterable[float] | None = None,
     **kwargs: Any,
 ) -> Any:
-    """Static field that holds one finite number without a unit, within `bound` (a key of `checks.RANGES`) and one of
-    the numbers `among`, if they are given. Messages call the field `name`. `None` passes if it is the default."""
+    """Static field that holds one finite number without a unit, within `bound` (a key of `checks.RANGES`). If `among`
+    is given, it is also one of these numbers. Messages call the field `name`. `None` passes if it is the default."""
     numbers = None if among is None else tuple(among)
 
     def read(value: Any) -> float:
@@ -78,7 +78,7 @@ def choice(
 ) -> Any:
     """Static field that holds one of the words `choices`. Messages call it `name`. `None` passes as the default.
 
-    **Arguments:** `also`: from a further name of a choice to the choice; it returns anything else as it is;
+    **Arguments:** `also`: function that returns the choice if a value is another name of it, else the value itself;
     `also_words`: these further names in words, for messages.
     """
     words = tuple(choices)
@@ -98,8 +98,8 @@ def _field(read: Callable[[Any], Any], default: Any, kwargs: dict[str, Any], sai
     """The static field.
 
     **Arguments:**
-    - `read`: from a given value to the stored one; raises `ValueError`.
-    - `said`: metadata from which scene files make the field (`scenes.table_of`).
+    - `read`: returns the stored value of a given one; raises `ValueError`.
+    - `said`: metadata; `scenes.table_of` makes the field of the schema of scene files from them.
     """
     if default is not dataclasses.MISSING:
         kwargs["default"] = default

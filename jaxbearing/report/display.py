@@ -36,7 +36,8 @@ the axis reaches is taken."""
 ZERO_CELSIUS = 273.15
 """0 degC in K."""
 _NIL = 1e-9
-"""What is smaller in the unit of the screen is zero to round-off: below a millionth of an atom in micrometres."""
+"""A smaller number in the unit of the screen is round-off and is shown as 0: in micrometres, less than the diameter of
+a nucleus."""
 _BLOCKS = " ▏▎▍▌▋▊▉█"
 
 
@@ -60,7 +61,8 @@ def axis_unit(unit: str, largest: float) -> tuple[str, float]:
 
 
 def digits(value: float, significant: int = 4) -> str:
-    """A number with `significant` digits; it has an exponent below 1e-4 and from 1e8 on. "-" for NaN and infinity."""
+    """A number that is rounded to `significant` digits, but never before the decimal point. It has an exponent below
+    1e-4 and from 1e8 on. NaN and infinity give "-"."""
     if not math.isfinite(value):
         return "-"
     if value == 0.0:
@@ -72,13 +74,14 @@ def digits(value: float, significant: int = 4) -> str:
 
 
 def tick(value: float) -> str:
-    """A number at an axis or a contour: without an exponent, groups of thousands apart from 10 000 on."""
+    """A number at an axis or a contour, to 10 digits. From 10 000 on thin spaces part the thousands. It has an exponent
+    below 1e-4 and from 1e10 on."""
     return f"{value:.10g}" if abs(value) < 1e4 else f"{value:,.10g}".replace(",", "\N{THIN SPACE}")
 
 
 def number(value: float, unit: str, significant: int = 4) -> str:
-    """A result in the unit of the screen, without it. `value` is in the SI unit `unit`. Beside a unit no number has an
-    exponent, and what is zero to round-off is 0."""
+    """The digits of a result in the unit of the screen; the name of the unit is not among them. `value` is in the SI
+    unit `unit`. Beside a unit no number has an exponent, and what is zero to round-off is 0."""
     shown = displayed(value, unit)
     text = digits(shown, significant)
     if "e" not in text or not display_unit(unit):
@@ -108,7 +111,7 @@ def bar(fraction: float, width: int, ascii_only: bool = False) -> str:
 
 
 def typeset(text: str) -> str:
-    """Replaces ASCII units by their signs, such as µm and m², which a terminal may lack."""
+    """Replaces ASCII units by typeset ones, such as um by µm and m^2 by m². A terminal may lack these characters."""
     signs = re.sub(r"(?<=[ /])u(?=m\b)", "µ", re.sub(r" degC\b", " °C", text))
     return re.sub(r"(?<=[a-zA-Z])\^([23])\b", lambda found: "²³"[int(found[1]) - 2], signs)
 

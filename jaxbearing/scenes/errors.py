@@ -1,7 +1,8 @@
 """`SceneError`, the error for scenes that cannot be read: file, field, what was found, what is expected, nearest name.
 
-One error reports all problems of a file. This module makes it from the errors of pydantic (`from_validation`) and from
-those of the classes that a scene is built of (`from_class`).
+A *law* is a formula that a scene chooses by its name. In some tables of a file the field `law` holds that name, and it
+decides which other fields the table has. One error reports all problems of a file. This module makes it from the errors
+of pydantic (`from_validation`) and from those of the classes that a scene is built of (`from_class`).
 """
 
 import difflib
@@ -24,7 +25,7 @@ _FOUND_EXPECTED = re.compile(r"(?:found (?P<found>.*?), )?expected (?P<expected>
 
 
 class PresetUsedWarning(UserWarning):
-    """A scene was read with laws, and perhaps estimated dimensions, for which a preset stands."""
+    """A preset (`laws = "best"` in a scene file) supplied laws of a scene, and perhaps estimated dimensions."""
 
 
 class SceneError(ValueError):
@@ -116,8 +117,8 @@ def nearest(name: str, valid: Iterable[str]) -> str:
 def from_validation(error: ValidationError, model: type[BaseModel], file: str) -> SceneError:
     """The error for all problems that pydantic found.
 
-    Unknown names come first and missing fields last. A missing field is left out if an unknown name in the same table
-    resembles it.
+    Unknown names come first and missing fields last. A missing field is left out if another problem suggests it as the
+    name that was meant.
 
     **Arguments:** `error`: of pydantic; `model`: schema of the scene; `file`: its name for messages.
     """
@@ -143,7 +144,7 @@ def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneErr
     **Arguments:** `error`: of the class; `raw`: tables of the scene; `file`: its name for messages.
     """
     if isinstance(error, SceneError):
-        # already complete: a file that the scene names
+        # a file that the scene names was refused: its error is complete
         return error
     if isinstance(error, Refusals):
         return SceneError.of_all([from_class(one, raw, file) for one in error.refusals])
@@ -182,7 +183,8 @@ def _rank(detail: Any) -> int:
 
 
 def _path_and_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]:
-    """Dotted path of one problem of pydantic, and the words for `in_words`."""
+    """Dotted path of one problem of pydantic, and the words for `in_words`. A validator of a schema raises a problem of
+    the type "scene", whose context holds the field and the words."""
     kind, location, context = detail["type"], detail["loc"], detail.get("ctx", {})
     path = path_of(location)
     if kind == "extra_forbidden":
