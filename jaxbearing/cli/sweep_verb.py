@@ -12,7 +12,7 @@ import typer
 from .interrupt import if_interrupted
 from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled
-from .output_files import Output, deliver
+from .output_files import Output, check_files, deliver
 from .sweep_parts import (
     ChunkOption,
     DevicesOption,
@@ -72,6 +72,14 @@ PlotOption = Annotated[
         "dry bearing life or stiffness. The scene's own operating point is marked.",
     ),
 ]
+TableOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--table",
+        metavar="FILE.csv",
+        help="One case a row: the fields, every result that is one number, and how the case ended.",
+    ),
+]
 NoElementsOption = Annotated[
     bool, typer.Option("--without-elements", help="Leave out the results of each rolling element, most of the file.")
 ]
@@ -88,6 +96,7 @@ def sweep(
     as_json: JsonOption = False,
     out: OutOption = None,
     plot: PlotOption = None,
+    table: TableOption = None,
     overwrite: OverwriteOption = False,
     without_elements: NoElementsOption = False,
     chunk: ChunkOption = None,
@@ -112,6 +121,7 @@ def sweep(
             source.warn_of_means(cases, fields)
         check_run_target(target)
         check_plot(plot, cases, recipe.example_scene)
+        check_files([("--table", table, (".csv",))])
         check_extra(workers, scheduler)
 
     from .cache import enable_compilation_cache
@@ -123,6 +133,7 @@ def sweep(
     most = devices or min(cores(), calls_at_once(recipe, cases, chunk))
     use_cores(most if workers is None and scheduler is None else 1)
     with without_false_alarms():
+        from ..report.sweep_table import write_table
         from ..sweeps.engine import kept_words, run
         from ..sweeps.fields import described_fields
         from ..sweeps.verb import make_plan, runner_of
@@ -137,8 +148,10 @@ def sweep(
                 outcome = run(plan, target, runner=runner, overwrite=overwrite, watcher=watcher)
         seconds = time.monotonic() - begin
         point = {} if plot is None else own_values(source, fields)
+        rows = Output(table, lambda path: write_table(path, target), f"wrote {table}: one case a row")
         picture = Output(plot, lambda path: write_plot(path, target, label, point), long=True)
-        deliver(lambda: _print(outcome, label, target, seconds, as_json), (picture,) if outcome.converged > 0 else ())
+        files = (rows, picture) if outcome.converged > 0 else (rows,)
+        deliver(lambda: _print(outcome, label, target, seconds, as_json), files, notes_to_stderr=as_json)
     if outcome.converged == 0:
         if plot is not None:
             typer.echo(f"not written: {plot}", err=True)

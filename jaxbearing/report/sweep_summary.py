@@ -3,7 +3,6 @@
 import collections
 import os
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -15,6 +14,7 @@ from ..bearings.operation import HELD_FIELDS, LOAD_FIELDS
 from .backends.screen import counted, headline, print_warnings
 from .display import with_unit
 from .labels import label_unit
+from .sweep_table import failures, opened, screen_table
 
 _MAIN = (
     "power_loss_total",
@@ -30,14 +30,16 @@ _MAIN = (
     "torque_power_loss",
 )
 """Results that are shown, where the scene has them."""
+_FEW, _FEW_FIELDS = 20, 3
+"""Cases, and fields that vary, up to which every case is shown."""
 _REASONS = 3
 """Reasons of failures that are shown, the most frequent ones."""
 
 
 def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: float, console: Console) -> None:
     """**Arguments:** `file`: the store; `kept`: cases that an earlier run had computed; `seconds`: of this run."""
-    with xr.open_dataset(file, engine="zarr" if Path(file).is_dir() else "h5netcdf") as dataset:
-        failure = dataset["failure"].values.astype(object).ravel()
+    with opened(file) as dataset:
+        failure = failures(dataset)
         failed = int(np.sum(failure != ""))
         status, style = ("ALL CONVERGED", "bold green") if failed == 0 else (f"{failed} FAILED", "bold red")
         new = failure.size - kept
@@ -60,6 +62,8 @@ def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: fl
         for name, text in rows.items():
             grid.add_row(Text(f"  {name}"), Text(text))
         console.print(grid)
+        if 1 < failure.size <= _FEW and len(dataset.attrs["sweep_fields"].split()) <= _FEW_FIELDS:
+            console.print(screen_table(dataset, _MAIN))
         print_warnings(_reasons(failure), console)
         print_warnings(filter(None, dataset.attrs.get("warnings", "").split("\n")), console)
     console.print(Text(f"wrote {os.fspath(file)}: open it with xarray.open_dataset"))

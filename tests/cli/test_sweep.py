@@ -1,7 +1,9 @@
 """`sweep`: grids, lists and samples from the command line, exit codes, what is refused before the work."""
 
+import csv
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -31,9 +33,11 @@ def test_grid_json(jaxbearing_command, folder):
         assert dataset["operation_inner_speed"].attrs["units"] == "rad s-1"
         assert dataset["ring_radial"].shape == (3, 3)
         assert "--set contact=none" in dataset.attrs["title"]
-    # again: it is there
+    # again: it is there, and the table has the cases of the grid in the order of the fields
     again = jaxbearing_command("sweep", *DRY, "--over", SPEED, "--over", LOAD, "--chunk", "4")
     assert again.code == 0
+    cases = [line.split()[:2] for line in again.out.splitlines() if re.match(r" +\d+ +\d+ ", line)]
+    assert cases == [[speed, load] for speed in ("5000", "10000", "15000") for load in ("5000", "10000", "20000")]
     assert "ALL CONVERGED" in again.out
     assert "nothing is computed" in again.err
     assert max(len(line) for line in again.out.splitlines()) <= 100
@@ -52,9 +56,28 @@ def test_list_with_units_and_a_case_that_fails(jaxbearing_command, folder):
         "10; 12; 80\n20; 15; 80\n30; 11.5; 120\n",
         encoding="utf-8",
     )
-    result = jaxbearing_command("sweep", *DRY, "--list", "cases.csv", "--out", "l.nc", "--chunk", "4")
+    arguments = ("--list", "cases.csv", "--out", "l.nc", "--chunk", "4", "--table", "t.csv")
+    result = jaxbearing_command("sweep", *DRY, *arguments)
     assert result.code == 0, result.err
     assert "1 FAILED" in result.out
+    assert "wrote t.csv: one case a row" in result.out
+    # on the screen: each case with its fields and main results
+    (failed,) = (line.split() for line in result.out.splitlines() if line.endswith(" failed"))
+    assert failed == ["20000", "15000", "353.1", "-", "failed"]
+    rows = list(csv.reader((folder / "t.csv").read_text(encoding="utf-8").splitlines()))
+    heads = ["operation.radial_load [N]", "geometry.roller_diameter [um]", "operation.oil_temperature [K]"]
+    assert rows[0][:3] == heads
+    assert [row[-1] == "converged" for row in rows[1:]] == [True, False, True]
+    assert "do not fit on a pitch circle" in rows[2][-1]
+    place = rows[0].index("ring_radial [um]")
+    assert rows[2][place] == ""
+    fields = ("operation_radial_load", "geometry_roller_diameter", "operation_oil_temperature")
+    with xr.open_dataset("l.nc") as dataset:
+        for case, row in enumerate(rows[1:]):
+            given = [factor * float(dataset[name][case]) for name, factor in zip(fields, (1.0, 1e6, 1.0), strict=True)]
+            assert [float(cell) for cell in row[:3]] == pytest.approx(given, rel=1e-9)
+            if row[place]:
+                assert float(row[place]) == pytest.approx(1e6 * float(dataset["ring_radial"][case]), rel=1e-9)
     assert "do not fit on a pitch circle" in " ".join(result.out.split())
     with xr.open_dataset("l.nc") as dataset:
         assert dataset["operation_radial_load"].values.tolist() == [1e4, 2e4, 3e4]
@@ -101,6 +124,7 @@ def test_samples(jaxbearing_command):
         (("--over", "operation.inner_speed=1 rpm:9 rpm:9999999", "--over", LOAD), "cases are too many"),
         (("--over", SPEED, "--out", "a.txt"), "ends in .nc or .zarr"),
         (("--over", SPEED, "--out", "no/a.nc"), "an existing folder"),
+        (("--over", SPEED, "--table", "a.xlsx"), "ends in '.csv'"),
         (("--over", SPEED, "--list", "a.csv"), "one way to choose"),
         (("--list", "a.csv"), "no such file"),
         (("--over", SPEED, "--workers", "2", "--scheduler", "tcp://a:1"), "one of the two"),
