@@ -2,11 +2,11 @@
 
 import dataclasses
 from collections.abc import Iterable
-from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Array
 
 from jaxbearing.lubricants import ExponentialRheology
 from jaxbearing.lubricants.ranges import FITTED_PRESSURE
@@ -82,7 +82,7 @@ def fit_models(
     return {model: fit(measurements, scene, options._replace(model=model)) for model in models}
 
 
-def _result(search: Search, problem: Problem, u: Any, estimate: Estimate, held: Held, model: str) -> FitResult:
+def _result(search: Search, problem: Problem, u: Array, estimate: Estimate, held: Held, model: str) -> FitResult:
     free, reasons, pinned = held
     coordinates = np.asarray(problem.natural(u))
     blind = search.insisted_blindly(held)

@@ -45,7 +45,7 @@ class AbstractSearch(abc.ABC):
     """One of `loss.LOSSES`."""
 
     @abc.abstractmethod
-    def problem(self, free: np.ndarray, pinned: Any, base: np.ndarray | None = None) -> Any:
+    def problem(self, free: np.ndarray, pinned: dict[int, float], base: np.ndarray | None = None) -> Any:
         """The problem with these parameters free, from these natural coordinates."""
 
     @abc.abstractmethod

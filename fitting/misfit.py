@@ -1,7 +1,5 @@
 """Residuals of a fit: by curve, its information content, and whether it is random."""
 
-from typing import Any
-
 import numpy as np
 
 from jaxbearing.contacts import deborah_number
@@ -64,7 +62,7 @@ def neighbour_correlation(measurements: Measurements, standard: np.ndarray) -> t
     slide = np.asarray(measurements.slide_to_roll)
     limit = LARGEST * scale_of(standard)
     standard = np.clip(standard, -limit, limit)
-    pairs: list[Any] = []
+    pairs: list[np.ndarray] = []
     for number in range(len(measurements.curve_names)):
         points = np.flatnonzero(measurements.in_curve(number))
         ordered = standard[points[np.argsort(slide[points], kind="stable")]]

@@ -2,7 +2,7 @@
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
 import jax
@@ -37,6 +37,9 @@ from .parameters import (
 from .start import estimated_start
 from .traction import Problem, coefficients, slope_over_slide
 from .uncertainty import Spread, spread
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 MODULUS, STRESS = NAMES.index("shear_modulus"), NAMES.index("stress")
 MODULUS_SHIFTS = (0.0, 1.5, 3.0, -1.5, -3.0, -5.0, -7.0, -9.0, -12.0, -15.0)
@@ -107,7 +110,7 @@ class Search(AbstractSearch):
         self.deviation = options.errors.deviation(self.coefficient, self.curve)
         self.scale = 1.0
 
-    def fill(self, values: Any) -> Float[Array, " batch"]:
+    def fill(self, values: "npt.ArrayLike") -> Float[Array, " batch"]:
         """A value a point, filled up with copies of the last."""
         return jnp.asarray(np.pad(np.asarray(values, dtype=float), (0, filled(self.count) - self.count), mode="edge"))
 
@@ -244,11 +247,11 @@ class Search(AbstractSearch):
                 starts = np.tile(np.asarray(u), (len(starts), 1))
         return problem, found, u
 
-    def slopes(self, problem: Problem, u: Any) -> tuple[np.ndarray, np.ndarray]:
+    def slopes(self, problem: Problem, u: Array) -> tuple[np.ndarray, np.ndarray]:
         _, residual, jacobian = (np.asarray(part)[: self.count] for part in linearized(problem, u))
         return residual, jacobian
 
-    def spread(self, problem: Problem, u: Any, free: np.ndarray) -> Spread:
+    def spread(self, problem: Problem, u: Array, free: np.ndarray) -> Spread:
         """Uncertainty of the free parameters."""
         residual, jacobian = self.slopes(problem, u)
         variance = variance_factor(residual, self.options.loss, int(np.sum(free)))
@@ -259,7 +262,7 @@ class Search(AbstractSearch):
         others' intervals hold for the values that they took."""
         return np.array([i in self.insisted and i in held.reasons and held.free[i] for i in range(len(NAMES))])
 
-    def undetermined(self, problem: Problem, u: Any, held: Held) -> tuple[int, str] | None:
+    def undetermined(self, problem: Problem, u: Array, held: Held) -> tuple[int, str] | None:
         judged = held.free & ~self.insisted_blindly(held)
         elastic = elastic_conditions(self.pressure, self.temperature, self.deborah_at(np.asarray(problem.natural(u))))
         elastic = {i: reason for i, reason in elastic.items() if judged[i] and i not in self.insisted}

@@ -17,6 +17,7 @@ from ._derived import derived_part as derived_part
 from ._shown import Shown
 from .numerics.checks import bounded
 from .numerics.checks import label as label
+from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float
 from .numerics.status import SolveError, Status
 
@@ -49,7 +50,7 @@ class AbstractScene(Shown):
     operating_point: ClassVar[str] = "operation"
     """Name of the field that holds the operating point."""
 
-    def steady_solution(self, options: Any) -> Any:
+    def steady_solution(self, options: NewtonOptions) -> "AbstractSolution":
         """The steady state, traced inside the program of `jb.solve`; pure, and never raises for a failed solve.
 
         **Arguments:** `options`: `NewtonOptions`, of those kinds that have unknowns.
@@ -61,21 +62,21 @@ class AbstractScene(Shown):
     runs_in_programs: ClassVar[bool] = False
     """True if a run in time can be a part of a program, see `jaxbearing.simulate_batch`."""
 
-    def simulated(self, duration: float | None, **settings: Any) -> Any:
+    def simulated(self, duration: float | None, **settings: Any) -> "AbstractHistory":
         """A run in time; `jaxbearing.simulate` says what it takes, and checks the scene.
 
         **Raises:** `TypeError` for a kind of scene that does not move.
         """
         raise TypeError(f"cannot simulate a {type(self).__name__}: its class has no method simulated")
 
-    def simulated_batch(self, duration: float, over: Mapping[str, Any], **settings: Any) -> Any:
+    def simulated_batch(self, duration: float, over: Mapping[str, Any], **settings: Any) -> "AbstractHistory":
         """Many runs in time; `jaxbearing.simulate_batch` says what it takes.
 
         **Raises:** `TypeError` for a kind of scene whose runs are no programs.
         """
         raise TypeError(f"cannot simulate a {type(self).__name__}: its class has no method simulated_batch")
 
-    def check_restart(self, restart: Any, duration: float | None = None) -> None:
+    def check_restart(self, restart: object, duration: float | None = None) -> None:
         """Checks the state from which a run of this scene is to go on.
 
         **Raises:** `ValueError` where it does not fit; `TypeError` for a kind of scene that does not move.

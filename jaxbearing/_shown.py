@@ -39,6 +39,6 @@ class Shown(eqx.Module):
         return drawn
 
 
-def _is_one_number(leaf: Any) -> bool:
+def _is_one_number(leaf: object) -> bool:
     """False for what has no value yet, and for what stands for a number (`jax.ShapeDtypeStruct`)."""
     return not isinstance(leaf, Tracer | jax.ShapeDtypeStruct)

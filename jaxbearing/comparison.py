@@ -1,7 +1,7 @@
 """The verb that sets makers' friction formulas beside the physics of a scene."""
 
 import os
-from typing import Any
+from typing import TYPE_CHECKING
 
 from ._scene import AbstractScene
 from .bearings.bearing import AbstractBearing
@@ -10,9 +10,15 @@ from .scenes.bearing.catalogue import load_catalogue
 from .scenes.reader import load_scene
 from .solve import solve
 
+if TYPE_CHECKING:
+    from .bearings.solution import Solution
+
 
 def compare(
-    scene: AbstractScene | str | os.PathLike[str], solution: Any = None, *, catalogue: Catalogue | None = None
+    scene: AbstractScene | str | os.PathLike[str],
+    solution: "Solution | None" = None,
+    *,
+    catalogue: Catalogue | None = None,
 ) -> Comparison:
     """Makers' friction formulas beside the losses of a scene: SKF, Palmgren with the constants of INA and of Timken,
     Timken's for tapered bearings.

@@ -11,7 +11,7 @@ import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from queue import SimpleQueue
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import equinox as eqx
 import jax
@@ -19,7 +19,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool
 
-from ._scene import AbstractScene
+from ._scene import AbstractScene, AbstractSolution
 from .numerics.compiling import quick_options
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
@@ -27,6 +27,9 @@ from .numerics.quiet import compiling_quietly
 from .numerics.status import Status
 from .programs import KeptProgram
 from .solve import require_solvable, solve
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 Method = Literal["map", "vmap"]
 """Order in which a device solves its lanes: one after the other, or all in step, each waiting for the slowest."""
@@ -75,11 +78,11 @@ class LaneProgram:
         self._static = (make, method, options)
         self._quick = quick
         self._kept = KeptProgram(_lanes, quick)
-        self._compiled: dict[Any, Any] = {}
+        self._compiled: dict[Any, Callable[[Any], Any]] = {}
         self._tracing = threading.Lock()
 
     @functools.cached_property
-    def structure(self) -> Any:
+    def structure(self) -> AbstractSolution:
         """The solution of one lane, with shapes for arrays."""
         inputs = jax.tree.map(lambda leaf: np.asarray(leaf)[None], self._example)
         leaves, structure = self._flat(self._filled(inputs, np.zeros(1, dtype=bool), 0))
@@ -89,7 +92,9 @@ class LaneProgram:
             return jax.eval_shape(functools.partial(_lane, make, options), self.base, self._example)
         return jax.tree.map(lambda leaf: jax.ShapeDtypeStruct(leaf.shape[1:], leaf.dtype), found)
 
-    def __call__(self, inputs: Any, active: np.ndarray, progress: Callable[[int], None] = lambda lanes: None) -> Any:
+    def __call__(
+        self, inputs: Any, active: np.ndarray, progress: Callable[[int], None] = lambda lanes: None
+    ) -> AbstractSolution:
         """Solutions of as many lanes as there are.
 
         **Arguments:**
@@ -102,7 +107,7 @@ class LaneProgram:
         for one in self.devices:
             free.put(one)
 
-        def solved(start: int) -> Any:
+        def solved(start: int) -> AbstractSolution:
             chosen = free.get()
             try:
                 return self._block(chosen, inputs, active, start)
@@ -120,7 +125,7 @@ class LaneProgram:
         """Gives what the lanes of one call share, which of them are solved, and their inputs. The last block is filled
         up with lanes that are not solved."""
 
-        def part(values: Any) -> np.ndarray:
+        def part(values: "npt.ArrayLike") -> np.ndarray:
             values = np.asarray(values)[start : start + self.lanes]
             return np.concatenate([values, np.repeat(values[-1:], self.lanes - len(values), axis=0)])
 
@@ -132,7 +137,7 @@ class LaneProgram:
         """Leaves and structure of all arguments of `_lanes`, from what `_filled` gives."""
         return jax.tree.flatten((*self._static, *given))
 
-    def _block(self, device: Any, inputs: Any, active: np.ndarray, start: int) -> Any:
+    def _block(self, device: Any, inputs: Any, active: np.ndarray, start: int) -> AbstractSolution:
         """Lanes of one call."""
         given = self._filled(inputs, active, start)
         if device not in self._compiled:
@@ -154,17 +159,26 @@ class LaneProgram:
         return lambda given: compiled(*jax.device_put(given, device))
 
 
-def _lane(make: Any, options: Any, shared: Any, inputs: Any) -> Any:
+def _lane(
+    make: Callable[[Any, Any], AbstractScene], options: NewtonOptions | None, shared: Any, inputs: Any
+) -> AbstractSolution:
     return solve(make(shared, inputs), throw=False, options=options)
 
 
-def _lanes(make: Any, method: Method, options: Any, shared: Any, active: Bool[Array, " lane"], inputs: Any) -> Any:
+def _lanes(
+    make: Callable[[Any, Any], AbstractScene],
+    method: Method,
+    options: NewtonOptions | None,
+    shared: Any,
+    active: Bool[Array, " lane"],
+    inputs: Any,
+) -> AbstractSolution:
     """Solutions of all lanes of one call."""
     one = functools.partial(_lane, make, options)
     first = jax.tree.map(lambda leaf: jax.ShapeDtypeStruct(leaf.shape[1:], leaf.dtype), inputs)
     empty = _without_result(jax.eval_shape(one, shared, first))
 
-    def lane(shared: Any, active: Array, inputs: Any) -> Any:
+    def lane(shared: Any, active: Array, inputs: Any) -> AbstractSolution:
         return jax.lax.cond(active, lambda: one(shared, inputs), lambda: empty)
 
     if method == "map":
@@ -172,10 +186,10 @@ def _lanes(make: Any, method: Method, options: Any, shared: Any, active: Bool[Ar
     return jax.vmap(lane, in_axes=(None, 0, 0))(shared, active, inputs)
 
 
-def _without_result(structure: Any) -> Any:
+def _without_result(structure: AbstractSolution) -> AbstractSolution:
     """The solution of a lane that is not solved, because its scene was refused."""
 
-    def nothing(leaf: Any) -> Array:
+    def nothing(leaf: jax.ShapeDtypeStruct) -> Array:
         return jnp.full(leaf.shape, jnp.nan if jnp.issubdtype(leaf.dtype, jnp.inexact) else 0, leaf.dtype)
 
     status = jnp.full(structure.status.shape, int(Status.INVALID_INPUT), structure.status.dtype)

@@ -128,7 +128,7 @@ def _is_number(value: Any) -> bool:
     return number and not isinstance(value, bool) and np.ndim(value) == 0
 
 
-def _uncertain(scene: Any, given: Mapping[str, Distribution], drag_prior: bool) -> list[_Uncertain]:
+def _uncertain(scene: AbstractScene, given: Mapping[str, Distribution], drag_prior: bool) -> list[_Uncertain]:
     """The inputs that have a distribution."""
     assumed = {
         priors.DRAG_FIELD: priors.drag_prior(scene) if drag_prior else None,

@@ -5,7 +5,7 @@ five conjugate loads, and the derivatives of these by those (frame and signs: `b
 """
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from typing import Any, Literal
 
@@ -96,7 +96,7 @@ def reaction(
     numbers: Any = (jax.tree.map(as_float, scene), five, *lengths)
     inside = inside_a_program(numbers)
     if inside:
-        function: Any = _react if is_tracing() else _react_differentiated
+        function: Callable[..., Solution] = _react if is_tracing() else _react_differentiated
     else:
         function = _react_quickly
     quiet = nullcontext() if inside else quiet_first_time((reaction, jax.tree.structure(scene), at, tilt))

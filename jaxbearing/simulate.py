@@ -162,7 +162,7 @@ def simulate(
 _PURE = "simulate_batch, or quasi_static_start and trajectory,"
 
 
-def _require_moving(scene: Any, method: str) -> None:
+def _require_moving(scene: object, method: str) -> None:
     """**Raises:** `TypeError` for what is no scene, or for a kind that does not move."""
     if isinstance(scene, AbstractScene) and getattr(type(scene), method) is not getattr(AbstractScene, method):
         return

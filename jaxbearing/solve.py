@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from .shafts import ShaftSolution, ShaftSystem
 
 
-def require_solvable(scene: Any) -> None:
+def require_solvable(scene: object) -> None:
     """**Raises:** `TypeError` if `scene` is not a scene, or if its kind has no steady state."""
     if not isinstance(scene, AbstractScene) or type(scene).steady_solution is AbstractScene.steady_solution:
         kinds = "a ball, cylindrical or tapered roller bearing, a shaft, a two-disk machine or a line contact"

@@ -14,7 +14,9 @@ from .smooth import smooth_curves
 from .words import SYMBOL, parameter_text, percent
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
+    import matplotlib.typing
 
 NAMED = 12
 """Curves up to which each has its own colour and name."""
@@ -35,7 +37,7 @@ _LEVELS = 6
 class _Look(NamedTuple):
     """Style of a drawn curve; `label` is empty if the legend does not name it."""
 
-    colour: Any
+    colour: "matplotlib.typing.ColorType"
     marker: str
     label: str
     line: Any = "-"
@@ -73,7 +75,7 @@ def plot_fit(result: FitResult, data: str, scene: str, notes: Sequence[str] = ()
     return figure
 
 
-def _axis(result: FitResult, axes: Any) -> bool:
+def _axis(result: FitResult, axes: "matplotlib.axes.Axes") -> bool:
     """Chooses the axis of the slide-to-roll ratio, in per cent; returns whether it is logarithmic."""
     slide = 100.0 * np.asarray(result.measurements.slide_to_roll)
     size = np.abs(slide[slide != 0.0])
@@ -95,7 +97,7 @@ def _axis(result: FitResult, axes: Any) -> bool:
     return True
 
 
-def _draw_curves(result: FitResult, looks: list[_Look], logarithmic: bool, axes: Any) -> None:
+def _draw_curves(result: FitResult, looks: list[_Look], logarithmic: bool, axes: "matplotlib.axes.Axes") -> None:
     measured = result.measurements
     slide, coefficient = 100.0 * np.asarray(measured.slide_to_roll), np.asarray(measured.traction_coefficient)
     axes.axhline(0.0, color=INK, linewidth=0.6)
@@ -115,7 +117,7 @@ def _draw_curves(result: FitResult, looks: list[_Look], logarithmic: bool, axes:
     grid_lines(axes)
 
 
-def _draw_residuals(result: FitResult, looks: list[_Look], axes: Any) -> None:
+def _draw_residuals(result: FitResult, looks: list[_Look], axes: "matplotlib.axes.Axes") -> None:
     measured = result.measurements
     slide = 100.0 * np.asarray(measured.slide_to_roll)
     difference = result.predicted - np.asarray(measured.traction_coefficient)
@@ -134,7 +136,7 @@ def _draw_residuals(result: FitResult, looks: list[_Look], axes: Any) -> None:
     grid_lines(axes)
 
 
-def _mark_outliers(result: FitResult, slide: np.ndarray, values: np.ndarray, axes: Any) -> None:
+def _mark_outliers(result: FitResult, slide: np.ndarray, values: np.ndarray, axes: "matplotlib.axes.Axes") -> None:
     if not np.any(result.outlier):
         return
     style = {"marker": "x", "color": _OUTLIER, "linestyle": "none", "markersize": 7, "markeredgewidth": 1.3}
@@ -220,7 +222,7 @@ def _varies(curves: Sequence[CurveFit], condition: _Condition) -> bool:
     return max(values) - min(values) > limit
 
 
-def _draw_legend(figure: Any, axes: Any, result: FitResult, looks: list[_Look]) -> None:
+def _draw_legend(figure: Any, axes: "matplotlib.axes.Axes", result: FitResult, looks: list[_Look]) -> None:
     """Draws the legend beside the diagrams: how points and lines differ, what all curves have in common, and the curves
     with their points and lines."""
     from matplotlib.lines import Line2D
@@ -253,7 +255,7 @@ def _draw_legend(figure: Any, axes: Any, result: FitResult, looks: list[_Look]) 
         handle.set_markersize(5.0)
 
 
-def _write_parameters(figure: Any, result: FitResult, bottom: float) -> None:
+def _write_parameters(figure: "matplotlib.figure.Figure", result: FitResult, bottom: float) -> None:
     """The fitted parameters beside the diagrams."""
     figure.text(0.74, bottom + 0.25, f"Rheology, {percent(result.level)} intervals", fontsize=9.5, fontweight="bold")
     for row, (name, parameter) in enumerate(result.parameters.items()):

@@ -4,6 +4,7 @@ from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Array
 
 from jaxbearing.machines import TwoDisk
 from jaxbearing.programs import KeptProgram
@@ -70,12 +71,12 @@ def _side(slide: np.ndarray, count: int, logarithmic: bool) -> np.ndarray:
     return np.sign(slide[0]) * size.max() * np.linspace(0.0, 1.0, count + 1)[1:] ** 2
 
 
-def _filled(parts: list[np.ndarray]) -> Any:
+def _filled(parts: list[np.ndarray]) -> Array:
     """One row after the other, as many as are computed together."""
     return jnp.asarray(np.concatenate([*parts, *[parts[-1]] * (_TOGETHER - len(parts))]))
 
 
-def _coefficients(scene: TwoDisk, slide: Any, speed: Any, temperature: Any, load: Any) -> Any:
+def _coefficients(scene: TwoDisk, slide: Any, speed: Any, temperature: Any, load: Any) -> Array:
     state = scene.state(slide, speed, temperature, load=load)
     return scene.traction(state).rolling / state.load
 

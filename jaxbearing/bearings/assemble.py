@@ -48,7 +48,7 @@ class Results(NamedTuple, Generic[Elements, Losses]):
 def assemble(
     scene: AbstractBearing,
     result: NewtonResult,
-    results: Results[Any, Any],
+    results: Results[Elements, Losses],
     ring: RingDisplacement,
     port: Port,
     iterations: Int[Array, ""] | None = None,

@@ -21,7 +21,8 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array
 
-from .._scene import AbstractScene
+from .._scene import AbstractHistory, AbstractScene
+from .._types import Values
 from ..contacts import LineContact, PointContact
 from ..materials import ROLLER_PRESSURE
 from ..mounting import Fits, PartTemperatures
@@ -39,7 +40,7 @@ from .rated import RatedContacts
 from .rating import Rating
 from .ring import InnerRing
 from .row import AbstractRow
-from .solution import RING_FREEDOMS, TILTS, Solution
+from .solution import RING_FREEDOMS, TILTS, LaminaLoads, Solution
 from .warm import settled, solve_warm
 
 TAKEN = "simulate takes: any bearing with [thermal], a cylindrical roller bearing, a ball bearing, a line contact"
@@ -75,7 +76,7 @@ class AbstractBearing(AbstractScene):
     def steady_solution(self, options: NewtonOptions) -> Solution:
         return self.solved_running(lambda running: running.solve_ring(options))
 
-    def simulated(self, duration: float | None, **settings: Any) -> Any:
+    def simulated(self, duration: float | None, **settings: Any) -> AbstractHistory:
         """Simulates the temperatures over time. The scene must have a thermal network."""
         if self.thermal is None:
             raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; {TAKEN}")
@@ -83,14 +84,14 @@ class AbstractBearing(AbstractScene):
 
         return simulate_warm_up(self, duration, **settings)
 
-    def check_restart(self, restart: Any, duration: float | None = None) -> None:
+    def check_restart(self, restart: object, duration: float | None = None) -> None:
         if self.thermal is None:
             raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; {TAKEN}")
         from .warming.runs import check_restart
 
         check_restart(self, restart)
 
-    def solved_running(self, solve: Callable[[Any], Solution]) -> Solution:
+    def solved_running(self, solve: "Callable[[AbstractBearing], Solution]") -> Solution:
         """Solves the bearing with its running dimensions, which depend on fits and temperatures. With a thermal network
         the temperatures are unknowns too.
 
@@ -117,7 +118,7 @@ class AbstractBearing(AbstractScene):
             failure_causes={**solution.failure_causes, **impossible},
         )
 
-    def settled(self, solution: Solution) -> Any:
+    def settled(self: Bearing, solution: Solution) -> Bearing:
         """The scene at the temperatures of its solution; unchanged without a thermal network."""
         return settled(self, solution)
 
@@ -168,7 +169,7 @@ class AbstractBearing(AbstractScene):
         have too are not among them."""
 
     @abc.abstractmethod
-    def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
+    def rated_contacts(self, elements: Any, laminae: LaminaLoads | None, force: Array | None = None) -> RatedContacts:
         """Sizes and loads of the raceway contacts for the life calculation.
 
         **Arguments:** fields of a solution with these names: `elements`, the state of the rolling elements; `laminae`,
@@ -190,7 +191,7 @@ class AbstractBearing(AbstractScene):
         return getattr(self.geometry, f"n_{self.element}s")
 
     @property
-    def mean_diameter(self) -> Any:
+    def mean_diameter(self) -> Values:
         """Diameter of a rolling element, at its middle, m; not the pitch diameter of the bearing."""
         return getattr(self.geometry, f"{self.element}_diameter")
 

@@ -21,7 +21,7 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from .._types import Values
+from .._types import Scalar, Values
 from .solution import label
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def tangential_bending(angle: Array) -> Array:
     return 0.75 * jnp.sin(angle) - half * (1.0 - jnp.cos(angle))
 
 
-def cage_section(cage: "AbstractCage", geometry: Any, density: Any) -> CageSection:
+def cage_section(cage: "AbstractCage", geometry: Any, density: Scalar) -> CageSection:
     """The section of a cage: rails as wide as its lands and as high as the cage is thick, bars as wide as the pockets
     leave them at the mean radius.
 

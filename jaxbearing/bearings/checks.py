@@ -8,7 +8,6 @@ it is about.
 """
 
 from collections.abc import Callable
-from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
@@ -20,6 +19,7 @@ from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..numerics import lapack
 from ..numerics.safe import smooth_abs
 from .bearing import AbstractBearing
+from .cage import AbstractCage
 from .facts import BUSY, Contacts, Excess, Facts, SolvedBearing
 from .solution import CageState, RingDisplacement
 
@@ -255,7 +255,7 @@ def _slow(scene: AbstractBearing) -> Excess:
 
 
 def _wide_land(scene: AbstractBearing) -> Excess:
-    cage: Any = getattr(scene, "cage", None)
+    cage: AbstractCage | None = getattr(scene, "cage", None)
     if cage is None or not scene.slips:
         return {}
     diameter = cage.bore(scene.geometry) if cage.guidance == "inner_ring" else cage.outside(scene.geometry)

@@ -25,7 +25,7 @@ def computed(unit: str, description: str, of: Callable[[Found], Array | None], *
     return eqx.field(metadata={**label(unit, description), "of": of}, **default)
 
 
-def computed_results(kind: Any, found: Any) -> dict[str, Any]:
+def computed_results(kind: type[eqx.Module], found: object) -> dict[str, Any]:
     """The results of a class that name their function, by name. **Arguments:** `kind`: the class; `found`: the record
     that the functions take."""
     return {field.name: field.metadata["of"](found) for field in dataclasses.fields(kind) if "of" in field.metadata}

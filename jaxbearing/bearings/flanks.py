@@ -2,15 +2,22 @@
 `load_inner_second` of the other one. Elements of other bearings pass unchanged."""
 
 import dataclasses
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
+import equinox as eqx
 import jax.numpy as jnp
+from jaxtyping import Array
+
+if TYPE_CHECKING:
+    Elements = TypeVar("Elements", bound=eqx.Module)
+else:
+    Elements = Any
 
 SECOND = "_second"
 """End of the names of results of the second flanks."""
 
 
-def _second(elements: Any) -> dict[str, Any]:
+def _second(elements: object) -> dict[str, Array]:
     """Results of the second flanks by the names of those of the first ones."""
     if not dataclasses.is_dataclass(elements):
         return {}
@@ -19,7 +26,7 @@ def _second(elements: Any) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value is not None}
 
 
-def by_flank(elements: Any) -> list[Any]:
+def by_flank(elements: Elements) -> list[Elements]:
     """The elements with the results of their first flanks, and with those of the second ones in the same fields if a
     ring has them. A ring with one arc has no load on the second."""
     found = _second(elements)
@@ -29,7 +36,7 @@ def by_flank(elements: Any) -> list[Any]:
     return [elements, dataclasses.replace(elements, **(empty | found))]
 
 
-def on_heavier_flanks(elements: Any) -> Any:
+def on_heavier_flanks(elements: Elements) -> Elements:
     """The elements with the results of the more loaded flank of each race, at every element."""
     found = _second(elements)
     if not found:

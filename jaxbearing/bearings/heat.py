@@ -4,12 +4,13 @@ Boundary dimensions are those of the drawing: what temperatures and fits change 
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from .._types import Scalar, Values
 from ..gaps import saturated_oil_fraction
 from ..lubricants import InletOil
 from ..materials import Material
@@ -45,7 +46,7 @@ OUTSIDE = {1: ("bearing",), 4: ("inner_ring", "outer_ring"), 6: ("shaft", "housi
 GUIDED = {"inner": "inner_ring", "outer": "outer_ring", "both": "both"}
 
 
-def inlet_temperature(scene: Any) -> Any:
+def inlet_temperature(scene: Any) -> Values:
     """Temperature at which oil enters the network, K."""
     own = scene.thermal.oil_inlet
     return scene.operation.oil_temperature if own is None else own
@@ -68,7 +69,7 @@ def has_flow(scene: AbstractBearing) -> bool:
 def bearing_network(scene: Any) -> Network:
     """Nodes, oil flow and ambient of a scene; conductances that depend on the solution come with it."""
     thermal: Thermal = scene.thermal
-    ways: dict[str, Any] = dict.fromkeys(OUTSIDE[thermal.nodes], 0.0)
+    ways: dict[str, Scalar | CylindricalHousing] = dict.fromkeys(OUTSIDE[thermal.nodes], 0.0)
     if thermal.housing_diameter is not None:
         size = (thermal.housing_diameter, thermal.factor.ambient * thermal.housing_area)
         housing = {1: "bearing", 4: "outer_ring", 6: "housing"}[thermal.nodes]
@@ -94,7 +95,7 @@ def bearing_heat(
     losses = {name: value for name, value in vars(loss).items() if name not in ("total", "rolling_resistance")}
     if by_race is not None:
         losses |= {"inner_rolling_resistance": by_race.inner, "outer_rolling_resistance": by_race.outer}
-    between: dict[tuple[str, str], Any] = {}
+    between: dict[tuple[str, str], Scalar] = {}
     to_rings = {"inner_ring": 0.5, "outer_ring": 0.5}
     if len(nodes) > 1:
         flanks = by_flank(solution.elements)
@@ -194,8 +195,12 @@ def _contacts(scene: Any, elements: Any) -> ContactHeat:
 
 
 def _between(
-    scene: AbstractBearing, thermal: Thermal, solution: Solution, contacts: ContactHeat, temperatures: Mapping[str, Any]
-) -> dict[tuple[str, str], Any]:
+    scene: AbstractBearing,
+    thermal: Thermal,
+    solution: Solution,
+    contacts: ContactHeat,
+    temperatures: Mapping[str, Array],
+) -> dict[tuple[str, str], Scalar]:
     """Conductances between the nodes, W/K."""
     geometry, given = scene.geometry, thermal.conductance
     through = jnp.sum(contacts.conductance, axis=1) + oil_filling_conductance(
@@ -232,7 +237,7 @@ def _surface(scene: AbstractBearing) -> Array:
     return elements_surface(scene.mean_diameter, scene.n_elements, length)
 
 
-def _oil_transfer(scene: AbstractBearing, solution: Solution, temperature: Array) -> Any:
+def _oil_transfer(scene: AbstractBearing, solution: Solution, temperature: Array) -> Callable[[], Array]:
     """Function to the heat transfer from the oil to rings and elements, W/(m^2 K); asked only where it is needed."""
 
     def transfer() -> Array:
@@ -246,7 +251,7 @@ def _oil_transfer(scene: AbstractBearing, solution: Solution, temperature: Array
     return transfer
 
 
-def _to_ambient(scene: AbstractBearing, thermal: Thermal) -> dict[str, Any]:
+def _to_ambient(scene: AbstractBearing, thermal: Thermal) -> dict[str, Scalar]:
     """Conductances to the ambient beside that of a housing in air, W/K."""
     found = {}
     for node in OUTSIDE[thermal.nodes]:
@@ -255,7 +260,7 @@ def _to_ambient(scene: AbstractBearing, thermal: Thermal) -> dict[str, Any]:
     return found
 
 
-def _seat_to_ambient(scene: AbstractBearing, thermal: Thermal, node: str) -> Any:
+def _seat_to_ambient(scene: AbstractBearing, thermal: Thermal, node: str) -> Scalar:
     """By the reference heat flow of ISO 15312 through the seats, each seat by its area; a housing in air has a law of
     its own."""
     geometry = scene.geometry
@@ -281,10 +286,10 @@ def unknown_capacities(scene: AbstractBearing) -> tuple[str, ...]:
     return tuple(name for name, value in _capacities(scene) if value is None)
 
 
-def _capacities(scene: Any) -> list[tuple[str, Any]]:
+def _capacities(scene: Any) -> list[tuple[str, Scalar | None]]:
     """Name and heat capacity, J/K, of each node; `None` for what is not known."""
     thermal: Thermal = scene.thermal
-    parts: dict[str, Any] = _own_capacities(scene)
+    parts: dict[str, Scalar] = _own_capacities(scene)
     parts |= {name: value for name, value in vars(thermal.capacity).items() if value is not None}
     inside = [parts.get(name) for name in NODES[4]]
     if "bearing" not in parts and all(one is not None for one in inside):
@@ -292,7 +297,7 @@ def _capacities(scene: Any) -> list[tuple[str, Any]]:
     return [(name, parts.get(name)) for name in thermal.node_names]
 
 
-def _own_capacities(scene: AbstractBearing) -> dict[str, Any]:
+def _own_capacities(scene: AbstractBearing) -> dict[str, Scalar]:
     """Heat capacities of rings, elements and oil as far as they follow from the scene."""
     geometry, rings, balls, oil = scene.geometry, scene.materials.rings, _elements_of(scene), scene.oil
     sizes = (geometry.bore, geometry.outside_diameter, geometry.width)

@@ -7,8 +7,8 @@ the loss of interference under load. Shoulders and a longer shaft change the eff
 """
 
 import dataclasses
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import equinox as eqx
 import jax
@@ -16,6 +16,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from .._types import Scalar
+from ..materials import Material
 from ..mounting import Annulus, Fit, Fits, FitState, PartTemperatures
 from ..mounting.annulus import REFERENCE_TEMPERATURE
 from ..numerics.checks import demand, numbers_or_none
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
 else:
     AbstractBearing = Any
 
+Bearing = TypeVar("Bearing", bound="AbstractBearing")
 HIGHEST_STRESS = 127e6
 """Hoop stress at the inner ring's bore beyond which makers warn of bursting rings of through-hardened steel, Pa."""
 
@@ -103,7 +106,7 @@ def check_walls(scene: AbstractBearing) -> None:
     refuse_all(problems)
 
 
-def running_scene(scene: AbstractBearing) -> tuple[Any, FitResult | None, dict[str, FailureCause]]:
+def running_scene(scene: Bearing) -> tuple[Bearing, FitResult | None, dict[str, FailureCause]]:
     """The bearing that runs: a scene of the same family without seats, whose dimensions are those of the mounted, warm
     and turning bearing.
 
@@ -155,7 +158,7 @@ def _seats_of(fits: Fits) -> tuple[str, ...]:
     return tuple(name for name, there in (("shaft", fits.on_shaft), ("housing", fits.in_housing)) if there)
 
 
-def _rings(scene: Any, warm: Any, turning: Any) -> _Rings:
+def _rings(scene: Any, warm: Array | bool, turning: Array | bool) -> _Rings:
     """Growth and stress of the rings, and the state of the seats.
 
     Rings and seats are computed as arrays. With scalars, JAX would compile a small program for each of many operations.
@@ -194,13 +197,15 @@ def _rings(scene: Any, warm: Any, turning: Any) -> _Rings:
     return _Rings(Growth(*growth, *strains[0], *strains[1]), bodies.hoop_stress_at_bore(pressures)[0], seats)
 
 
-def _together(numbers: Any) -> Array:
+def _together(numbers: Iterable[Scalar]) -> Array:
     """Joins numbers to an array. `jnp.stack` is not used, because it fails if only some of the numbers are batched and
     differentiated."""
     return jnp.concatenate([jnp.reshape(jnp.asarray(one), (1,)) for one in numbers])
 
 
-def _bodies(materials: list[Any], sizes: list[tuple[Any, Any]], speeds: Array, warming: Array, cold: bool) -> Annulus:
+def _bodies(
+    materials: list[Material], sizes: list[tuple[Scalar, Scalar]], speeds: Array, warming: Array, cold: bool
+) -> Annulus:
     """Combines several bodies into one `Annulus` whose sizes and material fields are arrays.
 
     **Arguments:** `sizes`: bore and outside diameter of each body, m; `speeds`: speed of each body, rad/s; `warming`:

@@ -1,11 +1,14 @@
 """Assumed distributions of inputs that nobody has measured."""
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..contacts.oil_supply import LEVELS
 from ..distribution import Distribution
 from ..lubricants import WaltherPower
+
+if TYPE_CHECKING:
+    from .._scene import AbstractScene
 
 DRAG_FIELD = "drag.coefficient"
 """Dotted path of the drag coefficient."""
@@ -48,7 +51,7 @@ def isolated(scene: Any) -> bool:
     return drag is not None and drag.coefficient is None and scene.dissipates
 
 
-def supply_prior(scene: Any) -> Distribution | None:
+def supply_prior(scene: "AbstractScene") -> Distribution | None:
     """The assumed distribution of the gap at the inlets over the central film; `None` where the scene does not give its
     supply as a `level`."""
     supply = getattr(getattr(scene, "contact", None), "supply", None)
@@ -56,7 +59,7 @@ def supply_prior(scene: Any) -> Distribution | None:
     return None if level is None else Distribution.lognormal(LEVELS[level], SUPPLY_DEVIATION)
 
 
-def meaning(scene: Any, path: str) -> str:
+def meaning(scene: "AbstractScene", path: str) -> str:
     """Says what a number of a law stands for, with its effect at the oil's inlet temperature; "" where its name does.
 
     **Arguments:** `path`: dotted path of the number.

@@ -10,7 +10,7 @@ temperatures: a load that changes quickly meets a bearing whose temperatures hav
 
 import dataclasses
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 else:
     AbstractBearing = Any
 
+Bearing = TypeVar("Bearing", bound="AbstractBearing")
 MOST_BROYDEN = {"when_needed": 15, "never": 60}
 """Largest number of solves in Broyden's iteration. After them Newton's iteration begins; without an exact Jacobian
 (`never`), time steps begin instead."""
@@ -125,7 +126,7 @@ def at_temperatures(scene: Any, temperatures: Float[Array, " node"]) -> Any:
     return dataclasses.replace(scene, thermal=None, temperatures=parts, oil_temperatures=oil)
 
 
-def heat_at(scene: Any, temperatures: Float[Array, " node"], solve: Callable[[Any], Solution]) -> NodeHeat:
+def heat_at(scene: Any, temperatures: Float[Array, " node"], solve: Callable[[AbstractBearing], Solution]) -> NodeHeat:
     """Heat into the nodes, for the bearing solved at these node temperatures, K. Its field `other` is the solution.
 
     **Arguments:** `solve`: function that solves a scene that has neither a thermal network nor fits.
@@ -134,7 +135,7 @@ def heat_at(scene: Any, temperatures: Float[Array, " node"], solve: Callable[[An
     return bearing_heat(lane, scene.thermal, lane.solved_running(solve), temperatures)
 
 
-def solve_warm(scene: Any, solve: Callable[[Any], Solution]) -> Solution:
+def solve_warm(scene: Any, solve: Callable[[AbstractBearing], Solution]) -> Solution:
     """The solution at the temperatures at which the heat balance of every node closes.
 
     **Arguments:** `solve`: function that solves a scene that has neither a thermal network nor fits.
@@ -244,7 +245,7 @@ def network_notes(scene: Any) -> tuple[str, ...]:
     return tuple(said)
 
 
-def settled(scene: AbstractBearing, solution: Solution) -> Any:
+def settled(scene: Bearing, solution: Solution) -> Bearing:
     """The scene at the temperatures of its solution; unchanged without a network. If the solution failed, the
     temperatures are finite but meaningless."""
     if scene.thermal is None or solution.thermal is None:

@@ -2,7 +2,6 @@
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
@@ -53,7 +52,7 @@ class Data:
         return len(next(iter(self.measured.values())))
 
     @classmethod
-    def of(cls, given: Any) -> "Data":
+    def of(cls, given: object) -> "Data":
         """The data, or those of a mapping with the same names; numbers become arrays of float64."""
         if isinstance(given, Data):
             return given

@@ -1,9 +1,9 @@
 """Names and labels of the results of a scene, without a solve."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import jax
+from jaxtyping import Array, Bool
 
 from .._scene import AbstractScene
 from ..numerics.newton import NewtonOptions
@@ -21,7 +21,7 @@ def labels_in(
     """
     found: dict[str, tuple[str, Label]] = {}
 
-    def traced(scene: AbstractScene) -> Any:
+    def traced(scene: AbstractScene) -> Bool[Array, ""]:
         solution = solve(scene, throw=False, options=newton)
         for name in names:
             (path,) = names_in(solution, [name])
@@ -36,7 +36,7 @@ def result_names(scene: AbstractScene, newton: NewtonOptions | None = None) -> t
     """Paths of all results of a scene."""
     found: list[str] = []
 
-    def traced(scene: AbstractScene) -> Any:
+    def traced(scene: AbstractScene) -> Bool[Array, ""]:
         solution = solve(scene, throw=False, options=newton)
         found.extend(paths_of(solution))
         return solution.converged

@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.padding import Padding
 from rich.table import Table
 
+from fitting.posterior import Posterior
 from fitting.predictive import Predictive
 
 from ..report.backends.json import finite
@@ -33,7 +34,7 @@ def print_calibration(
     label: str,
     notes: Iterable[str],
     ranked: Sequence[Candidate],
-    posterior: Any,
+    posterior: Posterior | None,
     predicted: Mapping[str, Predicted],
     console: Console,
     again: Predictive | None = None,
@@ -144,7 +145,7 @@ def _error(one: Candidate, path: str, unit: str) -> str:
     return _difference(one.standard_errors[path], unit)
 
 
-def _posterior(found: Calibration, posterior: Any) -> Table:
+def _posterior(found: Calibration, posterior: Posterior) -> Table:
     table = _table("", "median", "interval", "R-hat", "effective samples")
     units = {field.path: field.unit for field in found.fields}
     for path, one in posterior.parameters.items():
@@ -158,7 +159,7 @@ def calibration_to_dict(
     found: Calibration,
     notes: Iterable[str],
     ranked: Sequence[Candidate] = (),
-    posterior: Any = None,
+    posterior: Posterior | None = None,
     predicted: Mapping[str, Predicted] = {},
     again: Predictive | None = None,
 ) -> dict[str, Any]:

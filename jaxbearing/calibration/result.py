@@ -8,6 +8,7 @@ import numpy as np
 
 from fitting.result import Parameter
 
+from .._scene import AbstractScene
 from .data import Data
 from .parameters import FreeField
 from .search import Options
@@ -109,7 +110,7 @@ class Calibration:
     notes: tuple[str, ...]
     data: tuple[Data, ...]
     options: Options
-    scenes: tuple[Any, ...] = field(repr=False)
+    scenes: tuple[AbstractScene, ...] = field(repr=False)
     search: Any = field(repr=False, default=None)
     settled: Any = field(repr=False, default=None)
 

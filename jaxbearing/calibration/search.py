@@ -180,7 +180,7 @@ class Search(AbstractSearch):
         end = minimised_outside(evaluate, starts, MOST_EVALUATIONS, OFFSET)
         return Estimates(*(np.asarray(one) for one in (end.u, end.loss, end.converged, end.steps)))
 
-    def problem(self, free: np.ndarray, pinned: Any, base: np.ndarray | None = None) -> Problem:
+    def problem(self, free: np.ndarray, pinned: dict[int, float], base: np.ndarray | None = None) -> Problem:
         start = np.array([field.coordinate(field.start) for field in self.fields])
         coordinates = np.where(free, start if base is None else base, start)
         for index, value in pinned.items():

@@ -98,7 +98,7 @@ def _known(source: SceneSource, overrides: Mapping[str, str]) -> dict[str, str]:
     return {path: text for path, text in overrides.items() if _has(source, path)}
 
 
-def _assumed(path: str, scenes: Sequence[Any]) -> Distribution:
+def _assumed(path: str, scenes: Sequence[AbstractScene]) -> Distribution:
     """The package's own distribution of a field. **Raises:** `SceneError` where there is none."""
     known = {DRAG_FIELD: drag_prior, SUPPLY_FIELD: supply_prior}
     found = next((one for scene in scenes if path in known and (one := known[path](scene)) is not None), None)

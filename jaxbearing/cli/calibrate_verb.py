@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from fitting.posterior import Posterior
     from fitting.predictive import Predictive
 
+    from .._scene import AbstractScene
     from ..calibration import Calibration
     from ..calibration.next_point import Candidate
     from ..calibration.prediction import Predicted
@@ -241,7 +242,9 @@ def _prediction(text: str) -> tuple[str, Any, str]:
     return text, load_scene(scene.strip()), result.strip()
 
 
-def _predicted(found: "Calibration", others: list[tuple[str, Any, str]], drawn: Any) -> "dict[str, Predicted]":
+def _predicted(
+    found: "Calibration", others: "list[tuple[str, AbstractScene, str]]", drawn: "Posterior | None"
+) -> "dict[str, Predicted]":
     """Results of other scenes, of a calibration that converged; ends the command where there are none."""
     from ..calibration.prediction import predict
 
@@ -256,11 +259,11 @@ def _predicted(found: "Calibration", others: list[tuple[str, Any, str]], drawn: 
     return predicted
 
 
-def _write_posterior(found: "Calibration", drawn: Any, again: Any, label: str, path: Path) -> None:
+def _write_posterior(found: "Calibration", drawn: Any, again: "Predictive | None", label: str, path: Path) -> None:
     write_posterior(drawn, again, {field.path: field.unit for field in found.fields}, label, path)
 
 
-def _output(found: "Calibration", drawn: Any, label: str, file: Path, as_json: bool) -> Output:
+def _output(found: "Calibration", drawn: "Posterior | None", label: str, file: Path, as_json: bool) -> Output:
     """A file of `--out`: by its suffix the scene, or the fields with what they share."""
     if file.suffix.lower() == OUT[0]:
         said = "" if as_json else f"wrote {file}: the scene with the calibrated values"
@@ -269,7 +272,7 @@ def _output(found: "Calibration", drawn: Any, label: str, file: Path, as_json: b
     return Output(file, lambda path: _write_joint(found, drawn, label, path), said)
 
 
-def _write_joint(found: "Calibration", drawn: Any, label: str, out: Path) -> None:
+def _write_joint(found: "Calibration", drawn: "Posterior | None", label: str, out: Path) -> None:
     from ..calibration.prediction import joint_of
     from ..report.joint_file import write_joint
 

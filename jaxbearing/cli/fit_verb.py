@@ -262,7 +262,7 @@ def _sampled(result: "FitResult", sampling: "Sampling | None") -> "tuple[Posteri
         refuse(f"--{error}")
 
 
-def _write_posterior(drawn: Any, again: Any, data: Path, path: Path) -> None:
+def _write_posterior(drawn: Any, again: "Predictive | None", data: Path, path: Path) -> None:
     from fitting.parameters import NAMES, UNITS
 
     write_posterior(drawn, again, dict(zip(NAMES, UNITS, strict=True)), str(data), path)

@@ -1,12 +1,13 @@
 """Results of a run in time of a line contact, labelled."""
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import equinox as eqx
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractHistory, label
+from .._types import Scalar
 from .last_state import FilmState
 from .line_contact import ContactOperation
 from .solution import HertzResult
@@ -73,7 +74,7 @@ class LineContactHistory(AbstractHistory):
         return self.early_end()
 
 
-def thin_note(time: float, limit: Any) -> str:
+def thin_note(time: float, limit: Scalar) -> str:
     """Note on a run that ended below its film limit."""
     return (
         f"the run ended at {1e3 * time:.6g} ms: the smallest film fell below contact.film_limit, "

@@ -1,6 +1,6 @@
 """A lubricated line contact as a scene: two cylinders, an oil, a load and a speed."""
 
-from typing import Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -12,11 +12,16 @@ from ..contacts import AbstractLineFilm, DowsonHigginson, DowsonToyoda, LineCont
 from ..lubricants import Lubricant
 from ..materials import Material, reduced_modulus
 from ..numerics.checks import Checked
+from ..numerics.newton import NewtonOptions
 from ..numerics.structure import constant, count, switch
 from .equations import Fluid
 from .mesh import INLET, OUTLET, STOP_OUTLET, MeshKey
 from .simulation import FilmSimulation
 from .steady import Steady, existing
+
+if TYPE_CHECKING:
+    from .history import LineContactHistory
+    from .solution import LineContactSolution
 
 SMALLEST_MOES_LOAD = 3.0
 """Moes load number M below which a contact is nearly rigid: its Hertz half width no longer measures the film, and the
@@ -128,17 +133,17 @@ class EHLLineContact(AbstractScene):
     operation: ContactOperation
     simulation: FilmSimulation | None = None
 
-    def steady_solution(self, options: Any) -> Any:
+    def steady_solution(self, options: NewtonOptions) -> "LineContactSolution":
         from .solution import solve_line_contact
 
         return solve_line_contact(self, options)
 
-    def simulated(self, duration: float | None, **settings: Any) -> Any:
+    def simulated(self, duration: float | None, **settings: Any) -> "LineContactHistory":
         from .run import run_film
 
         return run_film(self, duration, **settings)
 
-    def check_restart(self, restart: Any, duration: float | None = None) -> None:
+    def check_restart(self, restart: object, duration: float | None = None) -> None:
         from .run import check_state
 
         check_state(self, restart, duration)
@@ -188,7 +193,7 @@ class EHLLineContact(AbstractScene):
         temperature = jnp.asarray(self.operation.oil_temperature, dtype=float)
         return Fluid(self.oil.viscosity, temperature, scales.hertz_pressure, self.contact.compressible)
 
-    def formulas(self, speed: Any = None) -> dict[str, Float[Array, ""]]:
+    def formulas(self, speed: Scalar | None = None) -> dict[str, Float[Array, ""]]:
         """Film formulas beside the solution, m. **Arguments:** `speed`: m/s; the operation's where not given."""
         inlet = self.oil.at(self.operation.oil_temperature)
         speed = jnp.abs(jnp.asarray(self.operation.entrainment_speed if speed is None else speed, dtype=float))
@@ -201,7 +206,7 @@ class EHLLineContact(AbstractScene):
         contact, oil = self.hertz, (inlet.viscosity, inlet.pressure_viscosity)
         return {name: jnp.exp(law.log_thickness(contact, load, speed, *oil)) for name, law in laws.items()}
 
-    def steady(self, scales: Scales, speed: Any) -> Steady:
+    def steady(self, scales: Scales, speed: Scalar) -> Steady:
         """The steady problem at a speed (over the reference speed, any sign)."""
         speed = jnp.asarray(speed, dtype=float)
         guess = self.formulas(speed * scales.reference_speed)["moes_central"] / scales.film
@@ -213,7 +218,7 @@ class EHLLineContact(AbstractScene):
         film = self.formulas()["moes_central"] if film is None else film
         return 0.125 * jnp.pi * scales.film / film
 
-    def solvable(self, scales: Scales, speed: Any) -> Bool[Array, ""]:
+    def solvable(self, scales: Scales, speed: Scalar) -> Bool[Array, ""]:
         """True if there is a film at this speed that this model describes."""
         return existing(scales.wedge, speed) & self.described(scales)
 

@@ -239,7 +239,7 @@ def _length(
     return chosen, length
 
 
-def _require_film(state: Any) -> None:
+def _require_film(state: object) -> None:
     """Checks the kind of a state.
 
     **Raises:** `ValueError` for a state that is not one of a line contact.

@@ -1,7 +1,6 @@
 """Results of a steady line contact, and the solve that makes them."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -9,7 +8,9 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractSolution, label
+from .._types import Scalar
 from ..lubricants.ranges import FITTED_TEMPERATURES
+from ..numerics.newton import NewtonOptions
 from ..numerics.status import Status
 from .equations import film_shape
 from .line_contact import SMALLEST_MOES_LOAD, ContactOperation, EHLLineContact, Scales
@@ -129,7 +130,7 @@ def parabola_minimum(values: Float[Array, " node"], grid: Mesh) -> tuple[Float[A
     return values[i] + shift * (slope + curvature * shift), x[i] + shift
 
 
-def solve_line_contact(scene: EHLLineContact, options: Any = None) -> LineContactSolution:
+def solve_line_contact(scene: EHLLineContact, options: NewtonOptions | None = None) -> LineContactSolution:
     """The steady film. `options` is there for the other scenes' sake: tolerances are the solver's own
     (`steady.TOLERANCE`)."""
     scales, key = scene.scales(), scene.steady_mesh
@@ -179,7 +180,7 @@ def solve_line_contact(scene: EHLLineContact, options: Any = None) -> LineContac
     )
 
 
-def range_checks(scene: EHLLineContact, scales: Scales, film: Any = None) -> dict[str, Bool[Array, ""]]:
+def range_checks(scene: EHLLineContact, scales: Scales, film: Scalar | None = None) -> dict[str, Bool[Array, ""]]:
     """Range checks: text -> True if the range of a law or of the mesh is left.
 
     **Arguments:** `film`: film thickness by Moes' formula, if it is known.

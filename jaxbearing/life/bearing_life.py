@@ -12,6 +12,7 @@ from jaxtyping import Array, Bool, Float
 from ..bearings.bearing import AbstractBearing
 from ..bearings.flanks import on_heavier_flanks
 from ..bearings.inlet import race_temperatures
+from ..bearings.operation import AbstractOperation
 from ..bearings.rated import RatedContacts
 from ..bearings.rating import CATALOGUE_CONFORMITY, Rating, rated_laminae
 from ..bearings.solution import Solution
@@ -181,7 +182,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     return jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), life)
 
 
-def _turning(operation: Any) -> tuple[Bool[Array, ""], Bool[Array, ""]]:
+def _turning(operation: AbstractOperation) -> tuple[Bool[Array, ""], Bool[Array, ""]]:
     """True if the inner and the outer ring turn against the load, which stands still; the inner one where none does."""
     inner, outer = (jnp.asarray(value) != 0.0 for value in (operation.inner_speed, operation.outer_speed))
     return inner | ~outer, outer
@@ -218,7 +219,7 @@ def rated_by(contacts: RatedContacts, rating: Rating, turns: tuple[Array, Array]
     return (_of_points if contacts.length is None else _of_lines)(contacts, rating, turns)
 
 
-def _of_points(contacts: RatedContacts, rating: Rating, turns: Any) -> Rated:
+def _of_points(contacts: RatedContacts, rating: Rating, turns: tuple[Array, Array]) -> Rated:
     assert contacts.conformities is not None
     sizes = (contacts.n_elements, contacts.diameter, contacts.pitch_diameter, jnp.asarray(contacts.contact_angle))
     modulus = rated_modulus(contacts.rings, contacts.elements)
@@ -248,7 +249,7 @@ def even_laminae(load: Float[Array, " element"], count: int) -> Float[Array, "el
     return jnp.broadcast_to(load[:, None] / count, (load.shape[0], count))
 
 
-def _of_lines(contacts: RatedContacts, rating: Rating, turns: Any) -> Rated:
+def _of_lines(contacts: RatedContacts, rating: Rating, turns: tuple[Array, Array]) -> Rated:
     assert contacts.length is not None
     angle, length = jnp.asarray(contacts.contact_angle), contacts.length
     sizes = (contacts.n_elements, contacts.diameter, contacts.pitch_diameter)

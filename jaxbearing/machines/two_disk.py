@@ -1,7 +1,7 @@
 """The two-disk machine: two bodies that roll and slide on each other under load, and the traction between them."""
 
 import dataclasses
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
@@ -33,6 +33,7 @@ from ..lubricants import Lubricant, NoPressureViscosity
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import Material, reduced_modulus
 from ..numerics.checks import RANGES, Checked, array_module, demand
+from ..numerics.newton import NewtonOptions
 from ..numerics.precision import as_float
 from ..numerics.refusals import refuse_all
 from ..numerics.status import Status
@@ -258,7 +259,7 @@ class TwoDisk(AbstractScene):
     def __check_init__(self):
         refuse_all(self._problems())
 
-    def steady_solution(self, options: Any) -> TwoDiskSolution:
+    def steady_solution(self, options: NewtonOptions) -> TwoDiskSolution:
         return solve_two_disk(self, options)
 
     def _problems(self) -> Iterator[str | ValueError]:
@@ -337,7 +338,7 @@ class TwoDisk(AbstractScene):
         return law.traction(state.patch, state.film, state.entrainment_speed, sliding, state.temperature, oil)
 
 
-def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
+def solve_two_disk(scene: TwoDisk, options: NewtonOptions | None = None) -> TwoDiskSolution:
     """The traction curves of the scene's operation. `options` has no effect: only scalar roots are iterated. It is
     there because the solves of other scenes take it."""
     operation = scene.operation
@@ -391,7 +392,7 @@ def _status(good: Array, explained: Array) -> Array:
     return jnp.where(good, np.int64(Status.CONVERGED), failed)
 
 
-def _in_batches(function: Any, grid: Sequence[Array]) -> Any:
+def _in_batches(function: Callable[..., Any], grid: Sequence[Array]) -> Any:
     """`function` of each point of a grid; the last batch is filled up: one program does them all."""
     shape, size = grid[0].shape, grid[0].size
     count = -(-size // BATCH)
@@ -404,7 +405,7 @@ def _in_batches(function: Any, grid: Sequence[Array]) -> Any:
     return jax.tree.map(lambda leaf: leaf.reshape(-1)[:size].reshape(shape), results)
 
 
-def _range_excess(scene: TwoDisk, contact: LineContact | PointContact, load: Any) -> dict[str, Array]:
+def _range_excess(scene: TwoDisk, contact: LineContact | PointContact, load: Array | np.ndarray) -> dict[str, Array]:
     """Excess of the operation over the ranges of the laws: positive outside of them."""
     operation, (low, high) = scene.operation, FITTED_TEMPERATURES
     temperature, slide = jnp.asarray(operation.temperature), jnp.max(jnp.abs(operation.slide_to_roll))

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..bearings.bearing import AbstractBearing
+from ..bearings.operation import AbstractOperation
 from ..bearings.solution import RING_FREEDOMS, TILTS, Solution
 from .catalogue import Catalogue
 from .designation import FAMILIES, Said, read_designation
@@ -187,7 +188,7 @@ def _frictions(known: Known, catalogue: Catalogue) -> None:
 
 
 def _loads(known: Known, solution: Solution) -> None:
-    operation: Any = solution.operation
+    operation: AbstractOperation = solution.operation
     force = np.asarray(solution.force, dtype=float)
     loads = {}
     for place, name in enumerate(RING_FREEDOMS):

@@ -20,14 +20,14 @@ is no upper limit, because each law of an oil says how it goes on above the rang
 _ARRAYS = np.generic | np.ndarray | jax.Array
 
 
-def _numbers(value: Any) -> np.ndarray | None:
+def _numbers(value: object) -> np.ndarray | None:
     """The numbers of an argument; `None` if they are traced, or if it holds no numbers."""
     if isinstance(value, Tracer) or not isinstance(value, int | float | _ARRAYS):
         return None
     return np.asarray(value)
 
 
-def _judged(name: str, value: Any) -> np.ndarray:
+def _judged(name: str, value: object) -> np.ndarray:
     """The numbers of an argument; an empty array if they are traced.
 
     **Raises:** `ValueError` for anything but a number or an array of numbers.
@@ -67,7 +67,7 @@ def require_outside(verb: str, instead: str, *values: Any) -> None:
         raise ValueError(f"{verb} was called inside of jit, vmap or grad, which it cannot be part of: {instead}")
 
 
-def require_choice(name: str, value: Any, choices: Iterable[str]) -> None:
+def require_choice(name: str, value: object, choices: Iterable[str]) -> None:
     """Checks that a value is one of the choices.
 
     **Raises:** `ValueError` that lists the choices and suggests the nearest one.
@@ -80,7 +80,7 @@ def require_choice(name: str, value: Any, choices: Iterable[str]) -> None:
     raise ValueError(f"{name} must be one of {', '.join(map(repr, known_ones))}, got {value!r}{hint}")
 
 
-def require_angle(name: str, value: Any) -> None:
+def require_angle(name: str, value: object) -> None:
     """Checks that angles are in rad, from 0 to below a right angle. NaN is refused.
 
     **Raises:** `ValueError`; for a number that may be in degrees it shows the angle in rad.
@@ -93,7 +93,7 @@ def require_angle(name: str, value: Any) -> None:
         raise ValueError(f"{name} must be an angle in rad, from 0 to below pi/2, got {given:g}{hint}")
 
 
-def require_temperature(value: Any, name: str = "temperature") -> None:
+def require_temperature(value: object, name: str = "temperature") -> None:
     """Checks that temperatures are at least `COLDEST`, which catches degrees Celsius below 150. NaN passes, because a
     failed solve returns it, and so do traced values, such as the trial values of a solver.
 
@@ -107,7 +107,7 @@ def require_temperature(value: Any, name: str = "temperature") -> None:
         raise ValueError(f"{name} must be in K, at least {COLDEST:g}, got {first:g}{hint}")
 
 
-def require_count(name: str, value: Any, least: int = 1) -> None:
+def require_count(name: str, value: object, least: int = 1) -> None:
     """Checks that a value is a whole number, at least `least`. A traced value passes.
 
     **Raises:** `ValueError`.

@@ -5,13 +5,16 @@ before. A stage at the same place as an earlier one takes that one's rates. With
 much shorter, the weights are those of diffrax's tableau.
 """
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
 from .._types import Scalar
+
+if TYPE_CHECKING:
+    import diffrax as dfx
 
 MOST_NODES = 4
 """Stages from which the first iterate is extrapolated."""
@@ -23,7 +26,7 @@ INSIDE = 0.95
 """Place in the step before up to which a stage is a node; its end is the start of this step."""
 
 
-def stage_places(tableau: Any) -> np.ndarray:
+def stage_places(tableau: "dfx.ButcherTableau") -> np.ndarray:
     """Places of the stages in the step, from 0."""
     return np.concatenate([[0.0], tableau.c])
 

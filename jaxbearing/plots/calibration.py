@@ -10,6 +10,7 @@ from ..report.colours import CURVES, FAINT
 from .frame import axis_for, write_below
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 _WIDTH, _ROW = 9.6, 2.9
@@ -45,7 +46,7 @@ def _caption(found: Any) -> str:
     return text
 
 
-def _beside(axes: Any, found: Any, mine: np.ndarray, name: str, unit: str) -> None:
+def _beside(axes: "matplotlib.axes.Axes", found: Any, mine: np.ndarray, name: str, unit: str) -> None:
     measured, predicted = found.measured[mine], found.predicted[mine]
     axis = axis_for(unit, np.concatenate([measured, predicted]))
     held = found.search.observed.held_back[mine]
@@ -62,7 +63,7 @@ def _beside(axes: Any, found: Any, mine: np.ndarray, name: str, unit: str) -> No
     grid_lines(axes)
 
 
-def _left(axes: Any, found: Any, mine: np.ndarray, unit: str) -> None:
+def _left(axes: "matplotlib.axes.Axes", found: Any, mine: np.ndarray, unit: str) -> None:
     standard = (found.predicted - found.measured)[mine] / found.deviation[mine] / max(found.scale, 1e-300)
     place, held = found.points[mine] + 1, found.search.observed.held_back[mine]
     axes.plot(place[~held], standard[~held], "o", color=CURVES[0], ms=4)

@@ -10,6 +10,7 @@ from ..report.colours import INK
 from ..report.display import ZERO_CELSIUS, axis_unit, display_unit, displayed
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 WIDTH, HEIGHT = 7.2, 4.9
@@ -48,8 +49,11 @@ def axis_for(unit: str, values: Any) -> Axis:
 
 
 def drawing(
-    axes: Any, caption: str, projection: str | None = None, size: tuple[float, float] = (WIDTH, HEIGHT)
-) -> "tuple[matplotlib.figure.Figure, Any]":
+    axes: "matplotlib.axes.Axes | None",
+    caption: str,
+    projection: str | None = None,
+    size: tuple[float, float] = (WIDTH, HEIGHT),
+) -> "tuple[Any, matplotlib.axes.Axes]":
     """Figure and axes to draw into: the given axes, or new ones with the caption under them.
 
     **Arguments:** `axes`: matplotlib axes, or `None`; `projection`: that new axes are to have; `size`: inches.
@@ -67,7 +71,7 @@ def drawing(
     return figure, figure.add_subplot(projection=projection)
 
 
-def write_below(figure: Any, caption: str) -> None:
+def write_below(figure: "matplotlib.figure.Figure", caption: str) -> None:
     """The caption under what is drawn."""
     width, height = figure.get_size_inches()
     lines = textwrap.wrap(caption, int(_PER_INCH * (width - 0.3)))

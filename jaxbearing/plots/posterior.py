@@ -11,6 +11,7 @@ from ..report.colours import CURVES, FAINT
 from .frame import Axis, axis_for, write_below
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 _SIDE = 2.5
@@ -84,7 +85,7 @@ def _measured_again(panel: Any, one: Any) -> None:
     grid_lines(panel)
 
 
-def _histogram(panel: Any, one: Any, axis: Axis, values: np.ndarray) -> None:
+def _histogram(panel: "matplotlib.axes.Axes", one: Any, axis: Axis, values: np.ndarray) -> None:
     panel.hist(axis.of(values), bins=40, color=CURVES[0], alpha=0.6)
     for value in (one.lower, one.median, one.upper):
         panel.axvline(float(axis.of(value)), color=FAINT, linestyle="--", linewidth=0.9)

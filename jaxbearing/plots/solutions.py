@@ -1,6 +1,6 @@
 """Figures of one solution or run: the panels of the pages, each as a figure of its own."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,10 +19,11 @@ from ..report.two_disk.plots import draw_curves
 from .style import finish, prepare
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 
-def load_distribution(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Figure":
+def load_distribution(solution: Solution, *, axes: "matplotlib.axes.Axes | None" = None) -> "matplotlib.figure.Figure":
     """Load on each rolling element at both races and the rib, polar; the load line points down.
 
     **Arguments:** `solution`: one solution of a bearing that converged; `axes`: polar matplotlib axes, a new figure if
@@ -37,23 +38,23 @@ def load_distribution(solution: Solution, *, axes: Any = None) -> "matplotlib.fi
     return finish(axes, "Normal load on each rolling element; azimuth 0 is the load line.", own)
 
 
-def films(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Figure":
+def films(solution: Solution, *, axes: "matplotlib.axes.Axes | None" = None) -> "matplotlib.figure.Figure":
     """Central film at each rolling element over its azimuth. Arguments and errors as `load_distribution`, and
     `ValueError` where the scene models no film."""
     return _round(solution, "film", "Central film at each rolling element, by the film law of the scene.", axes)
 
 
-def pressures(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Figure":
+def pressures(solution: Solution, *, axes: "matplotlib.axes.Axes | None" = None) -> "matplotlib.figure.Figure":
     """Hertz (peak) pressure at each rolling element over its azimuth. Arguments and errors as `load_distribution`."""
     return _round(solution, "pressure", "Hertz (peak) pressure at each rolling element.", axes)
 
 
-def sliding(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Figure":
+def sliding(solution: Solution, *, axes: "matplotlib.axes.Axes | None" = None) -> "matplotlib.figure.Figure":
     """Sliding speed at each rolling element over its azimuth. Arguments and errors as `films`."""
     return _round(solution, "sliding", "Sliding speed at each rolling element, signed.", axes)
 
 
-def power_loss(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Figure":
+def power_loss(solution: Solution, *, axes: "matplotlib.axes.Axes | None" = None) -> "matplotlib.figure.Figure":
     """Power loss by location, largest first, with its share of the total. Arguments and errors as `load_distribution`,
     and `ValueError` where the scene models no loss."""
     _check(solution)
@@ -66,7 +67,7 @@ def power_loss(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Fi
 
 
 def traction_curves(
-    solution: TwoDiskSolution, *, temperature: int = 0, speed: int = 0, axes: Any = None
+    solution: TwoDiskSolution, *, temperature: int = 0, speed: int = 0, axes: "matplotlib.axes.Axes | None" = None
 ) -> "matplotlib.figure.Figure":
     """Traction coefficient over slide-to-roll ratio, one curve for each pressure or load.
 
@@ -87,7 +88,7 @@ def traction_curves(
     return figure
 
 
-def cage_orbit(history: History, *, axes: Any = None) -> "matplotlib.figure.Figure":
+def cage_orbit(history: History, *, axes: "matplotlib.axes.Axes | None" = None) -> "matplotlib.figure.Figure":
     """Path of the cage's centre, and the circle of its guiding clearance.
 
     **Arguments:** `history`: a run of a bearing with a cage that completed; `axes`: to draw into.
@@ -130,7 +131,9 @@ def _guide(history: History) -> tuple[float, float, float]:
     return min(found)[1:]
 
 
-def _round(solution: Solution, name: str, caption: str, axes: Any) -> "matplotlib.figure.Figure":
+def _round(
+    solution: Solution, name: str, caption: str, axes: "matplotlib.axes.Axes | None"
+) -> "matplotlib.figure.Figure":
     _check(solution)
     panel = round_panel(solution, name)
     if panel is None:

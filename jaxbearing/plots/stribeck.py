@@ -13,6 +13,7 @@ from .style import axis_name, finish, logarithmic, prepare, shown
 from .sweeps import swept
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
     import xarray as xr
 
@@ -25,7 +26,10 @@ _BOUNDARY, _FILM = "#D55E00", "#56B4E9"
 
 
 def stribeck(
-    scene: "AbstractScene | xr.Dataset", speeds: Sequence[float] | None = None, *, axes: Any = None
+    scene: "AbstractScene | xr.Dataset",
+    speeds: Sequence[float] | None = None,
+    *,
+    axes: "matplotlib.axes.Axes | None" = None,
 ) -> "matplotlib.figure.Figure":
     """Friction torque of a bearing against the speed of its inner ring: power loss over the speed of the rings against
     each other. Bands: boundary friction of asperities, and all other losses.

@@ -10,6 +10,7 @@ from ..report.panels import log_ticks
 from .frame import HEIGHT, WIDTH, Axis, axis_for, write_below
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import xarray as xr
 
 # Okabe and Ito's colours, which all kinds of colour vision tell apart
@@ -17,7 +18,7 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#E69F00", "#56B4E9", "#CC79A7", "#F
 LINES = ("-", "--", ":", "-.")
 
 
-def prepare(axes: Any, polar: bool = False) -> Any:
+def prepare(axes: "matplotlib.axes.Axes | None", polar: bool = False) -> "matplotlib.axes.Axes":
     """The axes given, or those of a new figure."""
     if axes is not None:
         return axes
@@ -53,7 +54,7 @@ def axis_name(variable: "xr.DataArray", unit: str) -> str:
     return f"{name}, {unit}" if unit else name
 
 
-def logarithmic(axes: Any, which: str) -> None:
+def logarithmic(axes: "matplotlib.axes.Axes", which: str) -> None:
     """Makes the axis "x" or "y", whose ends are set, logarithmic with ticks that are written as numbers."""
     axes.set(**{f"{which}scale": "log"})
     ticks = log_ticks(*sorted(getattr(axes, f"get_{which}lim")()))

@@ -13,6 +13,7 @@ from ..report.panels import log_ticks
 from .style import COLOURS, LINES, axis_name, finish, logarithmic, prepare, scale_of, shown
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
     import xarray as xr
 
@@ -46,7 +47,7 @@ def power_loss_against(
     sweep: "xr.Dataset",
     field: str | None = None,
     *,
-    axes: Any = None,
+    axes: "matplotlib.axes.Axes | None" = None,
     legend: bool = True,
     operating_point: Mapping[str, float] | None = None,
 ) -> "matplotlib.figure.Figure":
@@ -98,7 +99,7 @@ def result_against(
     result: str,
     field: str | None = None,
     *,
-    axes: Any = None,
+    axes: "matplotlib.axes.Axes | None" = None,
     operating_point: Mapping[str, float] | None = None,
 ) -> "matplotlib.figure.Figure":
     """One result of a sweep, "cage_slip", against a swept field; a second field gives a family of lines, a failed case
@@ -140,7 +141,7 @@ def map_of(
     x: str | None = None,
     y: str | None = None,
     *,
-    axes: Any = None,
+    axes: "matplotlib.axes.Axes | None" = None,
     operating_point: Mapping[str, float] | None = None,
 ) -> "matplotlib.figure.Figure":
     """Filled contours of one result over two swept fields; cases that failed are hatched, not interpolated. The levels
@@ -192,7 +193,9 @@ def map_of(
     return finish(axes, f"{text[:1].upper()}{text[1:]} over two swept fields.{note}", own)
 
 
-def raceway_control_map(sweep: "xr.Dataset", *, element: int = 0, axes: Any = None) -> "matplotlib.figure.Figure":
+def raceway_control_map(
+    sweep: "xr.Dataset", *, element: int = 0, axes: "matplotlib.axes.Axes | None" = None
+) -> "matplotlib.figure.Figure":
     """Raceway control of one ball (100 % outer, 0 % inner control) over two swept fields, or against one.
 
     **Arguments:** `sweep`: data set of a grid of a ball bearing, with `elements`; `element`: which ball, 0 stands on
@@ -267,13 +270,13 @@ def _spread(values: np.ndarray) -> str:
     return "log" if np.ptp(steps) < 0.05 * steps.mean() else "linear"
 
 
-def _scale(axes: Any, which: str, values: np.ndarray) -> None:
+def _scale(axes: "matplotlib.axes.Axes", which: str, values: np.ndarray) -> None:
     """Logarithmic where the values, which are sorted, ask for it; ticks are then written as numbers."""
     if _spread(values) == "log":
         logarithmic(axes, which)
 
 
-def _scale_of_results(axes: Any) -> None:
+def _scale_of_results(axes: "matplotlib.axes.Axes") -> None:
     """Makes the upright axis logarithmic where the lines pass through so large a range of values above 0."""
     values = np.ma.masked_invalid(np.concatenate([line.get_ydata() for line in axes.get_lines()]))
     if not values.count() or values.min() <= 0.0 or values.max() <= _LOG_FROM * values.min():
@@ -282,7 +285,7 @@ def _scale_of_results(axes: Any) -> None:
     logarithmic(axes, "y")
 
 
-def _contours(axes: Any, xs: np.ndarray, ys: np.ndarray, values: Any) -> tuple[Any, Sequence[float]]:
+def _contours(axes: Any, xs: np.ndarray, ys: np.ndarray, values: np.ma.MaskedArray) -> tuple[Any, Sequence[float]]:
     """Filled contours, and the levels of those that are drawn as lines."""
     if not values.count() or values.min() == values.max():
         return axes.pcolormesh(xs, ys, values, cmap="cividis"), ()
@@ -298,7 +301,7 @@ def _contours(axes: Any, xs: np.ndarray, ys: np.ndarray, values: Any) -> tuple[A
     return filled, inside
 
 
-def _label_contours(axes: Any, lines: Any) -> None:
+def _label_contours(axes: "matplotlib.axes.Axes", lines: Any) -> None:
     """Writes the level of each contour on the middle of its longest piece, where no edge cuts it."""
     # angles of the labels are those of the lines on the page
     axes.figure.canvas.figure.draw_without_rendering()
@@ -317,7 +320,11 @@ def _label_contours(axes: Any, lines: Any) -> None:
 
 
 def _mark(
-    axes: Any, sweep: "xr.Dataset", point: Mapping[str, float] | None, x_name: str, y_name: str | None = None
+    axes: "matplotlib.axes.Axes",
+    sweep: "xr.Dataset",
+    point: Mapping[str, float] | None,
+    x_name: str,
+    y_name: str | None = None,
 ) -> str:
     """Marks an operating point that lies within the sweep, and returns what the caption says of it."""
     given = {path.replace(".", "_"): value for path, value in (point or {}).items()}
@@ -365,7 +372,7 @@ def _title(sweep: "xr.Dataset", others: list[str]) -> str | None:
     return str(sweep[others[0]].attrs.get("long_name", others[0])) if others else None
 
 
-def _entries(axes: Any, reverse: bool = False) -> tuple[list[Any], list[str]]:
+def _entries(axes: "matplotlib.axes.Axes", reverse: bool = False) -> tuple[list[Any], list[str]]:
     handles, names = axes.get_legend_handles_labels()
     return (handles[::-1], names[::-1]) if reverse else (handles, names)
 
@@ -381,7 +388,7 @@ def failed_note(sweep: "xr.Dataset", mark: str) -> str:
     return f" {mark}: {failed} of {sweep['failure'].size} cases failed." if failed else ""
 
 
-def _stack(axes: Any, sweep: "xr.Dataset", x: np.ndarray, order: np.ndarray) -> None:
+def _stack(axes: "matplotlib.axes.Axes", sweep: "xr.Dataset", x: np.ndarray, order: np.ndarray) -> None:
     total = _results(sweep, f"{_LOSS}total").values[order]
     unit, factor = axis_unit("W", float(np.nanmax(np.abs(total), initial=0.0)))
     names = [str(n) for n in sweep.data_vars if str(n).startswith(_LOSS) and n != f"{_LOSS}total"]
@@ -407,13 +414,13 @@ def _stack(axes: Any, sweep: "xr.Dataset", x: np.ndarray, order: np.ndarray) -> 
     axes.set_ylabel(f"power loss, {unit}", fontsize=9)
 
 
-def beside(axes: Any, handles: Any, labels: Any, title: str | None = None) -> None:
+def beside(axes: "matplotlib.axes.Axes", handles: Any, labels: Any, title: str | None = None) -> None:
     """Draws a legend on the right of the axes, where it hides nothing."""
     style = {"fontsize": 8.5, "title_fontsize": 8.5, "frameon": False, "borderaxespad": 0.0, "alignment": "left"}
     axes.legend(handles, labels, title=title, loc="upper left", bbox_to_anchor=(1.02, 1.0), **style)
 
 
-def _family(axes: Any, sweep: "xr.Dataset", result: str, x_name: str, other: str) -> None:
+def _family(axes: "matplotlib.axes.Axes", sweep: "xr.Dataset", result: str, x_name: str, other: str) -> None:
     x, _ = shown(sweep[x_name])
     second, second_unit = shown(sweep[other])
     data = _results(sweep, result).transpose(other, x_name)
@@ -422,6 +429,6 @@ def _family(axes: Any, sweep: "xr.Dataset", result: str, x_name: str, other: str
     order = np.argsort(x)
     for number, row in enumerate(picked):
         label = f"{second[row]:.5g} {second_unit}".rstrip()
-        style = {"color": COLOURS[number % 6], "linestyle": LINES[number // 6]}
+        style: dict[str, Any] = {"color": COLOURS[number % 6], "linestyle": LINES[number // 6]}
         axes.plot(x[order], values[row][order], marker="o", markersize=3, linewidth=1.4, label=label, **style)
     axes.set_ylabel(name_of(sweep, result, unit), fontsize=9)

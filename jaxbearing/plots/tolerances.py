@@ -11,6 +11,7 @@ from .frame import Axis, axis_for, write_below
 from .style import COLOURS
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 _WIDTH, _ROW = 9.6, 2.35
@@ -64,7 +65,7 @@ def _caption(found: Any) -> str:
     return text + "Bars: standard deviation of the result that each field alone makes, and its share in the variance."
 
 
-def _distribution(axes: Any, name: str, spread: Any, legend: bool) -> None:
+def _distribution(axes: "matplotlib.axes.Axes", name: str, spread: Any, legend: bool) -> None:
     x = np.linspace(spread.mean - _SPAN * spread.deviation, spread.mean + _SPAN * spread.deviation, 241)
     sampled = spread.sampled
     axis = axis_for(spread.unit, x if sampled is None else np.concatenate([x, sampled.values]))
@@ -88,7 +89,7 @@ def _scale(axis: Axis) -> float:
     return float(axis.of(1.0)) - float(axis.of(0.0))
 
 
-def _tornado(axes: Any, spread: Any) -> None:
+def _tornado(axes: "matplotlib.axes.Axes", spread: Any) -> None:
     shares = sorted(spread.contributions.items(), key=lambda item: -item[1])
     named, rest = shares[:_MOST_FIELDS], shares[_MOST_FIELDS:]
     if rest:

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 import xarray as xr
 
@@ -10,8 +10,11 @@ from .backends.netcdf import netcdf_image
 from .files import write_whole
 from .registry import output
 
+if TYPE_CHECKING:
+    from .._scene import AbstractSolution
 
-def solution_to_dataset(solution: Any, dims: Sequence[str] = ()) -> xr.Dataset:
+
+def solution_to_dataset(solution: "AbstractSolution", dims: Sequence[str] = ()) -> xr.Dataset:
     """All results with `units`, `long_name` and `path` on every variable; units as UDUNITS writes them ("rad s-1").
 
     What a kind of solution has as dimensions and coordinates is said by `to_dataset` of its folder.

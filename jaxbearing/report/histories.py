@@ -13,10 +13,12 @@ if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
 
+    from .._scene import AbstractHistory, AbstractScene
+
 _CALLED = "report"
 
 
-def history_to_dict(history: Any) -> dict[str, Any]:
+def history_to_dict(history: "AbstractHistory") -> dict[str, Any]:
     """The run as plain numbers and texts in SI units; what is not finite is `None`."""
     return output(history, "json_report", _CALLED, RUNS)(history)
 
@@ -50,21 +52,23 @@ def not_begun_to_dict(scene: Any, duration: float | None, error: SolveError) -> 
     return common if film else common | {"not_modelled": None, "energy": None}
 
 
-def print_history(history: Any, label: str, console: "Console") -> None:
+def print_history(history: "AbstractHistory", label: str, console: "Console") -> None:
     """The run on the screen."""
     output(history, "summary", _CALLED, RUNS)(history, label, console)
 
 
-def history_to_dataset(history: Any) -> "xr.Dataset":
+def history_to_dataset(history: "AbstractHistory") -> "xr.Dataset":
     """All results of a run with `units`, `long_name` and `path` on every variable."""
     return output(history, "dataset", _CALLED, RUNS)(history)
 
 
-def plot_history(history: Any, title: str) -> "matplotlib.figure.Figure":
+def plot_history(history: "AbstractHistory", title: str) -> "matplotlib.figure.Figure":
     """A page of plots of a run."""
     return output(history, "plots", _CALLED, RUNS)(history, title)
 
 
-def animate_history(history: Any, scene: Any, title: str) -> "matplotlib.animation.FuncAnimation":
+def animate_history(
+    history: "AbstractHistory", scene: "AbstractScene", title: str
+) -> "matplotlib.animation.FuncAnimation":
     """A run as moving pictures, for `save_animation`. **Arguments:** `scene`: that of the run."""
     return output(history, "animation", _CALLED, RUNS)(history, scene, title)

@@ -1,7 +1,7 @@
 """Shocks between rolling elements and cage: peaks turn by turn, how they are spread round the azimuth, and whirl."""
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -115,7 +115,7 @@ def whirl_ratio(history: History) -> float | None:
     return mean_whirl(time, np.asarray(cage.x), np.asarray(cage.y)) / float(np.mean(cage.speed))
 
 
-def mean_whirl(time: Any, x: Any, y: Any) -> float:
+def mean_whirl(time: np.ndarray, x: np.ndarray, y: np.ndarray) -> float:
     """Mean angular speed, rad/s, of a point about its mean place: X to the right, Y upwards, counter-clockwise > 0."""
     turned = np.unwrap(np.arctan2(y - np.mean(y), x - np.mean(x)))
     return float((turned[-1] - turned[0]) / (time[-1] - time[0]))

@@ -1,14 +1,17 @@
 """A solution as plain numbers and texts in SI units, ready for `json.dumps`."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..sensitivity import Sensitivities, UsualTolerance, largest
 from .backends.json import plain
 from .registry import output
 
+if TYPE_CHECKING:
+    from .._scene import AbstractSolution
 
-def solution_to_dict(solution: Any) -> dict[str, Any]:
+
+def solution_to_dict(solution: "AbstractSolution") -> dict[str, Any]:
     """All results of one solution, SI units and radians; numbers that are not finite are `None`.
 
     **Raises:** `TypeError` for another kind of solution.

@@ -3,7 +3,7 @@
 import io
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,11 +13,15 @@ from .registry import check_converged, output
 if TYPE_CHECKING:
     import matplotlib.figure
 
+    from .._scene import AbstractScene, AbstractSolution
+
 SUFFIXES = (".png", ".svg", ".pdf")
 """Kinds of files that a figure can be written to."""
 
 
-def plot_solution(solution: Any, title: str, scene: Any = None) -> "matplotlib.figure.Figure":
+def plot_solution(
+    solution: "AbstractSolution", title: str, scene: "AbstractScene | None" = None
+) -> "matplotlib.figure.Figure":
     """A page of plots of one solution: of a bearing, power loss, loads, films, pressures and sliding speeds; of a
     two-disk machine, its traction curves; of a shaft, its bending line, moments and cut forces.
 
@@ -36,7 +40,7 @@ def plot_solution(solution: Any, title: str, scene: Any = None) -> "matplotlib.f
     return draw(solution, title) if scene is None or scene.kind != "shaft" else draw(solution, title, scene)
 
 
-def save_plot(figure: Any, path: str | os.PathLike[str]) -> None:
+def save_plot(figure: "matplotlib.figure.Figure", path: str | os.PathLike[str]) -> None:
     """Write a figure in the format that the suffix says: png, svg or pdf. The file appears whole or not at all.
 
     **Raises:** `ValueError` for another suffix; `OSError` where the place cannot be written.

@@ -6,9 +6,13 @@ when they are wanted: a solve on the screen needs no reader of files and no libr
 
 import importlib
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from .._scene import AbstractSolution
+
 
 FOLDERS = {
     "jaxbearing.bearings.solution.Solution": "bearing",
@@ -34,7 +38,7 @@ _FUNCTIONS = {
 """Module of an output -> its function."""
 
 
-def output(result: Any, module: str, called: str, kinds: dict[str, str] = FOLDERS) -> Callable[..., Any]:
+def output(result: object, module: str, called: str, kinds: dict[str, str] = FOLDERS) -> Callable[..., Any]:
     """The function that makes an output of this kind of result.
 
     **Arguments:**
@@ -51,7 +55,7 @@ def output(result: Any, module: str, called: str, kinds: dict[str, str] = FOLDER
     return found
 
 
-def check_converged(solution: Any) -> None:
+def check_converged(solution: "AbstractSolution") -> None:
     """Checks that a solution has results.
 
     **Raises:** `ValueError` for a solution that did not converge.

@@ -2,7 +2,7 @@
 and stresses of the cage. Shocks and peaks turn by turn are in `history_shocks`."""
 
 import math
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
@@ -10,6 +10,9 @@ from jaxtyping import Float
 
 from ..bearings.motion.history import History
 from .history_shocks import FACES, SECTORS, angle_of
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 SIDES = ("inner", "outer")
 SKID = 0.02
@@ -35,7 +38,7 @@ class CageStress(NamedTuple):
     rail_range: float
 
 
-def load_statistics(values: Any) -> dict[str, float]:
+def load_statistics(values: "npt.ArrayLike") -> dict[str, float]:
     """Mean, root of the mean square, 99 % quantile and largest of all values."""
     values = np.asarray(values, dtype=float)
     return {
@@ -115,7 +118,7 @@ def turns_done(history: History) -> float:
     return float(np.abs(angle_of(history)[-1])) / (2.0 * math.pi)
 
 
-def skidding(history: History) -> dict[str, Any]:
+def skidding(history: History) -> dict[str, dict[str, Any]]:
     """Tells where and when elements skid on each raceway; it is empty for families without `slide_to_roll`.
 
     It has the share of instants and elements with more than `SKID`, the largest and the mean sliding over rolling, the

@@ -1,7 +1,6 @@
 """The texts that `print` and a notebook show for a scene or a solution (`_shown`)."""
 
 import io
-from typing import Any
 
 import numpy as np
 from rich.console import Console
@@ -28,7 +27,7 @@ def html(shown: AbstractScene | AbstractSolution) -> str | None:
     return console.export_html(inline_styles=True, code_format=_PAGE) if _printed(shown, console) else None
 
 
-def _printed(shown: Any, console: Console, full: bool = False) -> bool:
+def _printed(shown: AbstractScene | AbstractSolution, console: Console, full: bool = False) -> bool:
     """Prints, and tells whether there was something to print."""
     if isinstance(shown, AbstractSolution):
         if np.ndim(shown.converged):

@@ -1,7 +1,7 @@
 """Stiffness of a bearing over the speed of its shaft: solved speed by speed, and as JSON."""
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -13,6 +13,9 @@ from ..solve import jit_solver
 from .backends.json import plain
 from .bearing.json_report import modelled_only
 from .display import with_unit
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 
 class StiffnessTable(NamedTuple):
@@ -33,7 +36,7 @@ class StiffnessTable(NamedTuple):
     warnings: tuple[str, ...]
 
 
-def at_speeds(scene: AbstractScene, speeds: Any) -> list[AbstractBearing]:
+def at_speeds(scene: AbstractScene, speeds: "npt.ArrayLike") -> list[AbstractBearing]:
     """The scene at each speed of the inner ring, rad/s, with the freedoms of the ring that its stiffness needs: where
     the ring of a roller bearing moves along the load line only, it is given the lateral freedom too.
 
@@ -58,7 +61,7 @@ def _at_speed(scene: AbstractBearing, speed: float) -> AbstractBearing:
 
 
 def stiffness_over_speed(
-    scene: AbstractScene, speeds: Any, *, solver: Callable[[AbstractBearing], Solution] | None = None
+    scene: AbstractScene, speeds: "npt.ArrayLike", *, solver: Callable[[AbstractBearing], Solution] | None = None
 ) -> StiffnessTable:
     """Solves at each speed; the loads on the bearing are the scene's at all of them.
 

@@ -1,13 +1,16 @@
 """The summary of a solution on the screen, whatever its kind."""
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 
 from .registry import output
 
+if TYPE_CHECKING:
+    from .._scene import AbstractSolution
 
-def print_summary(solution: Any, scene_label: str, console: Console, full: bool = False) -> None:
+
+def print_summary(solution: "AbstractSolution", scene_label: str, console: Console, full: bool = False) -> None:
     """Print one solution; where the solve failed, status, residual and worst equation and no result.
 
     **Arguments:**

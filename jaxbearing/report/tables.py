@@ -1,11 +1,11 @@
 """Results as rows of tables, from the labels that the result classes carry."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from .._scene import AbstractSolution
 from .backends.screen import column
 from .display import display_unit, number, with_unit
 from .labels import labelled
@@ -31,7 +31,7 @@ class Column:
     values: list[str]
 
 
-def result_rows(solution: Any, left_out: Collection[str] = ()) -> list[Row]:
+def result_rows(solution: AbstractSolution, left_out: Collection[str] = ()) -> list[Row]:
     """All results that are one number, but for those at these paths."""
     return [
         row_of(path, np.asarray(value), metadata)
@@ -40,19 +40,19 @@ def result_rows(solution: Any, left_out: Collection[str] = ()) -> list[Row]:
     ]
 
 
-def row_of(path: str, value: np.ndarray, metadata: Any) -> Row:
+def row_of(path: str, value: np.ndarray, metadata: Mapping[str, str]) -> Row:
     unit = metadata["unit"]
     whole = np.issubdtype(value.dtype, np.integer)
     shown = str(int(value)) if whole else number(float(value), unit)
     return Row(path, shown, display_unit(unit), metadata["description"])
 
 
-def element_columns(solution: Any) -> list[Column]:
+def element_columns(solution: AbstractSolution) -> list[Column]:
     """All results that have one value for each rolling element, whichever part of the solution they are in."""
     return list(_columns(solution))
 
 
-def _columns(solution: Any) -> Iterator[Column]:
+def _columns(solution: AbstractSolution) -> Iterator[Column]:
     for path, value, metadata in labelled(solution):
         if metadata["dims"] != ("element",):
             continue
@@ -63,7 +63,7 @@ def _columns(solution: Any) -> Iterator[Column]:
         yield Column(path.removeprefix("elements."), display_unit(unit), metadata["description"], shown)
 
 
-def derived_facts(solution: Any, left_out: Collection[str] = ()) -> Iterator[tuple[str, str]]:
+def derived_facts(solution: AbstractSolution, left_out: Collection[str] = ()) -> Iterator[tuple[str, str]]:
     """Lines for the screen of the results that follow from others, but for those at these paths: value and meaning, of
     many the least and largest value."""
     head = "Derived"

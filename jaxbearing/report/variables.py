@@ -9,6 +9,8 @@ import numpy as np
 import xarray as xr
 
 from .. import __version__
+from .._identity import Identity
+from .._scene import AbstractSolution
 from .labels import udunits
 
 CHECK = "check"
@@ -45,7 +47,7 @@ def flags(dtype: np.dtype, meanings: Sequence[str]) -> dict[str, Any]:
     return {"flag_values": np.arange(len(meanings), dtype=dtype), "flag_meanings": words}
 
 
-def checks(solution: Any, dims: tuple[str, ...]) -> xr.Variable:
+def checks(solution: AbstractSolution, dims: tuple[str, ...]) -> xr.Variable:
     """The range checks of the laws as a variable: 1 if a law is used beyond its range."""
     broken = np.stack([np.asarray(value) for value in solution.range_checks.values()], axis=-1).astype(np.int8)
     attributes = {"units": "1", "long_name": "whether a law is used beyond its range", "path": "checks"}
@@ -72,7 +74,7 @@ def without_fill(dataset: xr.Dataset) -> xr.Dataset:
     return dataset
 
 
-def attributes(solution: Any, title: str) -> dict[str, str]:
+def attributes(solution: AbstractSolution, title: str) -> dict[str, str]:
     """Gives the attributes of the data set: title, version, warnings and notes in words."""
     return {
         "Conventions": "CF-1.11",
@@ -90,12 +92,12 @@ IDENTITY = "scene_identity"
 """Attribute of the file of a run in time: which bearing or contact it is, as JSON."""
 
 
-def identity_text(identity: Any) -> dict[str, str]:
+def identity_text(identity: Identity | None) -> dict[str, str]:
     """The identity as an attribute of a data set."""
     return {} if identity is None else {IDENTITY: json.dumps(identity.told())}
 
 
-def _broken_checks(solution: Any) -> Iterator[str]:
+def _broken_checks(solution: AbstractSolution) -> Iterator[str]:
     for text, broken in solution.range_checks.items():
         lanes = np.asarray(broken)
         if lanes.any():

@@ -139,7 +139,7 @@ def _value(given: Any, name: str, path: tuple[str, ...], model: type[BaseModel],
     )
 
 
-def _deviation(given: Any, dimension: Dimension | None) -> float:
+def _deviation(given: object, dimension: Dimension | None) -> float:
     if dimension is None:
         return number(given, ">= 0")
     # a deviation of a temperature is a difference
@@ -162,7 +162,7 @@ def no_number(kind: Any) -> str:
     return "a choice of words"
 
 
-def text_of(value: float, dimension: Dimension | None) -> Any:
+def text_of(value: float, dimension: Dimension | None) -> float | str:
     """A value in SI as a file has it: a number where the field has no unit."""
     return float(value) if dimension is None else f"{float(value)!r} {dimension.si}"
 

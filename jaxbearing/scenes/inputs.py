@@ -88,7 +88,7 @@ def _meaning(scene: AbstractScene, path: tuple[str, ...]) -> str:
     return described_field(scene, path).removeprefix(f"{words}: ")
 
 
-def _text(value: Any) -> str:
+def _text(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, list):

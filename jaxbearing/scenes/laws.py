@@ -111,7 +111,7 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
                 if found.name not in self._named and self._loaded(found.name):
                     yield found.name
 
-    def name_of(self, law: Any) -> str:
+    def name_of(self, law: object) -> str:
         """The name of the law of which this is one."""
         return next(name for name, kind in self._named.items() if type(law) is kind)
 

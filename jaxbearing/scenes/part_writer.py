@@ -60,7 +60,7 @@ def rows(table: type[Table], part: Any, thermal: bool = False) -> Rows:
     return found
 
 
-def all_rows(part: Any) -> Rows:
+def all_rows(part: eqx.Module) -> Rows:
     """The fields of a part, by their names in its class."""
     return given({field.name: written(part, field.name) for field in dataclasses.fields(part)})
 
@@ -122,17 +122,17 @@ def optional_law(laws: Laws[Any], law: Any, absent: Any, path: str) -> str | Non
     return None if same(law, absent) else law_name(laws, law, path)
 
 
-def shown(value: Any) -> str:
+def shown(value: object) -> str:
     """A value of a scene, for messages: a part on one line."""
     return units.shortened(" ".join(repr(value).split()))
 
 
-def same(one: Any, other: Any) -> bool:
+def same(one: object, other: object) -> bool:
     """True if two parts are of the same classes and hold the same values, numbers to the last bit."""
     return next(differences(one, other), None) is None
 
 
-def differences(one: Any, other: Any, path: str = "") -> Iterator[tuple[str, Any, Any]]:
+def differences(one: object, other: object, path: str = "") -> Iterator[tuple[str, Any, Any]]:
     """Dotted path and both values of what two parts differ in."""
     if isinstance(one, eqx.Module) and type(one) is type(other):
         for field in dataclasses.fields(one):

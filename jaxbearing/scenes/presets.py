@@ -236,7 +236,7 @@ def _on_shaft(tables: Mapping[str, Any], removed: tuple[str, ...], model: type[B
     return found
 
 
-def names_a_preset(tables: Any) -> bool:
+def names_a_preset(tables: object) -> bool:
     """True for tables that may have a preset: they name one, or they name a scene of a bearing that is not read yet."""
     if isinstance(tables, list):
         return any(names_a_preset(one) for one in tables)

@@ -80,7 +80,7 @@ def _headed(lines: Iterable[str]) -> str:
     return comments([*lines, said]) + "\n"
 
 
-def _kind(scene: Any) -> str:
+def _kind(scene: object) -> str:
     """Kind of a scene, checked.
 
     **Raises:** `TypeError` for an object that is no scene; `SceneError` for a kind that files do not know.

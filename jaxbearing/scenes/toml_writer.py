@@ -46,7 +46,7 @@ def _table(table: Mapping[str, Any], path: tuple[str, ...], aligned: bool, liste
             yield from _table(one, (*path, name), aligned, listed=True)
 
 
-def _are_tables(value: Any) -> bool:
+def _are_tables(value: object) -> bool:
     return isinstance(value, list) and bool(value) and all(isinstance(one, Mapping) for one in value)
 
 

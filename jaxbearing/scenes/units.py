@@ -11,13 +11,16 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import BeforeValidator
 from pydantic_core import PydanticCustomError
 
 from ..numerics.checks import RANGES
 from .usual_units import USUAL
+
+if TYPE_CHECKING:
+    import pint
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
 _NAME = r"[A-Za-z°µμΩÅ_][A-Za-z0-9°µμΩÅ_]*"
@@ -117,7 +120,7 @@ def registry() -> Any:
     return pint.UnitRegistry()
 
 
-def describe(value: Any) -> str:
+def describe(value: object) -> str:
     """A value of a scene file in words, for "found ..."."""
     if isinstance(value, bool):
         return f"the boolean {str(value).lower()}"
@@ -201,7 +204,7 @@ def _usual(number: float, unit: str, dimension: Dimension) -> float | None:
     return number * factor + zero if zero else number * factor
 
 
-def _unit(text: str, value: str, dimension: Dimension) -> Any:
+def _unit(text: str, value: str, dimension: Dimension) -> "pint.Unit":
     found = f"{describe(value)}, where {shortened(repr(text))} is not a unit"
     if len(text) > _LONGEST_UNIT or not _UNIT.fullmatch(text) or _WORDS.search(text):
         raise refusal(dimension.expected(), found)
@@ -212,7 +215,7 @@ def _unit(text: str, value: str, dimension: Dimension) -> Any:
 
 
 @functools.lru_cache(_REMEMBERED)
-def _read_unit(text: str) -> Any:
+def _read_unit(text: str) -> "pint.Unit | None":
     """A unit, or `None`."""
     read = registry().Unit
     try:
@@ -225,7 +228,7 @@ def _read_unit(text: str) -> Any:
     return unit
 
 
-def _in_si(number: float, unit: Any, value: str, dimension: Dimension) -> float:
+def _in_si(number: float, unit: "pint.Unit", value: str, dimension: Dimension) -> float:
     target = _read_unit(dimension.si)
     # Root units and not dimensions are compared: an angle has no dimension for pint, which would take "100 Hz" or
     # "10500 1/min" as a speed in rad/s, a factor 2 pi from what was meant.
@@ -241,16 +244,16 @@ def _in_si(number: float, unit: Any, value: str, dimension: Dimension) -> float:
 
 
 @functools.lru_cache(_REMEMBERED)
-def _root(unit: Any) -> Any:
+def _root(unit: "pint.Unit") -> Any:
     return registry().Quantity(1.0, unit).to_root_units().units
 
 
-def _is_frequency(unit: Any, dimension: Dimension) -> bool:
+def _is_frequency(unit: "pint.Unit", dimension: Dimension) -> bool:
     return dimension is SPEED and _root(unit) == registry().Unit("1/s")
 
 
 @functools.lru_cache(_REMEMBERED)
-def _is_proportional(unit: Any) -> bool:
+def _is_proportional(unit: "pint.Unit") -> bool:
     zero = registry().Quantity(0.0, unit).to_root_units().magnitude
     return zero == 0.0
 

@@ -20,7 +20,7 @@ from ..bearings.flanks import on_heavier_flanks
 from ..bearings.mounted import running_scene
 from ..bearings.operation import HeldDisplacement
 from ..bearings.ring import held_ring
-from ..bearings.row import HeldRow
+from ..bearings.row import AbstractRow, HeldRow
 from ..bearings.solution import RING_FREEDOMS, Solution
 from ..numerics.newton import NewtonOptions
 from ..numerics.once import once
@@ -97,7 +97,7 @@ class RollingBatch(AbstractBatch):
             speeds = lambda one: (one.operation.inner_speed, one.operation.outer_speed)
             scene = eqx.tree_at(speeds, scene, tuple(0.0 * jnp.asarray(speed) for speed in speeds(scene)))
 
-        def row(scene: AbstractBearing, expansion: Array) -> Any:
+        def row(scene: AbstractBearing, expansion: Array) -> AbstractRow:
             running = running_scene(scene)[0] if scene.thermal is None else dataclasses.replace(scene, thermal=None)
             return running.row(expansion)
 
@@ -161,7 +161,7 @@ def solutions(
     return jax.vmap(one)(scene, displacement, expansion)
 
 
-def _dry(scene: Any) -> AbstractBearing:
+def _dry(scene: AbstractBearing) -> AbstractBearing:
     """A bearing whose rollers slide, without what makes them: its rollers may tilt."""
     names = [name for name in ("contact", "cage", "drag", "flange", "oil") if getattr(scene, name, None) is not None]
     return dataclasses.replace(scene, **dict.fromkeys(names))
@@ -169,7 +169,7 @@ def _dry(scene: Any) -> AbstractBearing:
 
 def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ...]:
     """All bearings of a system, those of one structure together."""
-    groups: dict[Any, list[tuple[int, Any]]] = {}
+    groups: dict[tuple[Any, ...], list[tuple[int, AbstractBearing | LinearBearing]]] = {}
     for index, place in enumerate(places):
         scene = place.scene
         scene = scene if isinstance(scene, LinearBearing) else on_shaft(scene, speed)

@@ -94,7 +94,7 @@ def _materials(shaft: Shaft) -> Sequence[Material]:
     return own or [shaft.material]
 
 
-def _conductivity(material: Material) -> Any:
+def _conductivity(material: Material) -> Scalar:
     """W/(m K), which `thermal_problems` asks for."""
     return material.conductivity
 

@@ -136,7 +136,7 @@ class MountedBearing(Checked):
         return SENSES[self.thrust]
 
 
-def _demand_each(name: str, values: Any, bound: str) -> None:
+def _demand_each(name: str, values: object, bound: str) -> None:
     """Checks each of several numbers of a set. **Raises:** `ValueError` for known ones beyond their bound."""
     if not isinstance(values, np.ndarray | np.generic | float | jax.Array):
         return

@@ -7,11 +7,14 @@ So are the bearings of a set that differ: `set.front.bearing.2.geometry.n_balls`
 import dataclasses
 import re
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
 
 from .._scene import AbstractScene, _replaced
+
+if TYPE_CHECKING:
+    from .scene import ShaftSystem
 
 LISTS = {"bearing": "bearings", "set": "sets", "force": "forces"}
 """First word of a path -> field of `ShaftSystem` that holds what it is about."""
@@ -22,7 +25,7 @@ NUMBERED = "bearing"
 _Changes = dict[tuple[str, ...], Any]
 
 
-def replaced(system: Any, changes: Mapping[str, Any]) -> Any:
+def replaced(system: "ShaftSystem", changes: Mapping[str, Any]) -> "ShaftSystem":
     """A copy of a `ShaftSystem` with other values.
 
     **Arguments:** `changes`: dotted path -> value in SI, or a part.
@@ -53,12 +56,12 @@ def replaced(system: Any, changes: Mapping[str, Any]) -> Any:
     return _replaced(system, {**plain, **{(field,): value for field, value in found.items()}})
 
 
-def entries_of(system: Any, word: str) -> tuple[Any, ...]:
+def entries_of(system: "ShaftSystem", word: str) -> tuple[Any, ...]:
     """The bearings, sets or forces that a path may name, or the sections."""
     return system.shaft.sections if word == "section" else getattr(system, LISTS[word])
 
 
-def names_of(system: Any, word: str) -> tuple[str, ...]:
+def names_of(system: "ShaftSystem", word: str) -> tuple[str, ...]:
     """Names of the entries, in their order."""
     entries = entries_of(system, word)
     if word == "section":
@@ -66,7 +69,7 @@ def names_of(system: Any, word: str) -> tuple[str, ...]:
     return tuple(one.name for one in entries)
 
 
-def _place(system: Any, word: str, name: str) -> int:
+def _place(system: "ShaftSystem", word: str, name: str) -> int:
     """**Raises:** `AttributeError` for a name that is not there."""
     names = names_of(system, word)
     if name not in names:
@@ -123,7 +126,7 @@ def _of_bearing(scene: Any, changes: dict[str, Any]) -> Any:
 _NUMBERED = re.compile(r"(bearings|sets|forces)\.(\d+)\.(.*)")
 
 
-def path_in_file(system: Any, path: str) -> str:
+def path_in_file(system: "ShaftSystem", path: str) -> str:
     """The path of scene files of a number that a tree of numbers has at `bearings.0.scene.geometry.conformity_inner`:
     `bearing.rear.geometry.conformity_inner`."""
     found = _NUMBERED.fullmatch(path)
@@ -170,7 +173,7 @@ def _inside(part: Any, keys: list[str]) -> Any:
     return part
 
 
-def all_names(system: Any) -> Iterator[tuple[str, str, Any]]:
+def all_names(system: "ShaftSystem") -> Iterator[tuple[str, str, Any]]:
     """Word, name and entry of every bearing, set and force."""
     for word in LISTS:
         for name, entry in zip(names_of(system, word), entries_of(system, word), strict=True):

@@ -1,7 +1,7 @@
 """The shaft on its bearings as a scene."""
 
 from collections.abc import Iterator
-from typing import Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import numpy as np
@@ -19,6 +19,9 @@ from .heat import ShaftThermal, thermal_problems
 from .mounting import LinearBearing, MatchedSet, MountedBearing, Support, _numbers
 from .paths import part_at, path_in_file, replaced
 from .shaft import Shaft
+
+if TYPE_CHECKING:
+    from .solution import ShaftSolution
 
 
 class SystemLife(Checked):
@@ -56,10 +59,10 @@ class Place(NamedTuple):
 
     name: str
     scene: AbstractBearing | LinearBearing
-    position: Any
+    position: Scalar
     sense: float
-    closure: Any
-    expansion: Any
+    closure: Scalar
+    expansion: Scalar
     support: Support | None
     set_index: int | None
 
@@ -175,7 +178,7 @@ class ShaftSystem(AbstractScene):
     def path_in_file(self, path: str) -> str:
         return path_in_file(self, path)
 
-    def steady_solution(self, options: NewtonOptions) -> Any:
+    def steady_solution(self, options: NewtonOptions) -> "ShaftSolution":
         from .steady import solve_shaft
 
         return solve_shaft(self, options)

@@ -1,6 +1,7 @@
 """Steady state of a shaft on bearings: from the scene to the equations, and from their root to the results."""
 
 import dataclasses
+from collections.abc import Mapping
 from typing import Any
 
 import jax
@@ -84,7 +85,7 @@ def _duty(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
     return dataclasses.replace(first, status=status, duty=duty, checks=_any_state(found.checks))
 
 
-def _any_state(checks: Any) -> dict[str, Bool[Array, ""]]:
+def _any_state(checks: Mapping[str, Bool[Array, ""]]) -> dict[str, Bool[Array, ""]]:
     """Checks that apply in a state."""
     return {text: jnp.any(flag) for text, flag in checks.items()}
 

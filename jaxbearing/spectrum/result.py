@@ -7,6 +7,7 @@ import jax
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
+from ..bearings.solution import Solution
 from ..life.duty import SpectrumLife, governing
 from ..numerics.status import SolveError, Status
 
@@ -27,7 +28,7 @@ class Spectrum(eqx.Module):
     life: SpectrumLife
     notes: tuple[str, ...] = eqx.field(static=True, default=())
 
-    def __getitem__(self, name: str) -> Any:
+    def __getitem__(self, name: str) -> Solution:
         """The solution of a state. **Raises:** `KeyError` for an unknown name."""
         if name not in self.names:
             raise KeyError(f"no state {name!r}; there are {', '.join(self.names)}")

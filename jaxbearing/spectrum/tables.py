@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.padding import Padding
 from rich.table import Table
 
+from ..bearings.solution import Solution
 from ..numerics.status import Status
 from ..report.backends.json import finite, plain
 from ..report.backends.screen import counted, headline, pieces, print_line, print_rule, print_warnings
@@ -144,7 +145,7 @@ def spectrum_to_dict(found: Spectrum, changes: Mapping[str, Mapping[str, str]] |
     }
 
 
-def _pressure(solution: Any) -> float:
+def _pressure(solution: Solution) -> float:
     elements = solution.elements
     return float(np.max(np.maximum(np.asarray(elements.pressure_inner), np.asarray(elements.pressure_outer))))
 

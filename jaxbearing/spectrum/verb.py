@@ -11,6 +11,8 @@ import numpy as np
 from jaxtyping import Array
 
 from .._scene import AbstractScene
+from .._types import Scalar
+from ..bearings.solution import Solution
 from ..lanes import LaneProgram, default_method
 from ..life.duty import spectrum_life
 from ..numerics.compiling import inside_a_program, is_tracing
@@ -76,7 +78,7 @@ def solve_spectrum(
     return found
 
 
-def _of_file(source: str, states: Sequence[State] | None) -> tuple[list[Any], dict[str, AbstractScene]]:
+def _of_file(source: str, states: Sequence[State] | None) -> tuple[list[Scalar], dict[str, AbstractScene]]:
     """Shares and scenes of the states: those of the file, or the given ones of its scene."""
     from ..scenes.states import base_scene, load_states
 
@@ -89,7 +91,7 @@ def _of_file(source: str, states: Sequence[State] | None) -> tuple[list[Any], di
 
 
 def solve_states(
-    scenes: Mapping[str, AbstractScene], shares: Sequence[Any], options: NewtonOptions | None = None
+    scenes: Mapping[str, AbstractScene], shares: Sequence[Scalar], options: NewtonOptions | None = None
 ) -> Spectrum:
     """The spectrum of these scenes; a state that fails raises nothing.
 
@@ -102,7 +104,7 @@ def solve_states(
 
 
 def solve_cases(
-    cases: Sequence[Mapping[str, AbstractScene]], shares: Sequence[Any], options: NewtonOptions | None = None
+    cases: Sequence[Mapping[str, AbstractScene]], shares: Sequence[Scalar], options: NewtonOptions | None = None
 ) -> list[Spectrum]:
     """The spectrum of each case, all of them solved together; arguments and errors as those of `solve_states`, whose
     scenes each case has."""
@@ -114,31 +116,31 @@ def solve_cases(
     return [_spectrum(tuple(scenes), parts, tuple(islice(solutions, len(scenes)))) for scenes in cases]
 
 
-def _spectrum(names: tuple[str, ...], shares: Array, solutions: tuple[Any, ...]) -> Spectrum:
+def _spectrum(names: tuple[str, ...], shares: Array, solutions: tuple[Solution, ...]) -> Spectrum:
     speeds = jnp.stack([_speed(one) for one in solutions])
     return Spectrum(names, shares, solutions, spectrum_life([one.life for one in solutions], shares, speeds))
 
 
-def _speed(solution: Any) -> Array:
+def _speed(solution: Solution) -> Array:
     """Speed of the rings against each other, rad/s; NaN where the solve failed."""
     operation = solution.operation
     speed = jnp.asarray(operation.inner_speed) - operation.outer_speed
     return jnp.where(solution.converged, speed, jnp.nan)
 
 
-def _solved(scenes: list[AbstractScene], options: NewtonOptions) -> list[Any]:
+def _solved(scenes: list[AbstractScene], options: NewtonOptions) -> list[Solution]:
     """Solutions in the order of the scenes, each structure with one program."""
-    groups: dict[Any, list[int]] = {}
+    groups: dict[tuple[Any, ...], list[int]] = {}
     for place, scene in enumerate(scenes):
         shapes = tuple(np.shape(leaf) for leaf in jax.tree.leaves(scene))
         groups.setdefault((jax.tree.structure(scene), shapes), []).append(place)
-    found: dict[int, Any] = {}
+    found: dict[int, Solution] = {}
     for places in groups.values():
         found |= dict(zip(places, _alike([scenes[place] for place in places], options), strict=True))
     return [found[place] for place in range(len(scenes))]
 
 
-def _alike(scenes: list[AbstractScene], options: NewtonOptions) -> list[Any]:
+def _alike(scenes: list[AbstractScene], options: NewtonOptions) -> list[Solution]:
     """Solutions of scenes with the same structure."""
     if len(scenes) == 1 or (inside_a_program(scenes) and not is_tracing()):
         # what is differentiated outside of a program has kept programs of its own

@@ -66,13 +66,13 @@ def _columns(over: Mapping[str, Any]) -> tuple[tuple[str, ...], tuple[np.ndarray
     return tuple(over), tuple(_numbers(path, values) for path, values in over.items())
 
 
-def _mapping(name: str, given: Any) -> None:
+def _mapping(name: str, given: object) -> None:
     """**Raises:** `ValueError` for what is no mapping from paths of fields."""
     if not isinstance(given, Mapping) or not all(isinstance(path, str) for path in given):
         raise ValueError(f"{name} must map dotted paths of fields to values, got {given!r}")
 
 
-def _numbers(path: str, values: Any) -> np.ndarray:
+def _numbers(path: str, values: object) -> np.ndarray:
     """**Raises:** `ValueError` for what are no real numbers."""
     try:
         found = np.atleast_1d(np.asarray(values))

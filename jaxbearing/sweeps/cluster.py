@@ -6,12 +6,15 @@ Workers see the folder of the chunks under the same path, and write the same fil
 import contextlib
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from .chunks import GOOD, compute_chunk, read_chunk, require_key
 from .engine import Runner, SweepError
 from .labels import FAILURE
 from .plan import Plan, compilation_cache
+
+if TYPE_CHECKING:
+    from dask.distributed import Client
 
 CONNECT = 15
 """Time that a scheduler has to answer, s."""
@@ -71,7 +74,7 @@ def _run_remotely(folder: str, index: int, plan: Plan, key: str) -> tuple[int, i
 
 
 @contextlib.contextmanager
-def _client(count: int | None, scheduler: str | None) -> Iterator[Any]:
+def _client(count: int | None, scheduler: str | None) -> Iterator["Client"]:
     from dask import config
     from dask.distributed import Client, LocalCluster
 

@@ -2,7 +2,6 @@
 
 import functools
 from collections.abc import Sequence
-from typing import Any
 
 import jax
 import numpy as np
@@ -21,7 +20,7 @@ MANY = "*"
 """Stands in a path for the names of the parts whose results a variable has side by side."""
 
 
-def template(structure: Any, elements: bool, paths: Sequence[str] = ()) -> xr.Dataset:
+def template(structure: AbstractSolution, elements: bool, paths: Sequence[str] = ()) -> xr.Dataset:
     """The data set of one case, with names, units and dimensions but no results.
 
     **Arguments:** `structure`: a solution with shapes for arrays; `elements`: see `Plan`; `paths`: swept fields.

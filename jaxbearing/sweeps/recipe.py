@@ -149,7 +149,9 @@ def in_scene(scene: AbstractScene, cases: Cases) -> Direct:
     return Direct(base, checked)
 
 
-def _possible(make: Callable[[dict[str, float]], AbstractScene], corners: list[dict[str, float]]) -> list[Any]:
+def _possible(
+    make: Callable[[dict[str, float]], AbstractScene], corners: list[dict[str, float]]
+) -> list[AbstractScene]:
     """Scenes of those corners that have one: values may fit together in some cases only.
 
     **Raises:** `ValueError` of the first corner where none has.
@@ -214,7 +216,7 @@ def from_reader(read: Reader, cases: Cases) -> Direct | Read:
     return direct if same else Read(read, first)
 
 
-def _quietly(read: Callable[[dict[str, float]], AbstractScene], values: dict[str, float]) -> list[Any]:
+def _quietly(read: Callable[[dict[str, float]], AbstractScene], values: dict[str, float]) -> list[AbstractScene]:
     """The scene of these values, where there is one."""
     try:
         return [jax.tree.map(as_float, read(values))]
@@ -222,7 +224,7 @@ def _quietly(read: Callable[[dict[str, float]], AbstractScene], values: dict[str
         return []
 
 
-def _same(one: Any, other: Any) -> bool:
+def _same(one: AbstractScene, other: AbstractScene) -> bool:
     return jax.tree.structure(one) == jax.tree.structure(other) and all(
         np.array_equal(a, b) for a, b in zip(jax.tree.leaves(one), jax.tree.leaves(other), strict=True)
     )

@@ -247,7 +247,7 @@ def _with_differences(
     return lambda time, state, args: field(numbers, time, state)
 
 
-def _control(options: IntegratorOptions, jumps: Array | None) -> Any:
+def _control(options: IntegratorOptions, jumps: Array | None) -> dfx.AbstractStepSizeController:
     tolerance = jnp.asarray(options.tolerance)
     control: Any = dfx.PIDController(
         rtol=tolerance,

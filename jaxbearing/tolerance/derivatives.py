@@ -6,8 +6,9 @@ from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
+from jaxtyping import Array
 
-from .._scene import AbstractScene
+from .._scene import AbstractScene, AbstractSolution
 from ..numerics.garbage import rare_garbage_collection
 from ..numerics.newton import NewtonOptions
 from ..numerics.precision import as_float
@@ -42,7 +43,7 @@ def _slopes(
         solution = at_roots(_solve_any, roots, scene.replace(numbers_), options)
         return values_of(solution, computed(solution, wanted))
 
-    def by_one(place: Any) -> dict[str, Any]:
+    def by_one(place: Array) -> dict[str, Any]:
         along = {path: jnp.where(place == i, 1.0, 0.0) for i, path in enumerate(numbers)}
         return jax.jvp(results, (numbers,), (along,))[1]
 
@@ -53,7 +54,7 @@ def _slopes(
 _kept_slopes = KeptProgram(_slopes, quick=True)
 
 
-def computed(solution: Any, wanted: Sequence[str] | None) -> tuple[str, ...]:
+def computed(solution: AbstractSolution, wanted: Sequence[str] | None) -> tuple[str, ...]:
     """Names of the results that the program gives. **Raises:** as `names_in`."""
     fit = getattr(solution, "fit", None)
     there = (name for name in ALWAYS if fit is not None and getattr(fit, name.partition(".")[2]) is not None)

@@ -9,6 +9,7 @@ import jax
 import jax.numpy as jnp
 
 from .._derived import derived_parts, derived_results
+from .._scene import AbstractSolution
 from ..bearings.operation import LOAD_FIELDS, AbstractOperation
 from ..bearings.solution import RING_FREEDOMS, force_units
 from ..report.labels import dimensions
@@ -51,12 +52,12 @@ class Label(NamedTuple):
     along: tuple[str, str] | None = None
 
 
-def values_of(solution: Any, names: Sequence[str]) -> dict[str, jax.Array]:
+def values_of(solution: AbstractSolution, names: Sequence[str]) -> dict[str, jax.Array]:
     """Results of a solution, each one number."""
     return {name: _value(solution, *_parted(name)) for name in names}
 
 
-def names_in(solution: Any, wanted: Sequence[str] | None) -> tuple[str, ...]:
+def names_in(solution: AbstractSolution, wanted: Sequence[str] | None) -> tuple[str, ...]:
     """The results that are looked at: those that are wanted by their path or by their name in data sets, or `DEFAULT`.
 
     **Raises:** `ValueError` for one that the solution does not have, and for one that is not one number.
@@ -71,7 +72,7 @@ def names_in(solution: Any, wanted: Sequence[str] | None) -> tuple[str, ...]:
     return tuple(dict.fromkeys(_resolved(solution, text, known) for text in wanted))
 
 
-def labels_of(solution: Any, names: Sequence[str]) -> dict[str, Label]:
+def labels_of(solution: AbstractSolution, names: Sequence[str]) -> dict[str, Label]:
     """Labels of results that a solution has."""
     known, found = dict(_known(solution)), {}
     for name in names:
@@ -89,7 +90,7 @@ def _place_in_words(said: Mapping[str, Any], place: int) -> str:
     return f"{said['dims'][0]} {place}"
 
 
-def _entry_of(solution: Any, path: str) -> tuple[str, str, str] | None:
+def _entry_of(solution: AbstractSolution, path: str) -> tuple[str, str, str] | None:
     """Field of a shaft's results with one part for each name, the name, and the rest of a path; `None` of others."""
     table, _, rest = path.partition(".")
     entries = getattr(solution, table, None)
@@ -99,7 +100,7 @@ def _entry_of(solution: Any, path: str) -> tuple[str, str, str] | None:
     return None if name is None else (table, name, rest.removeprefix(f"{name}."))
 
 
-def _in_data(solution: Any, path: str) -> tuple[str, tuple[str, str] | None]:
+def _in_data(solution: AbstractSolution, path: str) -> tuple[str, tuple[str, str] | None]:
     """Name of a result in data sets, and the dimension and name of its bearing or set."""
     entry = _entry_of(solution, path)
     if entry is not None:
@@ -113,7 +114,7 @@ def _in_data(solution: Any, path: str) -> tuple[str, tuple[str, str] | None]:
     return variable_of(path), None
 
 
-def _at(solution: Any, path: str) -> Any:
+def _at(solution: AbstractSolution, path: str) -> Any:
     """The result at a path."""
     entry = _entry_of(solution, path)
     if entry is not None:
@@ -124,7 +125,7 @@ def _at(solution: Any, path: str) -> Any:
     return solution
 
 
-def paths_of(solution: Any) -> tuple[str, ...]:
+def paths_of(solution: AbstractSolution) -> tuple[str, ...]:
     """Paths of all results of a solution."""
     return tuple(path for path, _ in _known(solution))
 
@@ -167,7 +168,7 @@ def _parted(name: str) -> tuple[str, int | None]:
     return parted["name"], None if place is None else int(place)
 
 
-def _value(solution: Any, path: str, place: int | None) -> Any:
+def _value(solution: AbstractSolution, path: str, place: int | None) -> Any:
     value = _at(solution, path)
     return value.reshape(()) if place is None else value[place]
 
@@ -187,7 +188,7 @@ def _there(solution: Any, name: str, known: Mapping[str, Any]) -> bool:
     return value is not None and (place is not None or value.size == 1)
 
 
-def _forces(solution: Any) -> Iterator[str]:
+def _forces(solution: AbstractSolution) -> Iterator[str]:
     """Loads that the freedoms need whose displacement is given: the preload."""
     operation = getattr(solution, "operation", None)
     for place, name in enumerate(LOAD_FIELDS):
@@ -195,7 +196,7 @@ def _forces(solution: Any) -> Iterator[str]:
             yield f"force[{place}]"
 
 
-def _of_entries(solution: Any) -> Iterator[str]:
+def _of_entries(solution: AbstractSolution) -> Iterator[str]:
     """Usual results of the bearings and sets of a shaft."""
     for table, names in _OF_ENTRIES.items():
         entries = getattr(solution, table, None)
@@ -203,7 +204,7 @@ def _of_entries(solution: Any) -> Iterator[str]:
             yield from (f"{table}.{entry}.{name}" for name in names)
 
 
-def _resolved(solution: Any, text: str, known: Mapping[str, Mapping[str, Any]]) -> str:
+def _resolved(solution: AbstractSolution, text: str, known: Mapping[str, Mapping[str, Any]]) -> str:
     parted = _NAME.fullmatch(text.strip())
     name = "" if parted is None else parted["name"]
     path = next((one for one in known if name in (one, variable_of(one), one.replace(".", "_"))), None)

@@ -263,7 +263,7 @@ def _seats(scene: Any, fields: Mapping[str, Distribution]) -> Iterator[tuple[str
         yield seat, Distribution(0.5 * (low + high), math.hypot(*widths) / 6.0, "normal", low, high)
 
 
-def _unscattered(scene: Any) -> Iterator[str]:
+def _unscattered(scene: AbstractScene) -> Iterator[str]:
     fits = getattr(scene, "fits", None)
     if fits is not None and fits.at != "mean" and any(_class_of(scene, seat) is not None for seat in SEATS):
         yield f"fits.at = '{fits.at}': seats with a tolerance class stand at this limit and do not scatter"

@@ -16,6 +16,7 @@ import numpy as np
 
 from .._scene import AbstractScene
 from ..bearings import priors
+from ..bearings.bearing import AbstractBearing
 from ..catalogue.dimensions import clearance_limits
 from ..distribution import Distribution
 from ..mounting import iso286
@@ -173,19 +174,19 @@ def _half(limits: iso286.Limits) -> float:
     return 0.5 * float(limits.upper - limits.lower)
 
 
-def _bore(scene: Any, value: float) -> UsualTolerance:
+def _bore(scene: AbstractBearing, value: float) -> UsualTolerance:
     return UsualTolerance(_half(iso286.bore_limits(value)), "ISO 492, normal class")
 
 
-def _outside(scene: Any, value: float) -> UsualTolerance:
+def _outside(scene: AbstractBearing, value: float) -> UsualTolerance:
     return UsualTolerance(_half(iso286.outside_limits(value)), "ISO 492, normal class")
 
 
-def _pitch(scene: Any, value: float) -> UsualTolerance:
+def _pitch(scene: AbstractBearing, value: float) -> UsualTolerance:
     return UsualTolerance(_half(iso286.shaft_limits("h6", value)), "assumed: IT6")
 
 
-def _shaft_seat(scene: Any, value: float) -> UsualTolerance | None:
+def _shaft_seat(scene: AbstractBearing, value: float) -> UsualTolerance | None:
     bore = scene.geometry.bore
     if bore is None:
         return None
@@ -193,7 +194,7 @@ def _shaft_seat(scene: Any, value: float) -> UsualTolerance | None:
     return UsualTolerance(size, "IT6 of the shaft and ISO 492 of the bore")
 
 
-def _housing_seat(scene: Any, value: float) -> UsualTolerance | None:
+def _housing_seat(scene: AbstractBearing, value: float) -> UsualTolerance | None:
     outside = scene.geometry.outside_diameter
     if outside is None:
         return None
@@ -201,7 +202,7 @@ def _housing_seat(scene: Any, value: float) -> UsualTolerance | None:
     return UsualTolerance(size, "IT7 of the housing and ISO 492 of the outside diameter")
 
 
-def _clearance(scene: Any, value: float) -> UsualTolerance:
+def _clearance(scene: AbstractBearing, value: float) -> UsualTolerance:
     """Half of the width of the normal class."""
     geometry = scene.geometry
     bore = BORE_OVER_PITCH * geometry.pitch_diameter if geometry.bore is None else geometry.bore
@@ -212,13 +213,13 @@ def _clearance(scene: Any, value: float) -> UsualTolerance:
     return UsualTolerance(0.5e-6 * (limits[1] - limits[0]), "ISO 5753-1, width of the normal class")
 
 
-def _angle(scene: Any, value: float) -> UsualTolerance:
+def _angle(scene: AbstractBearing, value: float) -> UsualTolerance:
     if scene.element == "ball":
         return UsualTolerance(math.radians(2.0), "assumed: 2 degrees")
     return UsualTolerance(math.radians(1.0 / 60.0), "assumed: a minute of arc")
 
 
-def _drag(scene: Any, value: float) -> UsualTolerance | None:
+def _drag(scene: AbstractBearing, value: float) -> UsualTolerance | None:
     """The deviation of the logarithm, of which the first order is the relative deviation."""
     prior = priors.drag_prior(scene)
     if prior is None or prior.log_deviation is None:
@@ -227,7 +228,7 @@ def _drag(scene: Any, value: float) -> UsualTolerance | None:
     return UsualTolerance(prior.log_deviation * value, f"known to a factor of {factor:.2g}: to first order")
 
 
-_STANDARDS: dict[str, Callable[[Any, float], UsualTolerance | None]] = {
+_STANDARDS: dict[str, Callable[[AbstractBearing, float], UsualTolerance | None]] = {
     "geometry.bore": _bore,
     "geometry.outside_diameter": _outside,
     "geometry.pitch_diameter": _pitch,

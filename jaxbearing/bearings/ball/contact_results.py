@@ -5,6 +5,7 @@ from typing import Any
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from ..._types import Scalar
 from ...contacts import PointContact
 from ...materials import reduced_modulus
 from ..computed import computed_results
@@ -29,7 +30,7 @@ def ball_results(
     state: BallState | BallsState,
     contact: PointContact,
     films: BallsState | None = None,
-    **more: Any,
+    **more: Array | None,
 ) -> tuple[BallResults, Contacts]:
     """Loads, angles and motion; and the contacts for the checks, as far as geometry goes."""
     geometry, kinematics = scene.geometry, system.kinematics
@@ -98,7 +99,7 @@ def _at_shoulders(scene: BallBearing, contacts: Contacts, arcs: Arcs, transverse
     return contacts._replace(past_edge=angle + transverse / radius - limit, edges=edges)
 
 
-def _conformities(scene: BallBearing) -> tuple[Any, Any]:
+def _conformities(scene: BallBearing) -> tuple[Scalar, Scalar]:
     return scene.geometry.conformity_inner, scene.geometry.conformity_outer
 
 

@@ -1,6 +1,6 @@
 """From a ball bearing to the film of one of its contacts: the equivalent line contact of a ball on a race."""
 
-from typing import Any, Literal
+from typing import Literal
 
 import jax.numpy as jnp
 
@@ -12,6 +12,7 @@ from ..inlet import oil_temperature
 from ..solution import Solution
 from .kinematics import BallKinematics, BallMotion
 from .scene import BallBearing
+from .solution import BallResults
 
 
 def line_contact_of(
@@ -46,12 +47,12 @@ def line_contact_of(
     if scene.oil is None:
         raise ValueError("oil: found nothing, expected the oil of the line contact")
     solution.raise_if_failed()
-    elements: Any = solution.elements
+    elements: BallResults = solution.elements
     geometry = scene.geometry
     if not 0 <= ball < geometry.n_balls:
         raise ValueError(f"ball: found {ball}, expected a number from 0 to {geometry.n_balls - 1}")
     side = 0 if race == "inner" else 1
-    operation: Any = scene.operation
+    operation = scene.operation
     modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
     angles = (elements.contact_angle_inner, elements.contact_angle_outer)
     loads = jnp.stack([elements.load_inner, elements.load_outer])

@@ -1,6 +1,6 @@
 """Sizes and loads of a ball bearing from which its life is computed."""
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -10,6 +10,9 @@ from ..mounted import running_scene
 from ..rated import RatedContacts, sizes_of_loads
 from .build import build_core
 from .scene import BallBearing
+
+if TYPE_CHECKING:
+    from .solution import BallResults
 
 
 def linear_tilt_loads(scene: BallBearing, options: NewtonOptions | None = None) -> Float[Array, "contact ball"]:
@@ -35,7 +38,9 @@ def _by_flank(
     return load[0], load[arcs.first_outer], second
 
 
-def rated_contacts(scene: BallBearing, elements: Any, force: Float[Array, " freedom"] | None = None) -> RatedContacts:
+def rated_contacts(
+    scene: BallBearing, elements: "BallResults", force: Float[Array, " freedom"] | None = None
+) -> RatedContacts:
     """**Arguments:** `elements`: `BallResults` of a solution; `force`: its `force`."""
     geometry = scene.geometry
     inner, outer = elements.load_inner, elements.load_outer

@@ -11,7 +11,7 @@ import functools
 import math
 import operator
 from collections.abc import Callable, Iterator
-from typing import Any, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -44,12 +44,15 @@ from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
 from ..row import AbstractRow
-from ..solution import Solution
+from ..solution import LaminaLoads, Solution
 from ..supplied import supply_problems
 from ..warm import thermal_problems
 from ..warming.settings import WarmUpSimulation
 from .geometry import BallGeometry
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
+
+if TYPE_CHECKING:
+    from .solution import BallResults
 
 ASSUMED_CAGE_THICKNESS = 0.4
 """Radial thickness of the cage over the ball diameter, where a scene does not give its diameters."""
@@ -303,7 +306,9 @@ class BallBearing(AbstractMovingBearing):
 
         return ball_outline(self, of)
 
-    def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
+    def rated_contacts(
+        self, elements: "BallResults", laminae: LaminaLoads | None, force: Array | None = None
+    ) -> RatedContacts:
         from .rating import rated_contacts
 
         return rated_contacts(self, elements, force)
@@ -316,7 +321,7 @@ class BallBearing(AbstractMovingBearing):
     def leaning_angle(self) -> Array:
         return jnp.zeros(()) if self.geometry.has_arcs else self.drawing_angle
 
-    def point_contacts(self, elements: Any) -> PointContact:
+    def point_contacts(self, elements: "BallResults") -> PointContact:
         cosines = (jnp.cos(elements.contact_angle_inner), jnp.cos(elements.contact_angle_outer))
         return self.geometry.contacts(*cosines, reduced_modulus(self.materials.rings, self.materials.balls))
 

@@ -1,10 +1,14 @@
 """Kinematics of rollers between two rings."""
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
+
+if TYPE_CHECKING:
+    from ..operation import Operation
+    from .geometry import RollerGeometry
 
 
 class RollerKinematics(eqx.Module):
@@ -70,7 +74,7 @@ class RollerKinematics(eqx.Module):
         return mean, jnp.stack([inner - roller, outer - roller])
 
 
-def roller_kinematics(geometry: Any, operation: Any) -> RollerKinematics:
+def roller_kinematics(geometry: "RollerGeometry", operation: "Operation") -> RollerKinematics:
     """Speeds of the rollers of a scene. **Arguments:** its `RollerGeometry` and its `Operation`."""
     sizes = (operation.inner_speed, operation.outer_speed, geometry.pitch_radius, geometry.roller_radius)
     return RollerKinematics(*(jnp.asarray(value) for value in sizes))

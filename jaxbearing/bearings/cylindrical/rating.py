@@ -1,15 +1,22 @@
 """Sizes and loads of a cylindrical roller bearing from which its life is computed."""
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from jaxtyping import Array, Float
 
 from ..rated import RatedContacts, is_misaligned, sizes_of_loads
+from ..solution import LaminaLoads
 from .scene import CylindricalRollerBearing
+
+if TYPE_CHECKING:
+    from .solution import RollerResults
 
 
 def rated_contacts(
-    scene: CylindricalRollerBearing, elements: Any, laminae: Any, force: Float[Array, " freedom"] | None = None
+    scene: CylindricalRollerBearing,
+    elements: "RollerResults",
+    laminae: LaminaLoads | None,
+    force: Float[Array, " freedom"] | None = None,
 ) -> RatedContacts:
     """**Arguments:** `RollerResults` and, of rollers in laminae, `LaminaLoads` of a solution; `force`: its `force`."""
     geometry, operation = scene.geometry, scene.operation

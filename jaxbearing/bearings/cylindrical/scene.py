@@ -9,7 +9,7 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 
 import dataclasses
 from collections.abc import Callable, Iterator
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -39,12 +39,15 @@ from ..rating import Rating
 from ..ring import InnerRing
 from ..ring_shape import UNBALANCED, FlexibleRing, InnerRoundness, OuterRoundness
 from ..row import AbstractRow
-from ..solution import RING_FREEDOMS, Solution
+from ..solution import RING_FREEDOMS, LaminaLoads, Solution
 from ..supplied import supply_problems
 from ..warm import thermal_problems
 from ..warming.settings import WarmUpSimulation
 from .geometry import ASSUMED_FLANGE_HEIGHT, RollerCage, RollerFlange, RollerGeometry, check_height
 from .thrust import NOT_MODELLED, check_axial
+
+if TYPE_CHECKING:
+    from .solution import RollerResults
 
 _ACROSS = ("radial", "lateral", "tilt", "tilt_lateral")
 """Freedoms of the inner ring that the rollers feel."""
@@ -243,7 +246,9 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
         return roller_outline(self)
 
-    def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
+    def rated_contacts(
+        self, elements: "RollerResults", laminae: LaminaLoads | None, force: Array | None = None
+    ) -> RatedContacts:
         from .rating import rated_contacts
 
         return rated_contacts(self, elements, laminae, force)
@@ -299,7 +304,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     def dissipates(self) -> bool:
         return self.contact is not None and (self.slips or self.contact.resists_rolling)
 
-    def race_lines(self, elements: Any) -> LineContact:
+    def race_lines(self, elements: "RollerResults") -> LineContact:
         length = jnp.asarray(self.geometry.loaded_length)
         roller, races = 0.5 * jnp.asarray(self.geometry.roller_diameter), jnp.stack(self.raceway_diameters)[:, None]
         radii = 1.0 / (1.0 / roller + jnp.asarray([[2.0], [-2.0]]) / races)

@@ -6,7 +6,7 @@ axial freedom with the others, so that force and displacement follow from each o
 """
 
 import dataclasses
-from typing import Any
+from typing import TYPE_CHECKING
 
 import equinox as eqx
 import jax
@@ -18,6 +18,9 @@ from ...numerics.safe import positive_power, power
 from ..operation import Operation
 from ..ring import InnerRing
 from ..solution import RING_FREEDOMS, Solution
+
+if TYPE_CHECKING:
+    from .geometry import RollerGeometry
 
 EXPONENT = 10.0 / 9.0
 """The exponent of the force over the displacement is that of a line contact."""
@@ -95,7 +98,7 @@ class ThrustFlanges(eqx.Module):
         )
 
 
-def check_flanges(geometry: Any) -> None:
+def check_flanges(geometry: "RollerGeometry") -> None:
     """**Raises:** `ValueError` for flanges of which something is missing."""
     if geometry.flange_stiffness is not None and geometry.flange_gap is None:
         raise ValueError(
@@ -106,7 +109,7 @@ def check_flanges(geometry: Any) -> None:
             raise ValueError(f"geometry.{name}: expected none without geometry.flange_stiffness")
 
 
-def check_axial(geometry: Any, operation: Operation) -> None:
+def check_axial(geometry: "RollerGeometry", operation: Operation) -> None:
     """**Raises:** `ValueError` for an axial load or displacement that no flange stands against: a known load that
     points away from the only flange, or either without flanges."""
     load = operation.load("axial")

@@ -12,6 +12,7 @@ from typing import Any, ClassVar, NamedTuple
 import equinox as eqx
 from jaxtyping import Array, Float, Int
 
+from ..._scene import AbstractHistory
 from ..._types import Scalar
 from ...materials import CATALOGUE
 from ...numerics.arrow import ArrowPoint
@@ -20,7 +21,7 @@ from ..bearing import AbstractBearing
 from ..cage import ASSUMED_MATERIAL
 from ..cage_stress import CageSection, cage_section
 from ..facts import Excess
-from .history import Energy, Instant, LastState, PocketPeaks
+from .history import Energy, History, Instant, LastState, PocketPeaks
 from .settings import Simulation
 
 
@@ -77,8 +78,7 @@ class AbstractDynamics(eqx.Module):
 class Start(NamedTuple):
     """Equations of motion, state at time 0, and how the quasi-static solve ended that gave it."""
 
-    dynamics: Any
-    """An `AbstractDynamics`."""
+    dynamics: AbstractDynamics
     state: ArrowPoint
     status: Int[Array, ""]
     residual: Float[Array, ""]
@@ -87,8 +87,7 @@ class Start(NamedTuple):
 class Resumed(NamedTuple):
     """Equations of motion, and the state that an earlier run ended with."""
 
-    dynamics: Any
-    """An `AbstractDynamics`."""
+    dynamics: AbstractDynamics
     state: ArrowPoint
 
 
@@ -160,19 +159,19 @@ class AbstractMovingBearing(AbstractBearing):
         solid = self.materials.cage or CATALOGUE[ASSUMED_MATERIAL]
         return cage_section(self.cage, self.geometry, solid.density)
 
-    def simulated(self, duration: float | None, **settings: Any) -> Any:
+    def simulated(self, duration: float | None, **settings: Any) -> AbstractHistory:
         if self.thermal is not None:
             return super().simulated(duration, **settings)
         from .runs import simulate_bearing
 
         return simulate_bearing(self, duration, **settings)
 
-    def simulated_batch(self, duration: float, over: Mapping[str, Any], **settings: Any) -> Any:
+    def simulated_batch(self, duration: float, over: Mapping[str, Any], **settings: Any) -> History:
         from .batch import simulate_bearing_batch
 
         return simulate_bearing_batch(self, duration, over, **settings)
 
-    def check_restart(self, restart: Any, duration: float | None = None) -> None:
+    def check_restart(self, restart: object, duration: float | None = None) -> None:
         if self.thermal is not None:
             super().check_restart(restart, duration)
             return

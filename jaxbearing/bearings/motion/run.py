@@ -1,6 +1,6 @@
 """A run of a bearing in time, piece by piece, and the check of the state from which it goes on."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import equinox as eqx
 import jax
@@ -98,7 +98,7 @@ def identity(scene: AbstractMovingBearing) -> Identity:
     return identity_of(scene, MAY_CHANGE)
 
 
-def check_fits(scene: AbstractMovingBearing, last: Any) -> None:
+def check_fits(scene: AbstractMovingBearing, last: object) -> None:
     """Checks that a state is one of this bearing.
 
     **Raises:** `ValueError` that says what differs.

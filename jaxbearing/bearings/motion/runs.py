@@ -3,7 +3,7 @@
 import contextlib
 import dataclasses
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import jax
 import jax.numpy as jnp
@@ -29,6 +29,9 @@ from .run import FIELD, UNKNOWN, Advanced, advance, check_fits, identity
 from .settings import Simulation
 from .start import at_start
 
+if TYPE_CHECKING:
+    import diffrax as dfx
+
 FIRST_STEP = 1e-7
 """First step that the integrator tries, s."""
 SEGMENT = 128
@@ -40,7 +43,9 @@ MOST_INSTANTS = 1_000_000
 Progress = Callable[[float, float], None]
 
 
-def trajectory(start: Start, times: Float[Array, " time"], simulation: Simulation, adjoint: Any = None) -> Segment:
+def trajectory(
+    start: Start, times: Float[Array, " time"], simulation: Simulation, adjoint: "dfx.AbstractAdjoint | None" = None
+) -> Segment:
     """The motion at given times, in one program: pure, jit-able, vmap-able, differentiable.
 
     Derivatives are meaningful until the first shocks; after them neighbouring trajectories separate. Reverse mode uses
@@ -138,7 +143,7 @@ def simulate_bearing(
     scene: AbstractMovingBearing,
     duration: float | None,
     *,
-    simulation: Any,
+    simulation: object,
     interval: float,
     throw: bool,
     progress: Progress | None,
@@ -174,7 +179,7 @@ def simulate_bearing(
     else:
         # which bearing it is has been compared, and is no part of the program
         dynamics, state = _RESUME(scene, chosen, dataclasses.replace(last, identity=None))
-    done: list[tuple[np.ndarray, Any, Segment, Excess]] = []
+    done: list[tuple[np.ndarray, Instant, Segment, Excess]] = []
     with contextlib.ExitStack() as stack:
         interrupt = Deferral()
         try:
@@ -215,8 +220,8 @@ def notes_of_seats(scene: AbstractMovingBearing) -> tuple[str, ...]:
 def _history(
     scene: AbstractMovingBearing,
     chosen: Simulation,
-    dynamics: Any,
-    done: list[tuple[np.ndarray, Any, Segment, Excess]],
+    dynamics: AbstractDynamics,
+    done: list[tuple[np.ndarray, Instant, Segment, Excess]],
     stop: float,
     interrupted: bool,
     notes: tuple[str, ...],
@@ -257,7 +262,7 @@ def run_checks(scene: AbstractMovingBearing, energy: Energy, excess: Excess) -> 
     return {text: jnp.abs(energy.error) > ENERGY_LIMIT} | {said: value > 0 for said, value in found.items()}
 
 
-def _kept(found: Advanced, times: np.ndarray, first: bool) -> tuple[np.ndarray, Any, Segment]:
+def _kept(found: Advanced, times: np.ndarray, first: bool) -> tuple[np.ndarray, Instant, Segment]:
     """Times and instants of a segment that are new and were reached: its last state only where it stopped early."""
     segment = found.segment
     good = np.append(times <= float(segment.last_time), int(segment.status) != Status.CONVERGED)

@@ -34,12 +34,13 @@ the raceways.
 """
 
 import dataclasses
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from ..._types import Scalar
 from ...contacts import LineContact, PointContact, Sliding, Traction
 from ...contacts.laws import ContactLaws
 from ...contacts.mixed import Asperities, MixedState
@@ -196,7 +197,7 @@ def _races(
     load: Float[Array, "2 roller"],
     reach: Array,
     motion: TaperedMotion,
-    modulus: Any,
+    modulus: Scalar,
     oil: Lubricant,
     inlet: InletOil,
 ) -> RaceFriction:
@@ -241,7 +242,7 @@ def _races(
 
 
 def _rib(
-    scene: TaperedRollerBearing, load: Float[Array, " roller"], motion: TaperedMotion, modulus: Any, inlet: InletOil
+    scene: TaperedRollerBearing, load: Float[Array, " roller"], motion: TaperedMotion, modulus: Scalar, inlet: InletOil
 ) -> RibFriction:
     laws, oil = scene.rib, scene.oil
     assert laws is not None

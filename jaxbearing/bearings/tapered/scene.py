@@ -9,7 +9,7 @@ default the apex itself. (The source's tilt t and moment M_1 have the opposite s
 
 import dataclasses
 from collections.abc import Callable, Iterator
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -38,11 +38,14 @@ from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
 from ..row import AbstractRow
-from ..solution import Solution
+from ..solution import LaminaLoads, Solution
 from ..supplied import supply_problems
 from ..warm import thermal_problems
 from ..warming.settings import WarmUpSimulation
 from .geometry import TaperedGeometry
+
+if TYPE_CHECKING:
+    from .solution import TaperedResults
 
 LOAD_POSITION = "reference point from the apex (of the rollers' middle: negative)"
 """Label of the field."""
@@ -165,7 +168,9 @@ class TaperedRollerBearing(AbstractBearing):
 
         return tapered_outline(self)
 
-    def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
+    def rated_contacts(
+        self, elements: "TaperedResults", laminae: LaminaLoads | None, force: Array | None = None
+    ) -> RatedContacts:
         from .rating import rated_contacts
 
         return rated_contacts(self, laminae, force)
@@ -186,7 +191,7 @@ class TaperedRollerBearing(AbstractBearing):
         slides = self.rib is not None and self.rib.traction is not None
         return self.contact.resists_rolling or slides or self.drag is not None
 
-    def race_lines(self, elements: Any) -> LineContact:
+    def race_lines(self, elements: "TaperedResults") -> LineContact:
         radii = self.geometry.race_reduced_radii(jnp.asarray(0.5))[:, None]
         modulus = reduced_modulus(self.materials.rings, self.materials.rollers)
         return LineContact(radii, jnp.asarray(self.geometry.roller_length), modulus)

@@ -102,7 +102,7 @@ def instants_at(
     return jax.lax.map(one, (times, temperatures))
 
 
-def _instant(lane: Any, network: Network, nodes: Array, heat: NodeHeat, into: Array) -> WarmInstant:
+def _instant(lane: AbstractBearing, network: Network, nodes: Array, heat: NodeHeat, into: Array) -> WarmInstant:
     solution: Solution = heat.other
     elements, flows = solution.elements, network.flows(nodes, heat)
     both = lambda name: jnp.stack([getattr(elements, f"{name}_inner"), getattr(elements, f"{name}_outer")])

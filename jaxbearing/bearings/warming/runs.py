@@ -16,7 +16,7 @@ from ...numerics.interrupts import Deferral, deferred_interrupts
 from ...numerics.precision import as_float
 from ...numerics.status import SolveError, Status
 from ...numerics.structure import static_number
-from ...thermal.warm_up import AHEAD, ENERGY, run_status
+from ...thermal.warm_up import AHEAD, ENERGY, Reached, run_status
 from ..bearing import AbstractBearing
 from ..checks import input_excess
 from ..heat import heat_capacities, unknown_capacities
@@ -45,7 +45,7 @@ SLOWLY = "the bearing is in its steady state at each instant; its own motion is 
 Progress = Callable[[float, float], None]
 
 
-def settings_of(scene: AbstractBearing, given: Any) -> WarmUpSimulation:
+def settings_of(scene: AbstractBearing, given: object) -> WarmUpSimulation:
     """The settings of a run: given, or those of the scene, whose `[simulation]` may be one of rollers.
 
     **Raises:** `TypeError` for another class; `ValueError` for a load that turns with the shaft.
@@ -77,7 +77,7 @@ def identity(scene: AbstractBearing) -> Identity:
     return identity_of(scene, MAY_CHANGE)
 
 
-def check_restart(scene: Any, last: Any) -> None:
+def check_restart(scene: Any, last: object) -> None:
     """**Raises:** `ValueError` where the state is not one of this bearing and its nodes."""
     if not isinstance(last, WarmState):
         of = getattr(last, "of", type(last).__name__)
@@ -141,7 +141,7 @@ def simulate_warm_up(
     scene: AbstractBearing,
     duration: float | None,
     *,
-    simulation: Any,
+    simulation: object,
     interval: float | None,
     throw: bool,
     progress: Progress | None,
@@ -256,7 +256,7 @@ class _Run:
         if not finished:
             self.status = self._failure(found, end, seen)
 
-    def _integrated(self, begin: float, nodes: np.ndarray, times: np.ndarray, step: float) -> Any:
+    def _integrated(self, begin: float, nodes: np.ndarray, times: np.ndarray, step: float) -> Reached:
         """The state that the integrator reaches from a beginning, s. **Arguments:** `times`: at most `PIECE`, s;
         `step`: first that is tried, s."""
         lengths = np.pad(times - begin, (0, PIECE - times.size), mode="edge")
@@ -298,7 +298,7 @@ class _Run:
         joined = jax.tree.map(lambda *leaves: np.concatenate(leaves)[order], instants, *found)
         return whole[order], joined
 
-    def _failure(self, found: Any, end: float, seen: Seen) -> Status:
+    def _failure(self, found: Reached, end: float, seen: Seen) -> Status:
         """The status of a piece that stopped early."""
         ahead = AHEAD * float(self.settings.options.shortest_step)
         beyond = self._look(np.asarray([end + ahead]), (self.now + ahead * seen.rates[-1])[None])

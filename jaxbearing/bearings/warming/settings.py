@@ -1,6 +1,6 @@
 """Settings of a run of the temperatures of a bearing: the same for all families."""
 
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import jax.numpy as jnp
 
@@ -12,6 +12,9 @@ from ...numerics.structure import choice, count
 from ...time_laws import AbstractTimeFactor, Steady
 from ..heat import inlet_temperature
 from ..operation import LOAD_FIELDS
+
+if TYPE_CHECKING:
+    from ..bearing import AbstractBearing
 
 SOLVERS = ("kvaerno3", "kvaerno4", "kvaerno5")
 """Methods for runs of temperatures, which are stiff."""
@@ -72,7 +75,7 @@ class WarmUpSimulation(Checked):
         return self.speed, self.load, self.oil_inlet, self.oil_flow
 
 
-def at_instant(scene: Any, settings: WarmUpSimulation, time: Scalar) -> Any:
+def at_instant(scene: Any, settings: WarmUpSimulation, time: Scalar) -> "AbstractBearing":
     """The scene with speeds, loads and oil of a time, s. What does not change stays as it is, bit for bit."""
     operation, thermal = scene.operation, scene.thermal
     changes: dict[str, Any] = {}

@@ -24,6 +24,7 @@ from .curves import (
 )
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 PRINTED = {0.0: 20.2, 40.0: 14.8, 82.0: 11.5, 124.0: 9.15, 164.0: 7.60}
@@ -32,7 +33,7 @@ _MATCHED = "Barus and Roelands are matched to the modified WLF law at 40 °C (0 
 _TEMPERATURE, _ALPHA = "temperature, °C", "pressure-viscosity coefficient α*, 1/GPa"
 
 
-def alpha_of_models(axes: Any = None) -> "matplotlib.figure.Figure":
+def alpha_of_models(axes: "matplotlib.axes.Axes | None" = None) -> "matplotlib.figure.Figure":
     """Coefficient alpha* of Mobil Jet II by three viscosity laws, and as the source prints it (Figure 27).
 
     **Arguments:** `axes`: matplotlib axes to draw into.
@@ -57,7 +58,7 @@ def alpha_of_models(axes: Any = None) -> "matplotlib.figure.Figure":
 def alpha_of_oils(
     oils: Sequence[str] = ("pennzane_x2000", "nye_186a", "fomblin_z25"),
     range_celsius: tuple[float, float] = (-30.0, 120.0),
-    axes: Any = None,
+    axes: "matplotlib.axes.Axes | None" = None,
 ) -> "matplotlib.figure.Figure":
     """Coefficient alpha* of oils against temperature, integrated and by their closed forms (Figure 34).
 
@@ -81,7 +82,7 @@ def alpha_of_oils(
     return figure
 
 
-def film_of_models(pressure: float = 1.05e9, axes: Any = None) -> "matplotlib.figure.Figure":
+def film_of_models(pressure: float = 1.05e9, axes: "matplotlib.axes.Axes | None" = None) -> "matplotlib.figure.Figure":
     """Central film of a 20 mm sphere at 40 m/s in Mobil Jet II by three viscosity laws (Figure 28).
 
     **Arguments:** `pressure`: Hertz (peak), Pa, > 0; `axes`: matplotlib axes to draw into.

@@ -13,6 +13,7 @@ from ...scenes.oil.catalogue import load_oil
 
 if TYPE_CHECKING:
     import jax
+    import matplotlib.axes
 
 NAMES = {
     "mobil_jet_ii": "Mobil Jet II",
@@ -71,7 +72,9 @@ def _three_points(viscosity: AbstractViscosity) -> tuple[np.float64, np.float64,
     return base, squeezed - base, warm - base
 
 
-def finish(axes: Any, title: str, across: str, up: str, legend: str | None = None, columns: int = 1) -> None:
+def finish(
+    axes: "matplotlib.axes.Axes", title: str, across: str, up: str, legend: str | None = None, columns: int = 1
+) -> None:
     """Title, axis labels, grid and legend of one figure."""
     title_of(axes, title)
     axes.set_xlabel(across, fontsize=9)

@@ -17,6 +17,7 @@ from ..frame import drawing
 from .curves import finish, oil_named
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 # The caption of Figure 41, and what it decodes to (inner contact of the source's ball bearing)
@@ -35,7 +36,7 @@ PRESSURES = (1.19e9, 1.50e9, 1.89e9, 2.38e9)
 
 
 def spin_friction(
-    pressures: Sequence[float] = PRESSURES, temperature: float = TEMPERATURE, axes: Any = None
+    pressures: Sequence[float] = PRESSURES, temperature: float = TEMPERATURE, axes: "matplotlib.axes.Axes | None" = None
 ) -> "matplotlib.figure.Figure":
     """Spin torque over load and mean semi-axis against the spin-to-roll ratio (Figure 41).
 

@@ -13,11 +13,14 @@ from ..frame import drawing
 from .curves import DISK_RADIUS, STEEL_MODULUS, finish, kelvin, oil_named
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 
 def thermal_factor(
-    slide_ratios: Sequence[float] = (0.0, 0.1, 0.5, 1.0, 2.0), pressure: float = 1e9, axes: Any = None
+    slide_ratios: Sequence[float] = (0.0, 0.1, 0.5, 1.0, 2.0),
+    pressure: float = 1e9,
+    axes: "matplotlib.axes.Axes | None" = None,
 ) -> "matplotlib.figure.Figure":
     """Gupta's thermal factor of the film against the thermal loading L, one curve for each slide ratio S.
 

@@ -19,6 +19,7 @@ from ..frame import drawing
 from .curves import DISK_RADIUS, STEEL_MODULUS, finish, oil_named
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 TEMPERATURE, SPEED, PRESSURE = 297.0, 21.175, 1.5e9
@@ -31,7 +32,7 @@ _WHERE = (
 _LOST = "of the source states no operating point and its curves are not in the text: not comparable"
 
 
-def traction_models(axes: Any = None) -> "matplotlib.figure.Figure":
+def traction_models(axes: "matplotlib.axes.Axes | None" = None) -> "matplotlib.figure.Figure":
     """Traction by line-contact and point-contact models of several meshes (Figure 21).
 
     **Arguments:** `axes`: matplotlib axes to draw into.
@@ -54,7 +55,7 @@ def traction_models(axes: Any = None) -> "matplotlib.figure.Figure":
 
 
 def traction_shear_modulus(
-    factors: Sequence[float] = (0.25, 0.5, 1.0, 2.0, 4.0), axes: Any = None
+    factors: Sequence[float] = (0.25, 0.5, 1.0, 2.0, 4.0), axes: "matplotlib.axes.Axes | None" = None
 ) -> "matplotlib.figure.Figure":
     """Traction with the oil's shear modulus multiplied by factors (Figure 22).
 
@@ -69,7 +70,7 @@ def traction_shear_modulus(
 
 
 def traction_stress(
-    factors: Sequence[float] = (0.25, 0.5, 1.0, 2.0, 4.0), axes: Any = None
+    factors: Sequence[float] = (0.25, 0.5, 1.0, 2.0, 4.0), axes: "matplotlib.axes.Axes | None" = None
 ) -> "matplotlib.figure.Figure":
     """Traction with the oil's characteristic (Eyring) stress multiplied by factors (Figure 23).
 
@@ -83,7 +84,9 @@ def traction_stress(
     return _varied("stress", "τ0", factors, caption, axes)
 
 
-def _varied(field: str, symbol: str, factors: Sequence[float], caption: str, axes: Any) -> "matplotlib.figure.Figure":
+def _varied(
+    field: str, symbol: str, factors: Sequence[float], caption: str, axes: "matplotlib.axes.Axes | None"
+) -> "matplotlib.figure.Figure":
     figure, axes = drawing(axes, caption)
     for colour, factor in zip(CURVES, factors, strict=False):
         _draw(axes, scaled(oil_named("mobil_jet_ii")[0], field, factor), f"{factor:g} {symbol}", colour)
@@ -98,7 +101,7 @@ def scaled(lubricant: Lubricant, field: str, factor: float) -> Lubricant:
 
 
 def _draw(
-    axes: Any,
+    axes: "matplotlib.axes.Axes",
     lubricant: Lubricant,
     label: str,
     colour: str,
@@ -116,7 +119,7 @@ def _draw(
     )
 
 
-def _finish(axes: Any, title: str) -> None:
+def _finish(axes: "matplotlib.axes.Axes", title: str) -> None:
     axes.set_xlim(0.0, 10.0)
     axes.set_ylim(bottom=0.0)
     finish(axes, title, "slide-to-roll ratio (difference over mean speed), %", "traction coefficient")

@@ -1,7 +1,7 @@
 """Viscosity against pressure and temperature: the source's Figures 25, 26 and 30 to 33."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import jax.numpy as jnp
 import numpy as np
@@ -13,6 +13,7 @@ from ..frame import drawing
 from .curves import MATCHED, NAMES, finish, kelvin, matched_barus, matched_roelands, oil_named
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 MEASURED = {0.0: 0.157, 50.0: 0.017, 100.0: 0.0047, 150.0: 0.0021, 200.0: 0.0012}
@@ -25,7 +26,7 @@ def viscosity_pressure(
     temperatures: Sequence[float],
     highest_pressure: float = 0.7e9,
     beside: str | Lubricant | None = None,
-    axes: Any = None,
+    axes: "matplotlib.axes.Axes | None" = None,
 ) -> "matplotlib.figure.Figure":
     """Viscosity of an oil against pressure, one curve for each temperature (Figures 25, 31, 32, 33).
 
@@ -55,7 +56,9 @@ def viscosity_pressure(
     return figure
 
 
-def viscosity_models(oil: str | Lubricant = "mobil_jet_ii", axes: Any = None) -> "matplotlib.figure.Figure":
+def viscosity_models(
+    oil: str | Lubricant = "mobil_jet_ii", axes: "matplotlib.axes.Axes | None" = None
+) -> "matplotlib.figure.Figure":
     """An oil's viscosity law against those of Barus and Roelands, at 40 and 164 °C up to 1 GPa (Figure 26).
 
     **Arguments:** `oil`: name in the catalogue, or a lubricant; `axes`: matplotlib axes to draw into.
@@ -86,7 +89,9 @@ def viscosity_models(oil: str | Lubricant = "mobil_jet_ii", axes: Any = None) ->
 
 
 def viscosity_temperature(
-    oils: Sequence[str] = tuple(NAMES), range_celsius: tuple[float, float] = (-20.0, 200.0), axes: Any = None
+    oils: Sequence[str] = tuple(NAMES),
+    range_celsius: tuple[float, float] = (-20.0, 200.0),
+    axes: "matplotlib.axes.Axes | None" = None,
 ) -> "matplotlib.figure.Figure":
     """Viscosity of oils at ambient pressure against temperature (Figure 30, with Mobil Jet II).
 

@@ -1,10 +1,10 @@
 """Content of the report page of a bearing."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
+from ...bearings.bearing import AbstractBearing
 from ...bearings.flanks import on_heavier_flanks
 from ...bearings.solution import RING_FREEDOMS, Solution, stiffness_units
 from ...numerics.status import Status
@@ -32,7 +32,7 @@ _SECTION = (
 )
 
 
-def page_content(scene: Any, solution: Solution) -> Content:
+def page_content(scene: AbstractBearing, solution: Solution) -> Content:
     """See `report.html_report.html_report`."""
     losses = power_losses(solution)
     total = float(solution.power_loss.total) if losses else 0.0
@@ -73,13 +73,13 @@ def _stiffness(solution: Solution) -> tuple[list[str], list[list[str]]]:
     return [name.replace("_", " ") for name in RING_FREEDOMS], rows
 
 
-def _front_caption(scene: Any, name: str) -> str:
+def _front_caption(scene: AbstractBearing, name: str) -> str:
     shoulders = "" if scene.line_contacts else "the shoulders, "
     rings = f"{shoulders}bore and outside diameter of the rings"
     return _ARROWS.format(name=name, rings=rings)
 
 
-def _section_caption(scene: Any, name: str) -> str:
+def _section_caption(scene: AbstractBearing, name: str) -> str:
     angles = ", directions those of the contacts" if scene.outline().own_directions else ""
     return _SECTION.format(name=name, angles=angles)
 

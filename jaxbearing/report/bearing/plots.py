@@ -12,6 +12,7 @@ from .operation import operating_point
 from .panels import SIDES, bearing_diagrams, contact_panels, loss_panel
 
 if TYPE_CHECKING:
+    import matplotlib.artist
     import matplotlib.figure
 
 _DIAGRAM = 5.2
@@ -53,7 +54,7 @@ def _height(solution: Solution) -> float:
     return _LOW if loss_panel(solution) is None else _WITH_BARS
 
 
-def _charts(figure: Any, solution: Solution, title: str, noted: bool = True) -> None:
+def _charts(figure: "matplotlib.figure.Figure", solution: Solution, title: str, noted: bool = True) -> None:
     """All but the diagrams, on a page or a part of one. `noted`: with notes at its foot."""
     losses, (first, *others) = loss_panel(solution), contact_panels(solution)
     head(figure, title, pretty(operating_point(solution)))
@@ -87,7 +88,7 @@ def _charts(figure: Any, solution: Solution, title: str, noted: bool = True) -> 
         figure.legend(handles, names, ncols=len(names), **style)
 
 
-def _legend(figure: Any) -> tuple[list[Any], list[str]]:
+def _legend(figure: "matplotlib.figure.Figure") -> "tuple[list[matplotlib.artist.Artist], list[str]]":
     """One entry for each of the raceways and the rib that is drawn anywhere."""
     drawn: dict[str, Any] = {}
     for axes in figure.axes:

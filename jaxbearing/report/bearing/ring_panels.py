@@ -3,10 +3,10 @@ beside those in a rigid ring."""
 
 import dataclasses
 import math
-from typing import Any
 
 import numpy as np
 
+from ...bearings.bearing import AbstractBearing
 from ...bearings.ring_deflection import RingDeflection
 from ...bearings.solution import Solution
 from ...solve import solve
@@ -32,7 +32,7 @@ def ring_panels(solution: Solution, rigid: Solution | None = None) -> list[Polar
     return shapes if rigid is None else [load_polygon(solution, rigid), *shapes]
 
 
-def rigid_counterpart(scene: Any, solution: Solution) -> Solution | None:
+def rigid_counterpart(scene: AbstractBearing, solution: Solution) -> Solution | None:
     """Solution of the same scene with a rigid outer ring; `None` where the ring is rigid or that solve fails."""
     if solution.outer_ring is None:
         return None

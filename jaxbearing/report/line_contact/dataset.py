@@ -1,11 +1,11 @@
 """A line contact as a labelled xarray data set."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from ..._scene import AbstractSolution
 from ...ehl import LineContactSolution
 from ...numerics.status import Status
 from ..labels import labelled
@@ -34,7 +34,7 @@ def to_dataset(solution: LineContactSolution, dims: Sequence[str] = ()) -> xr.Da
     return without_fill(dataset)
 
 
-def variables_of(result: Any, title: str, along: tuple[str, ...], names: dict[str, str]) -> xr.Dataset:
+def variables_of(result: AbstractSolution, title: str, along: tuple[str, ...], names: dict[str, str]) -> xr.Dataset:
     """The results of a solve or a run, and its operating point.
 
     **Arguments:** `along`: dimensions of a batch; `names`: other names for dimensions of the labels.

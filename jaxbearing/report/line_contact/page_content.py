@@ -1,7 +1,6 @@
 """Content of the report page of a line contact."""
 
-from typing import Any
-
+from ..._scene import AbstractScene
 from ...ehl import LineContactSolution
 from ...numerics.status import Status
 from ..display import pretty, with_unit
@@ -13,7 +12,7 @@ from .panels import line_contact_panels
 _SOLVER = ("status", "iterations", "residual_norm", "last_step")
 
 
-def page_content(scene: Any, solution: LineContactSolution) -> Content:
+def page_content(scene: AbstractScene, solution: LineContactSolution) -> Content:
     """See `report.html_report.html_report`."""
     return Content(
         kind="lubricated line contact",

@@ -1,9 +1,12 @@
 """The bending line of a shaft between its nodes, and which of its results are the largest."""
 
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+
+from ...shafts.shaft import Shaft
+from ...shafts.solution import ShaftSolution
 
 PLANES = (("Y", 1, 3), ("Z", 2, 4))
 """Planes through the axis: name of the direction across, places of the displacement and of the tilt in it."""
@@ -29,7 +32,7 @@ class BendingLine(NamedTuple):
         return float(self.size[place]), float(self.position[place])
 
 
-def bending_line(solution: Any) -> BendingLine:
+def bending_line(solution: ShaftSolution) -> BendingLine:
     """The shaft between its nodes, whose cross sections turn as the beam of the model does; what the own weight adds
     between two nodes is left out.
 
@@ -63,7 +66,7 @@ def _beam(w1: float, s1: float, w2: float, s2: float, length: float, shear: floa
     return a * w1 + b * s1 + c * w2 + d * s2
 
 
-def _shear_numbers(shaft: Any, x: np.ndarray) -> np.ndarray:
+def _shear_numbers(shaft: Shaft, x: np.ndarray) -> np.ndarray:
     r"""$\varphi = 12EI/(G\kappa AL^2)$ of the part of the shaft between neighbouring nodes; 0 of a rigid shaft."""
     sections = shaft.sections
     if not sections:
@@ -104,7 +107,7 @@ class CutLoads(NamedTuple):
     moment: np.ndarray
 
 
-def cut_loads(solution: Any) -> CutLoads:
+def cut_loads(solution: ShaftSolution) -> CutLoads:
     """Cut loads by statics, from what acts on the shaft, its weight and the forces of its bearings."""
     nodes = solution.shaft
     at = np.concatenate([np.asarray(nodes.position), [float(one.position) for one in solution.bearings.values()]])
@@ -126,7 +129,7 @@ def cut_loads(solution: Any) -> CutLoads:
     return CutLoads(x, -(loads[:, 0] @ acts), shear, moment)
 
 
-def _weights(shaft: Any) -> tuple[np.ndarray, np.ndarray]:
+def _weights(shaft: Shaft) -> tuple[np.ndarray, np.ndarray]:
     """Ends of the sections, m, and their weights per length along Y and Z, N/m, shape (section, 2)."""
     ends, weights = [0.0] if shaft.sections else [], []
     for one in shaft.sections:

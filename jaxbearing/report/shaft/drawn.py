@@ -1,9 +1,12 @@
 """Pictures of a shaft as SVG on a page, and on axes of matplotlib on paper."""
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from ..backends.svg import Drawing
 from .picture import Area, Picture, Pointer, Stroke, Words
+
+if TYPE_CHECKING:
+    import matplotlib.axes
 
 _WIDTH = 640.0
 """Width of a picture on a page, points."""
@@ -29,7 +32,7 @@ def svg(picture: Picture) -> str:
     return drawing.markup()
 
 
-def draw_picture(axes: Any, picture: Picture) -> None:
+def draw_picture(axes: "matplotlib.axes.Axes", picture: Picture) -> None:
     """Draws a picture on axes of matplotlib, to one scale."""
     for item in picture.items:
         match item:

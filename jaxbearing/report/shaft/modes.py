@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ...shafts.scene import ShaftSystem
 from .bending import cowper
 from .ross import rotor_nodes, section_between
 from .stiffness import ShaftStiffness
@@ -48,7 +49,7 @@ def natural_frequencies(table: ShaftStiffness, scene: Any, place: int = 0) -> np
     return np.sort(np.sqrt(np.maximum(squares.real, 0.0)))
 
 
-def _element(scene: Any, left: float, right: float) -> tuple[np.ndarray, np.ndarray]:
+def _element(scene: ShaftSystem, left: float, right: float) -> tuple[np.ndarray, np.ndarray]:
     """Stiffness and mass of a beam for displacement and slope of its ends, in one plane."""
     section, material = section_between(scene, left, right)
     length = right - left

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from ...numerics.status import Status
+from ...shafts.scene import ShaftSystem
 from ...shafts.solution import BearingOnShaft, ShaftSolution
 from ..bearing.facts import facts as bearing_facts
 from ..colours import LOSS
@@ -22,7 +23,7 @@ from .picture import pictures
 from .plots import operating_text
 
 
-def page_content(scene: Any, solution: ShaftSolution) -> Content:
+def page_content(scene: ShaftSystem, solution: ShaftSolution) -> Content:
     """See `report.html_report.html_report`."""
     bearings = solution.bearings
     losses = {name: watts for name, one in bearings.items() if (watts := loss_of(one)) is not None}

@@ -1,7 +1,5 @@
 """Charts of a shaft: its bending line, and the cut forces and bending moments along it."""
 
-from typing import Any
-
 import numpy as np
 
 from ...shafts.solution import ShaftSolution
@@ -59,6 +57,6 @@ def shear_panel(solution: ShaftSolution) -> Curves:
     return Curves("shear", "Cut forces", caption, series, "N", _ALONG)
 
 
-def panel_of(solution: Any, name: str) -> Curves:
+def panel_of(solution: ShaftSolution, name: str) -> Curves:
     """The chart of this name."""
     return next(one for one in shaft_panels(solution) if one.name == name)

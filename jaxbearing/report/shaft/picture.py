@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 
 from ...bearings.bearing import AbstractBearing
+from ...shafts.mounting import LinearBearing
+from ...shafts.scene import Place, ShaftSystem
 from ...shafts.solution import ShaftSolution
 from ..colours import CENTRE_LINE, CURVES, FAINT, INK, RING, ROLLER
 from ..display import digits, with_unit
@@ -83,14 +85,14 @@ class Picture:
     height: float
 
 
-def pictures(scene: Any, solution: ShaftSolution) -> list[Picture]:
+def pictures(scene: ShaftSystem, solution: ShaftSolution) -> list[Picture]:
     """The plane X-Y, and X-Z where something acts in it."""
     across = np.abs(np.array([np.asarray(one.on_shaft)[1:3] for one in solution.bearings.values()]))
     lateral = float(np.max(across[:, 1])) > 1e-6 * max(float(np.max(across)), 1e-300)
     return [_picture(scene, solution, plane) for plane in ((0, 1) if lateral else (0,))]
 
 
-def _picture(scene: Any, solution: ShaftSolution, plane: int) -> Picture:
+def _picture(scene: ShaftSystem, solution: ShaftSolution, plane: int) -> Picture:
     name, across, _ = PLANES[plane]
     radius = _outer_radius(scene)
     start, end = _ends(scene)
@@ -114,7 +116,7 @@ def _picture(scene: Any, solution: ShaftSolution, plane: int) -> Picture:
     return Picture(f"Plane X-{name}, {name} upwards", f"{said}{disks}{rings}", items, 2.0 * (radius + longest))
 
 
-def _ends(scene: Any) -> tuple[float, float]:
+def _ends(scene: ShaftSystem) -> tuple[float, float]:
     """Ends of the shaft; of a rigid one a little beyond what stands on it."""
     if scene.shaft.sections:
         return 0.0, 1e3 * float(scene.shaft.length)
@@ -131,14 +133,14 @@ def _outer_radius(scene: Any) -> float:
     return max(radii)
 
 
-def _outside(bearing: Any) -> float:
+def _outside(bearing: AbstractBearing | LinearBearing) -> float:
     if not isinstance(bearing, AbstractBearing):
         return 15.0
     pitch = 500.0 * float(bearing.geometry.pitch_diameter)
     return pitch + max(y for ring in bearing.outline().rings for _, y in ring)
 
 
-def _shaft(scene: Any, start: float, end: float) -> Iterator[Item]:
+def _shaft(scene: ShaftSystem, start: float, end: float) -> Iterator[Item]:
     if not scene.shaft.sections:
         inside = min(_inside(place.scene) for place in scene.places)
         yield Area([(start, -inside), (end, -inside), (end, inside), (start, inside)], SHAFT, FAINT)
@@ -153,7 +155,7 @@ def _shaft(scene: Any, start: float, end: float) -> Iterator[Item]:
         x = right
 
 
-def _inside(bearing: Any) -> float:
+def _inside(bearing: AbstractBearing | LinearBearing) -> float:
     """Radius of the bore as it is drawn."""
     if not isinstance(bearing, AbstractBearing):
         return 8.0
@@ -161,7 +163,7 @@ def _inside(bearing: Any) -> float:
     return pitch + min(y for ring in bearing.outline().rings for _, y in ring)
 
 
-def _bearing(place: Any, x: float) -> Iterator[Item]:
+def _bearing(place: Place, x: float) -> Iterator[Item]:
     """Both halves of a bearing in section, mirrored where its axis points along -X."""
     if not isinstance(place.scene, AbstractBearing):
         yield from (Area([(x - 4.0, y), (x + 4.0, y), (x, y * 0.6)], RING) for y in (-15.0, 15.0))
@@ -192,7 +194,7 @@ def _disks(scene: Any, length: float) -> Iterator[Item]:
         yield Area([(x - half, -radius), (x + half, -radius), (x + half, radius), (x - half, radius)], GEAR, FAINT)
 
 
-def _loads(scene: Any, solution: ShaftSolution, across: int) -> Iterator[tuple[float, str, str, float]]:
+def _loads(scene: ShaftSystem, solution: ShaftSolution, across: int) -> Iterator[tuple[float, str, str, float]]:
     """Position in mm, name, colour and force across the axis, N, of forces and bearings."""
     nodes = solution.shaft
     at, loads = np.asarray(nodes.position, dtype=float), np.asarray(nodes.load, dtype=float)
@@ -204,7 +206,7 @@ def _loads(scene: Any, solution: ShaftSolution, across: int) -> Iterator[tuple[f
         yield 1e3 * float(place.position), place.name, REACTION, float(value)
 
 
-def _named_positions(scene: Any) -> dict[float, str]:
+def _named_positions(scene: ShaftSystem) -> dict[float, str]:
     """Positions of forces -> names of those that act there."""
     found: dict[float, list[str]] = {}
     for one in scene.forces:
@@ -212,7 +214,9 @@ def _named_positions(scene: Any) -> dict[float, str]:
     return {position: ", ".join(names) for position, names in found.items()}
 
 
-def _arrows(loads: list[Any], largest: float, longest: float, radius: float, room: float) -> Iterator[Item]:
+def _arrows(
+    loads: list[tuple[float, str, str, float]], largest: float, longest: float, radius: float, room: float
+) -> Iterator[Item]:
     """Arrows that end at the outside of the picture's parts, with name and force.
 
     **Arguments:** `room`: distance of two texts beside each other; nearer ones stand below each other.
@@ -234,7 +238,7 @@ def _arrows(loads: list[Any], largest: float, longest: float, radius: float, roo
         yield Words((x, -sign * height), text, colour)
 
 
-def _axial_arrows(scene: Any, solution: ShaftSolution, longest: float, radius: float) -> Iterator[Item]:
+def _axial_arrows(scene: ShaftSystem, solution: ShaftSolution, longest: float, radius: float) -> Iterator[Item]:
     """Axial forces of the bearings and of what acts, in the axis and beside it."""
     loads = [(x, colour, value, name) for x, name, colour, value in _loads(scene, solution, 0)]
     largest = max((abs(value) for _, _, value, _ in loads), default=0.0)

@@ -1,8 +1,9 @@
 """A page of plots of a shaft: the shaft to scale with its forces, bending line, moments and shear forces."""
 
 import textwrap
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from ...shafts.scene import ShaftSystem
 from ...shafts.solution import ShaftSolution
 from ..backends.matplotlib.panels import draw
 from ..backends.matplotlib.sheet import foot, head
@@ -19,7 +20,7 @@ _LINE = 190
 """Letters of a line of the caption."""
 
 
-def plot(solution: ShaftSolution, title: str, scene: Any = None) -> "matplotlib.figure.Figure":
+def plot(solution: ShaftSolution, title: str, scene: ShaftSystem | None = None) -> "matplotlib.figure.Figure":
     """See `report.plots.plot_solution`. **Arguments:** `scene`: the shaft, with which it is drawn to scale."""
     from ..backends.matplotlib.page import Page
 

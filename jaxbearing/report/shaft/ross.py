@@ -18,8 +18,10 @@ import numpy as np
 import tomli_w
 
 from ... import __version__
+from ...materials import Material
 from ...shafts.forces import Mass
 from ...shafts.scene import ShaftSystem
+from ...shafts.shaft import Section
 from ..files import write_whole
 from ..ross import WEIGHT_DIRECTION, element_of, one_line
 from .stiffness import ShaftStiffness
@@ -60,7 +62,7 @@ def ross_rotor(
     return found
 
 
-def rotor_nodes(scene: Any) -> np.ndarray:
+def rotor_nodes(scene: ShaftSystem) -> np.ndarray:
     """Places of the nodes: ends of sections, bearings and masses, m. **Raises:** as `require_rotor`."""
     require_rotor(scene)
     ends = _ends(scene)
@@ -68,7 +70,7 @@ def rotor_nodes(scene: Any) -> np.ndarray:
     return _apart(np.clip([*ends, *(float(place.position) for place in scene.places), *masses], 0.0, ends[-1]))
 
 
-def section_between(scene: Any, left: float, right: float) -> tuple[Any, Any]:
+def section_between(scene: ShaftSystem, left: float, right: float) -> tuple[Section, Material]:
     """The section, and its material, to which the part of the shaft between two nodes belongs."""
     ends = _ends(scene)
     place = min(int(np.searchsorted(ends, 0.5 * (left + right))) - 1, len(scene.shaft.sections) - 1)
@@ -76,7 +78,7 @@ def section_between(scene: Any, left: float, right: float) -> tuple[Any, Any]:
     return section, scene.shaft.material if section.material is None else section.material
 
 
-def _ends(scene: Any) -> np.ndarray:
+def _ends(scene: ShaftSystem) -> np.ndarray:
     return np.concatenate([[0.0], np.cumsum([float(one.length) for one in scene.shaft.sections])])
 
 

@@ -1,7 +1,7 @@
 """Stiffness of the bearings and sets of a shaft over its speed."""
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
@@ -11,7 +11,7 @@ from ..._scene import AbstractScene
 from ...bearings.ring import shift_matrix
 from ...bearings.solution import RING_FREEDOMS, stiffness_units
 from ...numerics.status import SolveError
-from ...shafts.mounting import Support
+from ...shafts.mounting import MatchedSet, Support
 from ...shafts.scene import ShaftSystem
 from ...shafts.solution import ShaftSolution
 from ...solve import jit_solver
@@ -19,6 +19,9 @@ from ..backends.json import plain
 from ..backends.screen import column, counted, headline, pieces, print_line, print_rule, print_table, print_warnings
 from ..display import digits, display_unit, with_unit
 from .facts import shaft_warnings
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 MODES = 4
 """Natural frequencies that a table has."""
@@ -47,7 +50,7 @@ class ShaftStiffness(NamedTuple):
     natural_frequencies: np.ndarray | None = None
 
 
-def shaft_at_speeds(scene: AbstractScene, speeds: Any) -> list[ShaftSystem]:
+def shaft_at_speeds(scene: AbstractScene, speeds: "npt.ArrayLike") -> list[ShaftSystem]:
     """The shaft at each speed, rad/s.
 
     **Raises:** `TypeError` for something else than a shaft; `ValueError` for speeds that are not finite and increasing.
@@ -61,7 +64,7 @@ def shaft_at_speeds(scene: AbstractScene, speeds: Any) -> list[ShaftSystem]:
 
 
 def shaft_stiffness_over_speed(
-    scene: AbstractScene, speeds: Any, *, solver: Callable[[Any], ShaftSolution] | None = None
+    scene: AbstractScene, speeds: "npt.ArrayLike", *, solver: Callable[[ShaftSystem], ShaftSolution] | None = None
 ) -> ShaftStiffness:
     """Solves at each speed; forces are the scene's at all of them.
 
@@ -156,7 +159,7 @@ def set_tangent(system: ShaftSystem, solution: ShaftSolution, name: str) -> np.n
     return total - across @ np.linalg.solve(spring, along) if pressed else total
 
 
-def _pressed(one: Any) -> tuple[str, ...]:
+def _pressed(one: MatchedSet) -> tuple[str, ...]:
     """Names of the bearings whose outer rings springs press: those of the last group of the picture."""
     if one.preload is None or one.preload.spring_force is None:
         return ()

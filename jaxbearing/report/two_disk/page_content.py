@@ -1,9 +1,8 @@
 """Content of the report page of a two-disk machine: its traction curves."""
 
-from typing import Any
-
 import numpy as np
 
+from ..._scene import AbstractScene
 from ...machines import TwoDiskSolution
 from ..display import digits
 from ..page_content import Content
@@ -12,7 +11,7 @@ from .curves import Curve, curves_of
 from .panels import curve_name, operating_point, two_disk_panels
 
 
-def page_content(scene: Any, solution: TwoDiskSolution) -> Content:
+def page_content(scene: AbstractScene, solution: TwoDiskSolution) -> Content:
     """See `report.html_report.html_report`."""
     slide = np.asarray(solution.operation.slide_to_roll)
     return Content(

@@ -14,6 +14,7 @@ from .curves import curves_of
 from .panels import traction_panel
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 PANELS = 12
@@ -71,7 +72,7 @@ def _layout(places: list[tuple[int, ...]]) -> tuple[int, int]:
     return math.ceil(len(places) / columns), columns
 
 
-def draw_curves(axes: Any, panel: Curves) -> None:
+def draw_curves(axes: "matplotlib.axes.Axes", panel: Curves) -> None:
     """Draws a panel over the lines of no traction and no slide; points are marked where there are few."""
     slide = np.asarray(panel.series[0].x)
     axes.axhline(0.0, color=INK, linewidth=0.6)

@@ -85,7 +85,7 @@ def with_catalogue(oil: Mapping[str, Any]) -> dict[str, Any]:
     return merged
 
 
-def _changes(own: Any, theirs: Mapping[str, Any]) -> bool:
+def _changes(own: object, theirs: Mapping[str, Any]) -> bool:
     return not isinstance(own, Mapping) or any(theirs.get(key) != value for key, value in own.items())
 
 

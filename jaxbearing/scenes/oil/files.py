@@ -89,7 +89,7 @@ def origins(oil: Mapping[str, Any], scene: str) -> dict[str, Origin]:
     return found
 
 
-def _law(value: Any) -> Mapping[str, Any]:
+def _law(value: object) -> Mapping[str, Any]:
     """The table of a law; a plain value is that of the parameter `value`."""
     if value is None:
         return {}

@@ -30,7 +30,7 @@ def bases() -> tuple[str, ...]:
     return tuple(_data())
 
 
-def base_named(given: Any) -> str | None:
+def base_named(given: object) -> str | None:
     """The base stock of this name in any case, e.g. "pao" or "PAG"; `None` for something else."""
     by_lower = {base.lower(): base for base in bases()} | _ALSO
     return by_lower.get(given.strip().lower()) if isinstance(given, str) else None
@@ -43,7 +43,7 @@ def grades(base: str | None = None) -> tuple[str, ...]:
     return tuple(_name(number) for number in sorted(numbers))
 
 
-def grade_named(given: Any) -> str | None:
+def grade_named(given: object) -> str | None:
     """The grade, "ISO VG 68", that a person may call "iso vg 68", "VG68" or 68; `None` for what is no grade at all."""
     if isinstance(given, int) and not isinstance(given, bool):
         return _name(given)
@@ -51,7 +51,7 @@ def grade_named(given: Any) -> str | None:
     return None if found is None else _name(int(found[1]))
 
 
-def nearest_grade(given: Any, known: tuple[str, ...]) -> str:
+def nearest_grade(given: object, known: tuple[str, ...]) -> str:
     """The known grade whose number is nearest by ratio; "" where something without a number is given."""
     grade = grade_named(given)
     if grade is None:

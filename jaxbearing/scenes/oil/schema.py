@@ -6,7 +6,7 @@ The names of the laws are registered here, once: tables, lists in messages, the 
 from collections.abc import Callable, Mapping
 from functools import reduce
 from operator import or_
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, Never
 
 from pydantic import BeforeValidator, ConfigDict, Discriminator, Tag, create_model
 
@@ -135,7 +135,7 @@ LinearConductivityTable = law_table("linear", LinearConductivity, "<table>")
 LinearHeatCapacityTable = law_table("linear", LinearHeatCapacity, "<table>")
 
 
-def _no_text(value: Any) -> Any:
+def _no_text(value: object) -> Never:
     raise units.refusal("a table with a 'law'", units.describe(value))
 
 
@@ -147,7 +147,7 @@ def _law_field(title: str, laws: Mapping[str, type[Law]], text: Any) -> Any:
     """
     unknown: Any = create_model(f"Unknown{title}Table", __base__=_Unknown, **_law_named(*laws))
 
-    def tag(value: Any) -> str:
+    def tag(value: object) -> str:
         if not isinstance(value, dict):
             return "<value>"
         law = value.get("law")
@@ -162,7 +162,7 @@ class _Unknown(Law):
     tag: ClassVar[str] = "<unknown>"
 
 
-def _text_or_table(value: Any) -> str:
+def _text_or_table(value: object) -> str:
     return "<table>" if isinstance(value, dict) else "<value>"
 
 
@@ -184,12 +184,12 @@ def _cst(viscosity: float) -> str:
     return f"{1e6 * viscosity:g} cSt"
 
 
-def builds(table: Any, *laws: type) -> bool:
+def builds(table: object, *laws: type) -> bool:
     """True if what stands in a field is the table of one of these laws."""
     return isinstance(table, Law) and table.builds in laws
 
 
-def _oil_name(value: Any) -> str:
+def _oil_name(value: object) -> str:
     name = oil_named(value)
     if name is None:
         near = nearest(value, oil_names()) if isinstance(value, str) else ""
@@ -197,7 +197,7 @@ def _oil_name(value: Any) -> str:
     return name
 
 
-def _grade(value: Any) -> str:
+def _grade(value: object) -> str:
     known, grade = grades.grades(), grades.grade_named(value)
     if grade not in known:
         near = grades.nearest_grade(value, known)
@@ -205,7 +205,7 @@ def _grade(value: Any) -> str:
     return grade
 
 
-def _base(value: Any) -> str:
+def _base(value: object) -> str:
     base = grades.base_named(value)
     if base is None:
         near = nearest(value, grades.bases()) if isinstance(value, str) else ""

@@ -4,6 +4,8 @@ import typing
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+import equinox as eqx
+
 from ...lubricants import (
     ConstantPressureViscosity,
     LinearConductivity,
@@ -89,7 +91,7 @@ def _laws(oil: Lubricant) -> dict[str, Rows]:
     return {name: {"law": _name_of(table)} | rows(table, law) for name, (table, law) in laws.items()}
 
 
-def _table(law: Any, name: str) -> type[Law]:
+def _table(law: object, name: str) -> type[Law]:
     if type(law) not in _TABLES:
         expected = f"a law that files know: a file cannot hold the law {type(law).__name__}"
         raise unwritable(f"oil.{name}", type(law).__name__, expected)
@@ -152,7 +154,7 @@ def _amended(oil: Lubricant, named: Rows) -> Rows | None:
     return found if _is_oil(found, oil) else None
 
 
-def _short(law: Any, table: Rows) -> Any:
+def _short(law: eqx.Module, table: Rows) -> Any:
     """The value of a law that is one number; any other as its table."""
     constant = isinstance(law, ConstantPressureViscosity)
     if isinstance(law, LinearDensity | LinearConductivity | LinearHeatCapacity):

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from ...bearings.bearing import AbstractBearing
 from ...bearings.rating import Rating
 from ...numerics.refusals import Refusals, refuse_all
-from ...shafts.forces import FORCES
+from ...shafts.forces import FORCES, AbstractForce
 from ...shafts.heat import ShaftThermal
 from ...shafts.mounting import LinearBearing, MatchedSet, MountedBearing, Preload, Support
 from ...shafts.scene import ShaftState, ShaftSystem, SystemLife
@@ -26,7 +27,7 @@ from .members import MEMBERS
 from .schema import ShaftTable
 from .tables import SupportTable
 
-_BUILD: dict[str, Callable[[Any], Any]] = {
+_BUILD: dict[str, Callable[[Any], AbstractBearing]] = {
     "ball_bearing": ball_bearing,
     "cylindrical_roller_bearing": cylindrical_roller_bearing,
     "tapered_roller_bearing": tapered_roller_bearing,
@@ -102,19 +103,19 @@ def _shaft(table: ShaftTable) -> Shaft:
 
 def _mounted(name: str, table: Any, rated: bool) -> MountedBearing:
     if table.kind == LINEAR:
-        scene: Any = LinearBearing(np.asarray(table.stiffness))
+        scene: AbstractBearing | LinearBearing = LinearBearing(np.asarray(table.stiffness))
     else:
         scene = _bearing(table, rated)
     own = {field: getattr(table, field) for field in ("position", "thrust", "closure", "expansion")}
     return MountedBearing(name=name, scene=scene, support=_support(table.support), **own)
 
 
-def _bearing(table: Any, rated: bool) -> Any:
+def _bearing(table: Any, rated: bool) -> AbstractBearing:
     scene = _BUILD[table.kind](table)
     return dataclasses.replace(scene, rating=Rating()) if rated and scene.rating is None else scene
 
 
-def _bearings_of_set(table: Any, rated: bool) -> Any:
+def _bearings_of_set(table: Any, rated: bool) -> AbstractBearing | tuple[AbstractBearing, ...]:
     """The bearing of a set, or one for each sign of its picture. **Raises:** `ValueError` of all of them."""
     if MEMBERS not in type(table).model_fields:
         return _bearing(table, rated)
@@ -154,5 +155,5 @@ def _support(table: SupportTable | None) -> Support | None:
     return Support(**table.model_dump(exclude={"matrix"}), matrix=matrix)
 
 
-def _force(name: str, table: Any) -> Any:
+def _force(name: str, table: Any) -> AbstractForce:
     return FORCES[table.kind](name=name, **table.model_dump(exclude={"kind"}))

@@ -50,7 +50,7 @@ def numbered(entry: Any, path: str, label: str) -> Any:
     return entry
 
 
-def differ(entry: Any) -> bool:
+def differ(entry: object) -> bool:
     """True for the entry of a set that has bearings of its own for each sign."""
     return isinstance(entry, Mapping) and isinstance(entry.get(MEMBERS), Mapping)
 

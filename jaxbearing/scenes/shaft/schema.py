@@ -59,7 +59,7 @@ def _kind_of_force(entry: Mapping[str, Any], path: str, file: str) -> str:
     raise SceneError(file, f"{path}.kind", "nothing" if kind is None else units.describe(kind), one_of(FORCES), near)
 
 
-def with_kind(entry: Any, kind: str | None) -> dict[str, Any]:
+def with_kind(entry: object, kind: str | None) -> dict[str, Any]:
     """An entry with the kind of an override."""
     own = dict(entry) if isinstance(entry, Mapping) else {}
     return own if kind is None else {**own, "kind": kind}

@@ -1,7 +1,7 @@
 """The tables of a scene file from a shaft: the way back from `shaft.build`."""
 
 import dataclasses
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
 import numpy as np
@@ -28,6 +28,9 @@ from .tables import (
     SupportTable,
 )
 
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
 
 def shaft_tables(scene: ShaftSystem) -> Rows:
     """The tables that describe a scene. **Raises:** `SceneError` for what a file cannot hold."""
@@ -49,7 +52,7 @@ def plain_scene(scene: ShaftSystem) -> ShaftSystem:
     return dataclasses.replace(scene, bearings=bearings, sets=sets)
 
 
-def _standing_set(one: MatchedSet) -> Any:
+def _standing_set(one: MatchedSet) -> AbstractBearing | tuple[AbstractBearing, ...]:
     found = tuple(_standing(bearing) for bearing in one.scenes)
     return found[0] if all(same(other, found[0]) for other in found) else found
 
@@ -57,7 +60,7 @@ def _standing_set(one: MatchedSet) -> Any:
 def _standing(scene: Any) -> Any:
     if not isinstance(scene, AbstractBearing):
         return scene
-    operation: Any = scene.operation
+    operation = scene.operation
     kept = {name: getattr(operation, name) for name in OF_SHAFT}
     table = OPERATIONS[scene.kind].model_construct(**{name: np.float64(value) for name, value in kept.items()})
     return dataclasses.replace(scene, operation=type(operation)(**table.model_dump(exclude_none=True)), simulation=None)
@@ -92,7 +95,7 @@ def _set(one: MatchedSet) -> Rows:
     return given(found) | {MEMBERS: each}
 
 
-def _bearing(scene: Any, path: str) -> Rows:
+def _bearing(scene: AbstractBearing, path: str) -> Rows:
     """The tables of a bearing without loads and speeds."""
     from ..reader import tables_of
 
@@ -116,7 +119,7 @@ def _support(part: Support | None) -> Rows | None:
     return found if part.matrix is None else found | {"matrix": _matrix(part.matrix)}
 
 
-def _matrix(values: Any) -> list[list[Any]]:
+def _matrix(values: "npt.ArrayLike") -> list[list[float | str]]:
     """Rows of texts with units, five for each bearing; a 0 has none."""
     return [
         [0 if one == 0.0 else number(one, MATRIX_UNITS[i % 5][j % 5]) for j, one in enumerate(row)]
@@ -124,7 +127,7 @@ def _matrix(values: Any) -> list[list[Any]]:
     ]
 
 
-def _lengths(value: Any) -> Any:
+def _lengths(value: "npt.ArrayLike") -> float | str | list[float | str]:
     texts = [number(one, "m") for one in np.atleast_1d(np.asarray(value, dtype=np.float64))]
     return texts[0] if np.ndim(value) == 0 else texts
 
@@ -145,7 +148,7 @@ def _state(one: ShaftState, scene: ShaftSystem) -> Rows:
     return ({"name": one.name} if one.name else {}) | {"share": written(one, "share")} | changes
 
 
-def _change(path: str, value: Any, scene: ShaftSystem) -> Any:
+def _change(path: str, value: Any, scene: ShaftSystem) -> float | str:
     above, _, last = path.rpartition(".")
     part = part_at(scene, above)
     fields = {field.name: field for field in dataclasses.fields(part)} if isinstance(part, eqx.Module) else {}

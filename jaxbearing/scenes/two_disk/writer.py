@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import equinox as eqx
 import numpy as np
 
 from ...contacts import GivenCompliance
@@ -45,7 +46,7 @@ def _laws(scene: TwoDisk) -> Rows:
     )
 
 
-def _compliance(law: Any) -> Any:
+def _compliance(law: eqx.Module | None) -> float | str | None:
     if law is not None and not isinstance(law, GivenCompliance):
         expected = "None or a GivenCompliance (files have that of half-spaces as contact.half_space_compliance)"
         raise unwritable("contact.traction.compliance", shown(law), expected)

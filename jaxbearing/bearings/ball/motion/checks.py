@@ -1,6 +1,6 @@
 """Range checks of a run in time of balls: those of `bearings.checks`, over all instants together."""
 
-from typing import Any
+from collections.abc import Callable
 
 import jax
 import jax.numpy as jnp
@@ -37,7 +37,7 @@ def run_excess(scene: BallBearing, instants: BallInstant) -> Excess:
         jnp.asarray(elements.contact_angle_outer),
     )
     inlet = oil.at(jnp.asarray(scene.operation.oil_temperature))
-    together: Any = lambda *races: jnp.stack([jnp.reshape(jnp.asarray(race), -1) for race in races])
+    together: Callable[..., Array] = lambda *races: jnp.stack([jnp.reshape(jnp.asarray(race), -1) for race in races])
     rise = (elements.temperature_rise_inner, elements.temperature_rise_outer)
     load = together(elements.load_inner, elements.load_outer)
     contacts = Contacts(

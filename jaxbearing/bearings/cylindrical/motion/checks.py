@@ -1,7 +1,7 @@
 """Range checks of a run in time of cylindrical rollers: those of `bearings.checks`, over all instants together."""
 
 import dataclasses
-from typing import Any
+from collections.abc import Callable
 
 import jax
 import jax.numpy as jnp
@@ -34,7 +34,7 @@ def run_excess(scene: CylindricalRollerBearing, instants: RollerInstant) -> Exce
     moving = (instants.inner_speed, elements.orbital_speed, elements.spin_speed)
     mean_speed, sliding = jax.vmap(at_once, out_axes=1)(*(jnp.asarray(speed) for speed in moving))
     inlet = oil.at(jnp.asarray(scene.operation.oil_temperature))
-    together: Any = lambda *races: jnp.stack([jnp.reshape(jnp.asarray(race), -1) for race in races])
+    together: Callable[..., Array] = lambda *races: jnp.stack([jnp.reshape(jnp.asarray(race), -1) for race in races])
     rise = (elements.temperature_rise_inner, elements.temperature_rise_outer)
     load = together(elements.load_inner, elements.load_outer)
     contacts = Contacts(

@@ -15,6 +15,9 @@ from ...files import check_place, temporary_folder, write_whole
 
 if TYPE_CHECKING:
     import matplotlib.animation
+    import matplotlib.artist
+    import matplotlib.figure
+    import matplotlib.text
 
 SUFFIXES = (".gif", ".html", ".mp4")
 PICTURES = 120
@@ -31,7 +34,7 @@ def instants(first: float, last: float, at_most: int = PICTURES) -> np.ndarray:
     return np.linspace(first, last, min(PICTURES, at_most))
 
 
-def moving_head(figure: Any, title: str, words: str) -> Any:
+def moving_head(figure: "matplotlib.figure.Figure", title: str, words: str) -> "matplotlib.text.Text":
     """Title, a line in small print, and the text below them that changes with the clock."""
     shown = title if len(title) <= 80 else title[:77] + "..."
     lines = textwrap.wrap(words, int(_LETTERS * 0.94 * figure.get_figwidth()))
@@ -40,7 +43,9 @@ def moving_head(figure: Any, title: str, words: str) -> Any:
     return figure.text(0.03, 0.92 - 0.025 * len(lines), "", fontsize=10, color=INK, va="center")
 
 
-def moving(figure: Any, update: Callable[[int], Any], pictures: int) -> "matplotlib.animation.FuncAnimation":
+def moving(
+    figure: "matplotlib.figure.Figure", update: "Callable[[int], list[matplotlib.artist.Artist]]", pictures: int
+) -> "matplotlib.animation.FuncAnimation":
     """**Arguments:** `update`: makes the figure the picture of a number."""
     import matplotlib.animation
 
@@ -48,7 +53,9 @@ def moving(figure: Any, update: Callable[[int], Any], pictures: int) -> "matplot
 
 
 def save_animation(
-    animation: Any, path: str | os.PathLike[str], progress: Callable[[float, float], None] | None = None
+    animation: "matplotlib.animation.Animation",
+    path: str | os.PathLike[str],
+    progress: Callable[[float, float], None] | None = None,
 ) -> None:
     """Write a gif, an html page or (with the program ffmpeg) an mp4; the file appears whole or not at all.
 

@@ -1,17 +1,20 @@
 """Diagrams on paper: what `diagrams` describes, drawn on axes of matplotlib."""
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from ...colours import FAINT, INK
 from ...diagrams import TEXT, Diagram
 from .sheet import title_of
+
+if TYPE_CHECKING:
+    import matplotlib.axes
 
 _HALO = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.6}
 _POINTS = 72.0
 """Points of an inch."""
 
 
-def draw_diagram(axes: Any, diagram: Diagram) -> None:
+def draw_diagram(axes: "matplotlib.axes.Axes", diagram: Diagram) -> None:
     """Draws a diagram on axes, at most at its own size; shapes and texts to one scale."""
     from matplotlib.patches import Polygon, Rectangle
 

@@ -2,9 +2,14 @@
 room above the curves where there is no such place."""
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+if TYPE_CHECKING:
+    import matplotlib.artist
+    import matplotlib.axes
+    import matplotlib.legend
 
 _PLACES = (
     "upper right",
@@ -25,7 +30,12 @@ _POINTS = 72.0
 """Points of an inch."""
 
 
-def clear_legend(axes: Any, handles: Sequence[Any] | None = None, names: Sequence[str] = (), **style: Any) -> Any:
+def clear_legend(
+    axes: "matplotlib.axes.Axes",
+    handles: "Sequence[matplotlib.artist.Artist] | None" = None,
+    names: Sequence[str] = (),
+    **style: Any,
+) -> "matplotlib.legend.Legend":
     """Draws the legend of axes that are finished but for it, and returns it.
 
     **Arguments:**
@@ -45,19 +55,19 @@ def clear_legend(axes: Any, handles: Sequence[Any] | None = None, names: Sequenc
     return _above(axes, found, called, wanted)
 
 
-def covered(axes: Any) -> int:
+def covered(axes: "matplotlib.axes.Axes") -> int:
     """Number of tested points of curves, markers and texts that the legend of axes lies on."""
     legend = axes.get_legend()
     return 0 if legend is None else _hit(legend, np.concatenate([np.zeros((0, 2)), *_drawn(axes)]), 0.0)
 
 
-def _hit(legend: Any, drawn: np.ndarray, away: float = _AWAY) -> int:
+def _hit(legend: "matplotlib.legend.Legend", drawn: np.ndarray, away: float = _AWAY) -> int:
     box = legend.get_window_extent().padded(away * legend.figure.dpi / _POINTS)
     inside = (drawn[:, 0] > box.x0) & (drawn[:, 0] < box.x1) & (drawn[:, 1] > box.y0) & (drawn[:, 1] < box.y1)
     return int(np.count_nonzero(inside))
 
 
-def _drawn(axes: Any) -> Iterator[np.ndarray]:
+def _drawn(axes: "matplotlib.axes.Axes") -> Iterator[np.ndarray]:
     """Points of the page on everything that is drawn in the axes."""
     for line in axes.lines:
         points = line.get_transform().transform(np.asarray(line.get_xydata(), dtype=float))
@@ -80,7 +90,12 @@ def _along(corners: np.ndarray) -> np.ndarray:
     return np.concatenate([corners[np.all(np.isfinite(corners), axis=1)], *between])
 
 
-def _above(axes: Any, handles: Sequence[Any], names: Sequence[str], style: dict[str, Any]) -> Any:
+def _above(
+    axes: "matplotlib.axes.Axes",
+    handles: "Sequence[matplotlib.artist.Artist]",
+    names: Sequence[str],
+    style: dict[str, Any],
+) -> "matplotlib.legend.Legend":
     """The legend in few lines at the top, and the vertical axis as much longer as that needs."""
     room = axes.get_window_extent()
     columns = len(names)

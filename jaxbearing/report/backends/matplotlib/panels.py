@@ -1,13 +1,16 @@
 """Panels on paper: what `panels` describes, drawn on axes of matplotlib."""
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...colours import FAINT, INK
 from ...panels import Axis, Bars, Curves, Numbers, Panel, Polar, headed, round_up
 from .sheet import grid_lines, title_of
+
+if TYPE_CHECKING:
+    import matplotlib.axes
 
 _LINES = {"solid": "-", "dash": "--", "dot": ":", "dashdot": "-."}
 _POINTS = {
@@ -28,7 +31,7 @@ _SCALE_AZIMUTH = math.radians(157.5)
 """Angle of the numbers of the polar plot: away from the load line."""
 
 
-def draw(axes: Any, panel: Panel, marked: bool = True) -> None:
+def draw(axes: "matplotlib.axes.Axes", panel: Panel, marked: bool = True) -> None:
     """Draws a panel on axes, polar ones for `Polar`; its legend is the caller's.
 
     **Arguments:** `marked`: False for curves without their markers.
@@ -44,7 +47,7 @@ def draw(axes: Any, panel: Panel, marked: bool = True) -> None:
             _numbers(axes, panel)
 
 
-def _bars(axes: Any, panel: Bars) -> None:
+def _bars(axes: "matplotlib.axes.Axes", panel: Bars) -> None:
     """The values stand at the bars, which need no axis and no grid beside them."""
     column = list(panel.values)
     bars = axes.barh(list(panel.names), column, color=panel.colour, height=0.68)
@@ -102,7 +105,7 @@ def _polar(axes: Any, panel: Polar) -> None:
     title_of(axes, headed(panel), pad=16)
 
 
-def _load_arrow(axes: Any, angle: float) -> None:
+def _load_arrow(axes: "matplotlib.axes.Axes", angle: float) -> None:
     """Draws the direction of the load beside the picture; azimuth 0 is below, and azimuths count counter-clockwise."""
     arrow = {"arrowstyle": "-|>,head_width=0.35,head_length=0.7", "linewidth": 2.2, "color": INK}
     place, half = np.array([1.05, 0.07]), 0.07 * np.array([math.sin(angle), -math.cos(angle)])
@@ -110,7 +113,7 @@ def _load_arrow(axes: Any, angle: float) -> None:
     axes.text(1.05, 0.165, "load", transform=axes.transAxes, fontsize=9, color=INK, ha="center")
 
 
-def _curves(axes: Any, panel: Curves, marked: bool) -> None:
+def _curves(axes: "matplotlib.axes.Axes", panel: Curves, marked: bool) -> None:
     for one in panel.series:
         marker = _POINTS[one.marker] if marked else None
         width = 1.0 if one.faint else 1.2 if marker else 1.5
@@ -131,7 +134,7 @@ def _curves(axes: Any, panel: Curves, marked: bool) -> None:
     grid_lines(axes)
 
 
-def _scale(axes: Any, which: str, axis: Axis) -> None:
+def _scale(axes: "matplotlib.axes.Axes", which: str, axis: Axis) -> None:
     """Ends, ticks and title of one axis."""
     if axis.logarithmic:
         axes.set(**{f"{which}scale": "log"})

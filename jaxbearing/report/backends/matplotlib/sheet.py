@@ -2,10 +2,14 @@
 
 import textwrap
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING
 
 from .... import __version__
 from ...colours import FAINT, GRID, INK
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+    import matplotlib.figure
 
 _HEAD = (0.37, 0.66)
 """Inches from the top of a page to the middle of its title and of the line below it."""
@@ -17,7 +21,7 @@ _LONG_OPERATION = 95
 """Letters of an operating point from which on they are smaller: a legend may stand at their right."""
 
 
-def head(figure: Any, title: str, operation: str) -> None:
+def head(figure: "matplotlib.figure.Figure", title: str, operation: str) -> None:
     """Title, operating point and version at the top of a page or a part of one, whatever its height."""
     first, second = (1.0 - inches * figure.dpi / figure.bbox.height for inches in _HEAD)
     size = 15 if len(title) <= _LONG_TITLE else 10
@@ -29,7 +33,7 @@ def head(figure: Any, title: str, operation: str) -> None:
     figure.text(0.985, first, f"jaxbearing {__version__}", fontsize=8, color=FAINT, va="center", ha="right")
 
 
-def foot(figure: Any, warnings: Iterable[str]) -> int:
+def foot(figure: "matplotlib.figure.Figure", warnings: Iterable[str]) -> int:
     """Warnings and notes in small print; returns the number of lines."""
     lines = [line for text in warnings for line in textwrap.wrap(f"- {text}", _LINE_LENGTH)]
     if len(lines) > _WARNING_LINES:
@@ -46,11 +50,11 @@ def foot(figure: Any, warnings: Iterable[str]) -> int:
     return len(lines)
 
 
-def title_of(axes: Any, text: str, pad: float = 6.0, size: float = 10.5) -> None:
+def title_of(axes: "matplotlib.axes.Axes", text: str, pad: float = 6.0, size: float = 10.5) -> None:
     axes.set_title(text, fontsize=size, fontweight="bold", color=INK, pad=pad)
 
 
-def grid_lines(axes: Any) -> None:
+def grid_lines(axes: "matplotlib.axes.Axes") -> None:
     """A light grid behind the curves, and no frame at the top and the right."""
     axes.tick_params(labelsize=8.5)
     axes.grid(color=GRID, linewidth=0.7)

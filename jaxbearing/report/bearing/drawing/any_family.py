@@ -19,6 +19,7 @@ from .sizes import FrontSizes
 from .view import view
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 _CAPTION = (
@@ -32,7 +33,7 @@ Label = tuple[str, tuple[float, float]]
 class _Patches:
     """Draws on axes of matplotlib what `section` draws."""
 
-    def __init__(self, axes: Any):
+    def __init__(self, axes: "matplotlib.axes.Axes"):
         self.axes = axes
         self.points: list[tuple[float, float]] = []
 
@@ -74,7 +75,7 @@ def draw_in_section(scene: AbstractBearing) -> "matplotlib.figure.Figure":
     return figure
 
 
-def _beside(axes: Any, points: np.ndarray, labels: list[Label]) -> None:
+def _beside(axes: "matplotlib.axes.Axes", points: np.ndarray, labels: list[Label]) -> None:
     """Labels on both sides of the section, each as high as what it points at, less crowded."""
     (left, low), (right, high) = points.min(axis=0), points.max(axis=0)
     width, height, middle = right - left, high - low, 0.5 * (left + right)
@@ -88,7 +89,7 @@ def _beside(axes: Any, points: np.ndarray, labels: list[Label]) -> None:
     axes.set_ylim(low - 0.08 * height, high + 0.08 * height)
 
 
-def _dimensions(scene: Any) -> Iterator[tuple[str, str]]:
+def _dimensions(scene: AbstractBearing) -> Iterator[tuple[str, str]]:
     """Path of each number of geometry and cage, and of the loads that the view does not show, and the text for it."""
     for table in ("geometry", "cage"):
         part = getattr(scene, table, None)

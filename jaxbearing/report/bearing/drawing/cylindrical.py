@@ -14,6 +14,7 @@ from .sizes import DRAWN_CLEARANCE, FrontSizes, millimetres
 from .view import view
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 _CAPTION = (
@@ -52,7 +53,7 @@ def draw_cylindrical(scene: CylindricalRollerBearing) -> "matplotlib.figure.Figu
     return figure
 
 
-def _draw_pocket(axes: Any, scene: CylindricalRollerBearing, size: _Size) -> None:
+def _draw_pocket(axes: "matplotlib.axes.Axes", scene: CylindricalRollerBearing, size: _Size) -> None:
     """The roller that is farthest from the load, above, drawn as number 0 of a bearing turned round."""
     geometry, diameter = scene.geometry, size.diameter
     ring_outline(axes, size.outer, size.outer + diameter, RING)
@@ -81,7 +82,7 @@ def _draw_pocket(axes: Any, scene: CylindricalRollerBearing, size: _Size) -> Non
         leader(axes, place, "cage", bar, color=INK)
 
 
-def _draw_section(axes: Any, scene: CylindricalRollerBearing, size: _Size) -> None:
+def _draw_section(axes: "matplotlib.axes.Axes", scene: CylindricalRollerBearing, size: _Size) -> None:
     diameter, half = size.diameter, size.length / 2.0
     inner_top, outer_top = _shoulders(scene, size)
     for sign, race, top in ((1.0, size.outer, outer_top), (-1.0, size.inner, inner_top)):
@@ -114,7 +115,7 @@ def _shoulders(scene: CylindricalRollerBearing, size: _Size) -> tuple[float, flo
     return inner, outer
 
 
-def _draw_roller_outline(axes: Any, size: _Size) -> None:
+def _draw_roller_outline(axes: "matplotlib.axes.Axes", size: _Size) -> None:
     """Draws a roller with the corners that carry no load; their depth is exaggerated so that it can be seen."""
     half, flat, radius = size.length / 2.0, size.loaded / 2.0, size.diameter / 2.0
     corner = min(half - flat, 0.12 * size.diameter)
@@ -123,7 +124,9 @@ def _draw_roller_outline(axes: Any, size: _Size) -> None:
     axes.fill(x, size.pitch + y, facecolor=ROLLER, edgecolor=INK, linewidth=0.9, zorder=3)
 
 
-def _label_section(axes: Any, scene: CylindricalRollerBearing, size: _Size, inner_top: float, outer_top: float) -> None:
+def _label_section(
+    axes: "matplotlib.axes.Axes", scene: CylindricalRollerBearing, size: _Size, inner_top: float, outer_top: float
+) -> None:
     geometry, cage, flange = scene.geometry, scene.cage, scene.flange
     half, diameter = size.length / 2.0, size.diameter
     low = size.inner - size.ring - 0.25 * diameter
@@ -196,7 +199,9 @@ def _thrust_text(scene: CylindricalRollerBearing, stiffness: Any) -> str:
     return "\n".join(said)
 
 
-def _stack(axes: Any, size: _Size, labels: list[tuple[str, tuple[float, float]]], side: float) -> None:
+def _stack(
+    axes: "matplotlib.axes.Axes", size: _Size, labels: list[tuple[str, tuple[float, float]]], side: float
+) -> None:
     """Labels beside the section, one above the other in the order of what they point at."""
     labels = sorted(labels, key=lambda label: label[1][1])
     low, high = size.inner - 0.45 * size.ring, size.outer + 0.45 * size.ring

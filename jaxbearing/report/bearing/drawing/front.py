@@ -1,10 +1,12 @@
 """A bearing seen along its axis, with its dimensions."""
 
 import math
-from typing import Any
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ....bearings.bearing import AbstractBearing
 from ....bearings.operation import LOAD_FIELDS
 from ...colours import CAGE, CENTRE_LINE, INK, RING, ROLLER
 from ..azimuth import place_at
@@ -12,8 +14,11 @@ from ..operation import field_text
 from .marks import LOAD, arc, dimension, length_text, note
 from .sizes import FrontSizes
 
+if TYPE_CHECKING:
+    import matplotlib.axes
 
-def draw_front(axes: Any, scene: Any, size: FrontSizes) -> None:
+
+def draw_front(axes: "matplotlib.axes.Axes", scene: AbstractBearing, size: FrontSizes) -> None:
     from matplotlib.patches import Circle
 
     outside = size.outside
@@ -52,13 +57,13 @@ def draw_front(axes: Any, scene: Any, size: FrontSizes) -> None:
     axes.set_ylim(-1.16 * outside, 1.06 * outside)
 
 
-def ring_outline(axes: Any, inside: float, outside: float, colour: str) -> None:
+def ring_outline(axes: "matplotlib.axes.Axes", inside: float, outside: float, colour: str) -> None:
     from matplotlib.patches import Annulus
 
     axes.add_patch(Annulus((0.0, 0.0), outside, outside - inside, facecolor=colour, edgecolor=INK, linewidth=0.9))
 
 
-def draw_bars(axes: Any, size: FrontSizes, indices: Any, first: float) -> None:
+def draw_bars(axes: "matplotlib.axes.Axes", size: FrontSizes, indices: Iterable[int], first: float) -> None:
     """Cage bars between the pockets, after rollers of these numbers; `first`: azimuth of number 0."""
     if size.cage is None:
         return
@@ -70,7 +75,7 @@ def draw_bars(axes: Any, size: FrontSizes, indices: Any, first: float) -> None:
         axes.fill(x, y, facecolor=CAGE, edgecolor=INK, linewidth=0.6, zorder=2)
 
 
-def draw_rollers(axes: Any, size: FrontSizes, indices: Any, first: float) -> None:
+def draw_rollers(axes: "matplotlib.axes.Axes", size: FrontSizes, indices: Iterable[int], first: float) -> None:
     from matplotlib.patches import Circle
 
     for i in indices:

@@ -1,10 +1,11 @@
 """The most loaded rolling element and its contacts in a section through the axis, to scale."""
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ....bearings.bearing import AbstractBearing
 from ....bearings.facts import LOADED
 from ....bearings.flanks import SECOND, on_heavier_flanks
 from ....bearings.outline import Outline, moved
@@ -13,6 +14,9 @@ from ...backends.svg import Drawing
 from ...colours import CENTRE_LINE, INK, INNER, OUTER, RIB, RING, ROLLER
 from ...display import digits
 
+if TYPE_CHECKING:
+    from .any_family import _Patches
+
 _WIDTH = 115.0
 """Width of the rolling element, points of the page."""
 _LONGEST = 0.9
@@ -20,7 +24,7 @@ _LONGEST = 0.9
 _EDGE = {"stroke": INK, "stroke_width": 1.0}
 
 
-def section(scene: Any, solution: Solution) -> str:
+def section(scene: AbstractBearing, solution: Solution) -> str:
     """SVG; the axis of the bearing lies below, its positive direction points to the right."""
     elements = solution.elements
     j = int(np.argmax(np.asarray(on_heavier_flanks(elements).load_inner)))
@@ -63,7 +67,7 @@ def _axial_load(drawing: Drawing, solution: Solution, x: float, lowest: float, d
 _SAID = {"inner": "inner race", "outer": "outer race", "flange": "rib"}
 
 
-def draw_outline(drawing: Any, outline: Outline) -> None:
+def draw_outline(drawing: "Drawing | _Patches", outline: Outline) -> None:
     """Draws rings and element. **Arguments:** `drawing`: takes polygons, circles and lines, as `svg.Drawing` does."""
     for ring in outline.rings:
         drawing.polygon(ring, fill=RING, **_EDGE)

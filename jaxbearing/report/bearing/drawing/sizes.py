@@ -3,6 +3,8 @@
 import math
 from typing import Any
 
+from ....bearings.bearing import AbstractBearing
+from ....bearings.cage import AbstractCage
 from ....bearings.outline import RING_THICKNESS
 
 DRAWN_CLEARANCE = 0.07
@@ -15,7 +17,7 @@ class FrontSizes:
     **Arguments:** `shoulder`: from the pitch circle to where the rings end, mm; to the raceways if not given.
     """
 
-    def __init__(self, scene: Any, shoulder: float | None = None):
+    def __init__(self, scene: AbstractBearing, shoulder: float | None = None):
         geometry = scene.geometry
         self.diameter = millimetres(scene.mean_diameter)
         self.pitch = millimetres(geometry.pitch_diameter) / 2.0
@@ -29,7 +31,7 @@ class FrontSizes:
         self.first = first_angle(geometry)
         between = 2.0 * self.pitch * math.sin(math.pi / max(self.count, 2)) - self.diameter
         self.pocket = min(DRAWN_CLEARANCE * self.diameter, 0.3 * between)
-        cage: Any = getattr(scene, "cage", None)
+        cage: AbstractCage | None = getattr(scene, "cage", None)
         self.cage: tuple[float, float] | None = None
         if cage is not None:
             self.cage = millimetres(cage.bore(geometry)) / 2.0, millimetres(cage.outside(geometry)) / 2.0

@@ -1,10 +1,10 @@
 """A solved bearing seen along its axis, to scale, with the loads of the contacts as arrows."""
 
 import math
-from typing import Any
 
 import numpy as np
 
+from ....bearings.bearing import AbstractBearing
 from ....bearings.flanks import by_flank
 from ....bearings.operation import LOAD_FIELDS
 from ....bearings.solution import Solution
@@ -20,7 +20,7 @@ _LONGEST = 0.42
 """Longest arrow, in radii of the bore."""
 
 
-def front_view(scene: Any, solution: Solution) -> str:
+def front_view(scene: AbstractBearing, solution: Solution) -> str:
     """SVG: rings, elements at their azimuths (0 below, counter-clockwise), the force of each on the rings, the applied
     load."""
     sizes = FrontSizes(scene, scene.outline().shoulder)

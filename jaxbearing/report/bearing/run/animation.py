@@ -21,6 +21,8 @@ from .json_report import by_side
 
 if TYPE_CHECKING:
     import matplotlib.animation
+    import matplotlib.artist
+    import matplotlib.figure
 
 _CLEARANCE_SHOWN = 0.3
 """Half the pocket clearance as drawn, over the gap between neighbouring rolling elements."""
@@ -168,7 +170,7 @@ def _draw(
     time, cage = 1e3 * np.asarray(history.time), history.instants.cage
     first_bar, last_bar = 1e3 * _cage_radii(scene)
 
-    def update(number: int) -> list[Any]:
+    def update(number: int) -> "list[matplotlib.artist.Artist]":
         now, at = pictures[number], chosen[number]
         drawn.set_offsets(now.elements)
         if now.pocket is not None:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ....bearings.motion.history import History
+from ....bearings.motion.history import History, Instant
 from ....numerics.status import Status
 from ...backends.json import finite, plain
 from ...history_shocks import FACES, Sectors, sectors, shocks, whirl_ratio
@@ -94,12 +94,12 @@ def _in_motion(history: History) -> dict[str, Any]:
     return found
 
 
-def _moved(instants: Any) -> tuple[str, ...]:
+def _moved(instants: Instant) -> tuple[str, ...]:
     """Displacements of the ring that the statistics show: the axial one where loads along the axis move it."""
     return ("axial", "radial") if hasattr(instants, "axial_load") else ("radial",)
 
 
-def _excursion(instants: Any) -> float:
+def _excursion(instants: Instant) -> float:
     """Largest distance of an element along the pitch circle from the mean of all, beside equal spacing, m."""
     along = np.asarray(instants.state_elements)[:, 0]
     return float(np.abs(along - along.mean(axis=1, keepdims=True)).max())

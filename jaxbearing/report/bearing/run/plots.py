@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ....bearings.motion.history import History
+from ....bearings.motion.history import CageMotion, History, Instant, PocketPeaks
 from ...backends.matplotlib.legends import clear_legend
 from ...backends.matplotlib.sheet import foot, grid_lines, head, title_of
 from ...colours import FAINT, INK, INNER, LOSS, OUTER
@@ -12,6 +12,7 @@ from ...display import axis_unit, displayed
 from .json_report import by_side
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 _RPM = displayed(1.0, "rad/s")
@@ -42,7 +43,7 @@ def plot(history: History, title: str) -> "matplotlib.figure.Figure":
     return figure
 
 
-def draw_orbit(axes: Any, cage: Any) -> None:
+def draw_orbit(axes: "matplotlib.axes.Axes", cage: CageMotion) -> None:
     x, y = 1e6 * np.asarray(cage.x), 1e6 * np.asarray(cage.y)
     axes.plot(x, y, color=INNER, linewidth=0.8)
     axes.plot(x[0], y[0], "o", color=FAINT, markersize=4)
@@ -60,7 +61,7 @@ def draw_orbit(axes: Any, cage: Any) -> None:
     grid_lines(axes)
 
 
-def _speeds(axes: Any, time: Any, instants: Any, element: str) -> None:
+def _speeds(axes: "matplotlib.axes.Axes", time: np.ndarray, instants: Instant, element: str) -> None:
     found = getattr(instants.elements, "orbital_speed", None)
     if found is not None:
         speeds = _RPM * np.asarray(found)
@@ -77,7 +78,7 @@ def _speeds(axes: Any, time: Any, instants: Any, element: str) -> None:
         clear_legend(axes)
 
 
-def _power(axes: Any, time: Any, instants: Any) -> None:
+def _power(axes: "matplotlib.axes.Axes", time: np.ndarray, instants: Instant) -> None:
     loss, drive = np.asarray(instants.power_loss.total), np.asarray(instants.drive_power)
     unit, factor = axis_unit("W", float(np.abs(drive).max()))
     axes.plot(time, factor * drive, color=FAINT, linewidth=0.7, label="drive")
@@ -88,7 +89,7 @@ def _power(axes: Any, time: Any, instants: Any) -> None:
     clear_legend(axes)
 
 
-def _pocket_over_time(axes: Any, time: Any, peaks: Any, element: str) -> None:
+def _pocket_over_time(axes: "matplotlib.axes.Axes", time: np.ndarray, peaks: PocketPeaks, element: str) -> None:
     front, rear = np.asarray(peaks.front).max(axis=1), np.asarray(peaks.rear).max(axis=1)
     axes.plot(time, front, color=OUTER, linewidth=0.8, label="front")
     axes.plot(time, -rear, color=INNER, linewidth=0.8, label="rear (drawn downwards)")
@@ -98,7 +99,7 @@ def _pocket_over_time(axes: Any, time: Any, peaks: Any, element: str) -> None:
     clear_legend(axes, ncols=2)
 
 
-def _pocket_over_azimuth(axes: Any, instants: Any, element: str) -> None:
+def _pocket_over_azimuth(axes: "matplotlib.axes.Axes", instants: Any, element: str) -> None:
     """Peaks between instants, of whichever wall is pressed more."""
     turned = lambda values: np.degrees(np.mod(np.asarray(values) + np.pi, 2.0 * np.pi) - np.pi)
     azimuth, elements = turned(instants.elements.azimuth), instants.elements
@@ -120,7 +121,7 @@ def _pocket_over_azimuth(axes: Any, instants: Any, element: str) -> None:
     clear_legend(axes, markerscale=5)
 
 
-def _sliding(axes: Any, elements: Any, sliding: dict[str, np.ndarray], element: str) -> None:
+def _sliding(axes: "matplotlib.axes.Axes", elements: Any, sliding: dict[str, np.ndarray], element: str) -> None:
     azimuth = np.degrees(np.mod(np.asarray(elements.azimuth) + np.pi, 2.0 * np.pi) - np.pi)
     one = FOLLOWED % azimuth.shape[1]
     both = {side: values[:, one] for side, values in sliding.items()}

@@ -1,10 +1,11 @@
 """Temperatures of a bearing in motion: a bar for each node, and the curves with a mark at the time shown."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...._scene import AbstractScene
 from ....bearings.warming.history import WarmUpHistory
 from ...backends.matplotlib.animations import instants, moving, moving_head
 from ...backends.matplotlib.sheet import grid_lines, title_of
@@ -15,9 +16,11 @@ from .plots import draw_temperatures
 
 if TYPE_CHECKING:
     import matplotlib.animation
+    import matplotlib.artist
+    import matplotlib.figure
 
 
-def animate(history: WarmUpHistory, scene: Any, title: str) -> "matplotlib.animation.FuncAnimation":
+def animate(history: WarmUpHistory, scene: AbstractScene, title: str) -> "matplotlib.animation.FuncAnimation":
     """Evenly spaced times of a run; between two instants what is drawn is interpolated."""
     from matplotlib.figure import Figure
 
@@ -26,7 +29,9 @@ def animate(history: WarmUpHistory, scene: Any, title: str) -> "matplotlib.anima
     return moving(figure, _draw(figure, history, times, title), times.size)
 
 
-def _draw(figure: Any, history: WarmUpHistory, times: np.ndarray, title: str) -> Callable[[int], Any]:
+def _draw(
+    figure: "matplotlib.figure.Figure", history: WarmUpHistory, times: np.ndarray, title: str
+) -> Callable[[int], "list[matplotlib.artist.Artist]"]:
     """Draws all that stands still, and returns the function that moves the rest."""
     time = np.asarray(history.time)
     nodes = np.asarray(history.node_temperatures()) - ZERO_CELSIUS
@@ -44,7 +49,7 @@ def _draw(figure: Any, history: WarmUpHistory, times: np.ndarray, title: str) ->
     words = f"to the oil {with_unit(float(history.instants.heat_to_oil[-1]), 'W')} at the end"
     text = moving_head(figure, title, words)
 
-    def update(number: int) -> list[Any]:
+    def update(number: int) -> "list[matplotlib.artist.Artist]":
         at = float(times[number])
         for bar, values in zip(bars, nodes.T, strict=True):
             bar.set_height(float(np.interp(at, time, values)))

@@ -12,6 +12,7 @@ from ...display import ZERO_CELSIUS, axis_unit
 from .clock import clock, clock_unit
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 
@@ -46,7 +47,7 @@ def _root(values: np.ndarray) -> np.ndarray:
     return np.sqrt(np.maximum(values, 0.0))
 
 
-def _finish(axes: Any, history: WarmUpHistory, title: str) -> None:
+def _finish(axes: "matplotlib.axes.Axes", history: WarmUpHistory, title: str) -> None:
     time, unit = times_of(history)
     # most happens at the start
     axes.set_xscale("function", functions=(_root, np.square))
@@ -56,7 +57,7 @@ def _finish(axes: Any, history: WarmUpHistory, title: str) -> None:
     grid_lines(axes)
 
 
-def draw_temperatures(axes: Any, history: WarmUpHistory) -> None:
+def draw_temperatures(axes: "matplotlib.axes.Axes", history: WarmUpHistory) -> None:
     """Temperature of every node, and of the oil that enters."""
     time, _ = times_of(history)
     for name, colour in zip(history.nodes, CURVES, strict=False):
@@ -68,7 +69,7 @@ def draw_temperatures(axes: Any, history: WarmUpHistory) -> None:
     clear_legend(axes, ncols=2)
 
 
-def _heat(axes: Any, history: WarmUpHistory) -> None:
+def _heat(axes: "matplotlib.axes.Axes", history: WarmUpHistory) -> None:
     time, _ = times_of(history)
     instants = history.instants
     curves = {
@@ -85,7 +86,7 @@ def _heat(axes: Any, history: WarmUpHistory) -> None:
     clear_legend(axes)
 
 
-def _play(axes: Any, history: WarmUpHistory, play: tuple[str, Any]) -> None:
+def _play(axes: "matplotlib.axes.Axes", history: WarmUpHistory, play: tuple[str, Any]) -> None:
     time, _ = times_of(history)
     axes.plot(time, 1e6 * np.asarray(play[1]), color=INNER, linewidth=1.5)
     axes.axhline(0.0, color=FAINT, linewidth=0.8)
@@ -94,7 +95,9 @@ def _play(axes: Any, history: WarmUpHistory, play: tuple[str, Any]) -> None:
     _finish(axes, history, words[play[0]])
 
 
-def _mark(axes: Any, history: WarmUpHistory, time: Any, value: Any, factor: float, unit: str) -> None:
+def _mark(
+    axes: "matplotlib.axes.Axes", history: WarmUpHistory, time: Any, value: Any, factor: float, unit: str
+) -> None:
     """A mark at an extreme that lies inside the run, with its value and its time."""
     at, height = float(time), factor * float(value)
     if not float(history.time[0]) < at < float(history.time[-1]):
@@ -112,7 +115,7 @@ def _mark(axes: Any, history: WarmUpHistory, time: Any, value: Any, factor: floa
     )
 
 
-def _load(axes: Any, history: WarmUpHistory) -> None:
+def _load(axes: "matplotlib.axes.Axes", history: WarmUpHistory) -> None:
     time, _ = times_of(history)
     load = np.asarray(history.instants.largest_load)
     unit, factor = axis_unit("N", float(load.max()))
@@ -122,7 +125,7 @@ def _load(axes: Any, history: WarmUpHistory) -> None:
     _finish(axes, history, f"Largest contact load, {unit}")
 
 
-def _film(axes: Any, history: WarmUpHistory) -> None:
+def _film(axes: "matplotlib.axes.Axes", history: WarmUpHistory) -> None:
     time, _ = times_of(history)
     film = np.asarray(history.instants.smallest_film)
     unit, factor = axis_unit("m", float(np.nanmax(film)))

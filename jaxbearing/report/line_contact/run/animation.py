@@ -1,10 +1,11 @@
 """Pressure and film of a line contact in motion."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...._scene import AbstractScene
 from ....ehl import LineContactHistory
 from ...backends.matplotlib.animations import instants, moving, moving_head
 from ...backends.matplotlib.sheet import grid_lines, title_of
@@ -13,13 +14,15 @@ from ...display import axis_unit
 
 if TYPE_CHECKING:
     import matplotlib.animation
+    import matplotlib.artist
+    import matplotlib.figure
 
 _SHOWN = 1.5
 """Half widths to each side that are drawn."""
 _MICRO = 1e6
 
 
-def animate(history: LineContactHistory, scene: Any, title: str) -> "matplotlib.animation.FuncAnimation":
+def animate(history: LineContactHistory, scene: AbstractScene, title: str) -> "matplotlib.animation.FuncAnimation":
     """Evenly spaced times of a run; between two steps what is drawn is interpolated."""
     from matplotlib.figure import Figure
 
@@ -28,7 +31,9 @@ def animate(history: LineContactHistory, scene: Any, title: str) -> "matplotlib.
     return moving(figure, _draw(figure, history, times, title), times.size)
 
 
-def _draw(figure: Any, history: LineContactHistory, times: np.ndarray, title: str) -> Callable[[int], Any]:
+def _draw(
+    figure: "matplotlib.figure.Figure", history: LineContactHistory, times: np.ndarray, title: str
+) -> Callable[[int], "list[matplotlib.artist.Artist]"]:
     """Draws all that stands still, and returns the function that moves the rest."""
     time, speed = np.asarray(history.time), np.asarray(history.entrainment_speed)
     central, minimum = np.asarray(history.film.central), np.asarray(history.film.minimum)
@@ -73,7 +78,7 @@ def _draw(figure: Any, history: LineContactHistory, times: np.ndarray, title: st
     words = f"Hertz half width {1e3 * width:.4g} mm, pressure {p_factor * hertz:.4g} {p_unit}"
     clock = moving_head(figure, title, words)
 
-    def update(number: int) -> list[Any]:
+    def update(number: int) -> "list[matplotlib.artist.Artist]":
         at = times[number]
         row = int(np.clip(np.searchsorted(time, at), 1, time.size - 1)) if time.size > 1 else 0
         before = max(row - 1, 0)

@@ -11,6 +11,7 @@ from ...colours import INNER, LOSS, OUTER
 from ...display import axis_unit
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import matplotlib.figure
 
 PROFILES = 6
@@ -33,7 +34,7 @@ def plot(history: LineContactHistory, title: str) -> "matplotlib.figure.Figure":
     return figure
 
 
-def _films(axes: Any, time: np.ndarray, history: LineContactHistory) -> None:
+def _films(axes: "matplotlib.axes.Axes", time: np.ndarray, history: LineContactHistory) -> None:
     unit, factor = axis_unit("m", float(np.max(np.asarray(history.film.central))))
     axes.plot(time, factor * np.asarray(history.film.central), color=INNER, linewidth=1.6, label="central")
     axes.plot(time, factor * np.asarray(history.film.minimum), color=OUTER, linewidth=1.6, label="minimum")
@@ -45,7 +46,7 @@ def _films(axes: Any, time: np.ndarray, history: LineContactHistory) -> None:
     clear_legend(axes)
 
 
-def _speed(axes: Any, time: np.ndarray, history: LineContactHistory) -> None:
+def _speed(axes: "matplotlib.axes.Axes", time: np.ndarray, history: LineContactHistory) -> None:
     speed = np.asarray(history.entrainment_speed)
     unit, factor = axis_unit("m/s", float(np.abs(speed).max()))
     axes.plot(time, factor * speed, color=LOSS, linewidth=1.4)
