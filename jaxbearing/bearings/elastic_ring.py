@@ -66,10 +66,11 @@ class ElasticRing(eqx.Module):
     def shape(self, amplitudes: Float[Array, " mode"]) -> RingDeflection:
         """The result."""
         scaled, ring = LENGTH_UNIT * amplitudes, self.ring
-        azimuth = jnp.linspace(0.0, 2.0 * jnp.pi, PLACES)
+        azimuth = np.linspace(0.0, 2.0 * np.pi, PLACES)
         count = len(ring.orders)
         sines = scaled[count:] if ring.orders[0] > 0 else jnp.concatenate([jnp.zeros(1), scaled[count:]])
         orders = jnp.asarray(ring.orders, dtype=float)
         forces = None if ring.supports is None else ring.reactions(scaled)
         radius = jnp.asarray(ring.section.radius)
-        return RingDeflection(azimuth, ring.deflection(scaled, azimuth), scaled[:count], sines, radius, orders, forces)
+        deflection = ring.deflection(scaled, azimuth)
+        return RingDeflection(jnp.asarray(azimuth), deflection, scaled[:count], sines, radius, orders, forces)

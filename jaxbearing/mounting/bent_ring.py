@@ -113,12 +113,19 @@ class BentRing(eqx.Module):
         """True for the amplitudes of sines."""
         return np.arange(self.modes) >= len(self.orders)
 
-    def shapes(self, angle: Float[Array, " place"]) -> Float[Array, "mode place"]:
-        """Deflection at the angles, rad, for a unit of each amplitude."""
-        turned = self._of_modes.astype(float)[:, None] * angle[None, :]
-        return jnp.where(self._sine[:, None], jnp.sin(turned), jnp.cos(turned))
+    def shapes(self, angle: Float[Array | np.ndarray, " place"]) -> Float[Array | np.ndarray, "mode place"]:
+        """Deflection at the angles, rad, for a unit of each amplitude.
 
-    def deflection(self, amplitudes: Float[Array, " mode"], angle: Float[Array, " place"]) -> Float[Array, " place"]:
+        NumPy angles give a NumPy array, which a compiled program holds as a constant: its sines are not computed in
+        every solve.
+        """
+        library = np if isinstance(angle, np.ndarray) else jnp
+        turned, count = self._of_modes.astype(float)[:, None] * angle[None, :], len(self.orders)
+        return library.concatenate([library.cos(turned[:count]), library.sin(turned[count:])])
+
+    def deflection(
+        self, amplitudes: Float[Array, " mode"], angle: Float[Array | np.ndarray, " place"]
+    ) -> Float[Array, " place"]:
         """Outward deflection at the angles, rad; m."""
         return amplitudes @ self.shapes(angle)
 

@@ -161,6 +161,19 @@ def test_balance_is_the_gradient_of_the_energy():
     np.testing.assert_allclose(ring.balance(amplitudes, jnp.zeros(ring.modes)), gradient, rtol=1e-12)
 
 
+def test_shapes_at_numpy_angles_are_constants():
+    """No sine of a fixed place is computed in a program; both kinds of angles give the same shapes."""
+    ring = BentRing(SHEET, (0, 2, 5))
+    angles = np.linspace(0.0, 2.0 * np.pi, 7)
+    found = ring.shapes(angles)
+    assert isinstance(found, np.ndarray)
+    expected = [np.ones(7), *(f(n * angles) for f in (np.cos, np.sin) for n in (2, 5))]
+    np.testing.assert_allclose(found, expected, atol=1e-15)
+    np.testing.assert_allclose(ring.shapes(jnp.asarray(angles)), found, atol=1e-15)
+    program = jax.make_jaxpr(lambda amplitudes: ring.deflection(amplitudes, angles))(jnp.ones(5))
+    assert not {"sin", "cos"} & {equation.primitive.name for equation in program.eqns}
+
+
 @pytest.mark.parametrize("orders", [(0, 1, 2), (2, 2), (3, 2), (-1, 2), ()])
 def test_refused_orders(orders):
     with pytest.raises(ValueError, match="orders"):

@@ -99,7 +99,7 @@ def _elastic_ring(scene: CylindricalRollerBearing, azimuth: Float[Array, " rolle
         return None
     width = geometry.roller_length if geometry.width is None else geometry.width
     ring = part.bent_ring(scene.materials.rings, geometry.outer_radius, width)
-    return ElasticRing(ring, ring.shapes(azimuth))
+    return ElasticRing(ring, jnp.asarray(ring.shapes(azimuth)))
 
 
 def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> CageParts:
