@@ -3,6 +3,7 @@
 import functools
 import sys
 import time
+from typing import Any
 
 import equinox as eqx
 import jax
@@ -86,7 +87,7 @@ def scipy_run(functions, y0, times, method, tolerance, first_step=None):
         count[0] += 1
         return np.asarray(field(np.float64(t), y, tolerance))
 
-    more = {} if method in EXPLICIT else {"jac": lambda t, y: np.asarray(jacobian(np.float64(t), y, tolerance))}
+    more: Any = {} if method in EXPLICIT else {"jac": lambda t, y: np.asarray(jacobian(np.float64(t), y, tolerance))}
     begin = time.perf_counter()
     found = solve_ivp(
         f, (0.0, times[-1]), y0, method, t_eval=times, rtol=tolerance, atol=tolerance, first_step=first_step, **more
