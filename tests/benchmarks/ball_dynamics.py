@@ -203,7 +203,7 @@ def benchmark(quick=False, models=MODELS):
 
 def spectra(quick=False):
     """At each operating point, of both models: energy of the spectrum of the mean ball's speed v (m/s) and of the
-    place of the cage (um) in bands, from runs of constant load."""
+    place of the cage (um) in bands, from runs whose load rises from 90 % in 2 ms and then stays."""
     found = {}
     count = 64 if quick else 512
     times = np.linspace(0.0, 2e-4 if quick else 20e-3, count + 1)[1:]
