@@ -221,17 +221,21 @@ def integrate_segment(
         states=states,
         last=last,
         last_time=reached,
-        status=_status(found.result, last),
+        status=_status(found.result, last, reached >= times[-1]),
         accepted=accepted,
         rejected=rejected,
         step=(reached - start) / jnp.maximum(accepted, 1),
     )
 
 
-def _status(result: Any, last: ArrowPoint) -> Int[Array, ""]:
-    """Status of a run: not converged if steps ran out, diverged if they became too short or a state is not finite."""
+def _status(result: Any, last: ArrowPoint, done: Bool[Array, ""]) -> Int[Array, ""]:
+    """Status of a run: not converged if steps ran out, diverged if they became too short or a state is not finite.
+
+    **Arguments:** `done`: True if the run reached its last time. If round-off leaves a step below the limit up to
+    there, diffrax takes that step and calls it too short.
+    """
     finite: Bool[Array, ""] = jnp.all(jnp.isfinite(last.elements)) & jnp.all(jnp.isfinite(last.globals))
-    good = (result == dfx.RESULTS.successful) & finite
+    good = (done | (result == dfx.RESULTS.successful)) & finite
     ran_out = (result == dfx.RESULTS.max_steps_reached) & finite
     failed = jnp.where(ran_out, int(Status.NOT_CONVERGED), int(Status.DIVERGED))
     return jnp.where(good, int(Status.CONVERGED), failed)

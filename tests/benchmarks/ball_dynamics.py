@@ -1,6 +1,6 @@
 """Speed AND error of runs in time of balls, full against quasi-static meridian, beside scipy on the same vector field.
 
-    python tests/benchmarks/ball_dynamics.py [--quick] [--spectra] [--scene]
+    python tests/benchmarks/ball_dynamics.py [--quick] [--meridian dynamic | quasi_static] [--spectra] [--scene]
 
 The ball bearing of Table 15 with cage, isothermal films and the viscous limit of Ree-Eyring traction (12 500 rpm, 20 kN
 along the axis, 2 kN of radial load that rise in 2 ms), 6 ms from the steady state. An error is the largest one over all
@@ -16,15 +16,14 @@ With `--spectra` instead the spectra of the places of balls and cage of both mod
 
 import argparse
 import dataclasses
-import functools
 import itertools
 import sys
-import time
 from pathlib import Path
 from typing import Any
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("--quick", action="store_true", help="three balls, 0.1 ms, two tolerances, batches of 2")
+parser.add_argument("--meridian", choices=("dynamic", "quasi_static"), help="one model alone")
 parser.add_argument("--spectra", action="store_true", help="spectra of both models instead")
 parser.add_argument("--scene", action="store_true", help="the built-in scene instead")
 arguments = parser.parse_args() if __name__ == "__main__" else parser.parse_args(["--quick"])
@@ -35,8 +34,7 @@ import equinox as eqx  # noqa: E402
 import jax  # noqa: E402
 import jax.numpy as jnp  # noqa: E402
 import numpy as np  # noqa: E402
-from benchmark_tools import best_time, sharded, time_at  # noqa: E402
-from scipy.integrate import solve_ivp  # noqa: E402
+from benchmark_tools import EXPLICIT, batches_of, best_time, said, scipy_run, times_as_fast  # noqa: E402
 
 import jaxbearing as jb  # noqa: E402
 from jaxbearing.bearings.ball.gyroscopic import ResolvedCouple  # noqa: E402
@@ -147,63 +145,20 @@ def errors(rows, exact, balls):
     return tuple(unit * float(np.max(apart[:, a:b])) for unit, (a, b) in zip(units, parts, strict=True))
 
 
-def scipy_run(functions, y0, times, method, tolerance):
-    """Rows, calls of the field, wall time, s."""
-    field, jacobian = functions
-    count = [0]
-
-    def f(t, y):
-        count[0] += 1
-        return np.asarray(field(np.float64(t), y, tolerance))
-
-    explicit = method in ("RK45", "DOP853")
-    more: Any = {} if explicit else {"jac": lambda t, y: np.asarray(jacobian(np.float64(t), y, tolerance))}
-    begin = time.perf_counter()
-    # a guessed first step is so long that no balance is found
-    found = solve_ivp(
-        f, (0.0, times[-1]), y0, method, t_eval=times, rtol=tolerance, atol=tolerance, first_step=FIRST, **more
-    )
-    seconds = time.perf_counter() - begin
-    return (found.y.T if found.success else None), count[0], seconds
+def loaded_run(start, share, tolerance, times):
+    """A run from the start at a share of the loads."""
+    where = lambda d: full_of(d).ring.load
+    dynamics = eqx.tree_at(where, start.dynamics, share * where(start.dynamics))
+    return ours(start._replace(dynamics=dynamics), times, IntegratorOptions(solver="tsit5", tolerance=tolerance))
 
 
-@functools.cache
-def batch_program(static, solver):
-    """Runs that differ in load and tolerance, from one start and at the same times."""
-
-    def one(given, numbers, times):
-        share, tolerance = given
-        start = eqx.combine(numbers, static)
-        where = lambda d: full_of(d).ring.load
-        dynamics = eqx.tree_at(where, start.dynamics, share * where(start.dynamics))
-        options = IntegratorOptions(solver=solver, tolerance=tolerance)
-        return ours(start._replace(dynamics=dynamics), times, options)
-
-    return sharded(jax.vmap(one, in_axes=(0, None, None)))
-
-
-def batch(start, times, tolerance, size, solver="tsit5"):
-    """Seconds a run of a batch at loads from 90 % to 110 %, and the lanes that failed."""
-    numbers, static = eqx.partition(start, eqx.is_array)
-    given = jnp.linspace(0.9, 1.1, size), jnp.full(size, tolerance)
-    run = lambda: batch_program(static, solver)(given, numbers, times)
-    failed = int(np.sum(np.asarray(run().status) != Status.CONVERGED))
-    return best_time(run, 1) / size, failed
-
-
-def _said(row):
-    """The row, shown at once: the whole takes minutes."""
-    print(*(f"{value:.3g}" if isinstance(value, float) else value for value in row), file=sys.stderr, flush=True)
-    return row
-
-
-def benchmark(quick=False):
-    """Rows of both models: model, method, tolerance, steps or calls, errors, seconds, times."""
+def benchmark(quick=False, models=MODELS):
+    """Rows of the models: model, method, tolerance, steps or calls, errors, seconds, times."""
     scene = bearing(balls=3 if quick else 20)
     times = np.linspace(0.0, 1e-4 if quick else DURATION, SAMPLES + 1)[1:]
     tolerances = TOLERANCES[1:] if quick else TOLERANCES
     table, batches = [], []
-    for model in MODELS:
+    for model in models:
         start = started(scene, settings(model, 2e-3))
         balls = start.state.elements.shape[1]
         exact = ours(start, jnp.asarray(times), IntegratorOptions(solver="dopri8", tolerance=REFERENCE))
@@ -213,45 +168,42 @@ def benchmark(quick=False):
         jax.block_until_ready(functions[0](np.float64(0.0), y0, FINE))
         rivals = {}
         for method in SCIPY[model][1:2] if quick else SCIPY[model]:
-            if method not in ("RK45", "DOP853"):
+            if method not in EXPLICIT:
                 jax.block_until_ready(functions[1](np.float64(0.0), y0, FINE))
             for tolerance in tolerances:
-                rows, calls, seconds = scipy_run(functions, y0, times, method, tolerance)
+                # a guessed first step is so long that no balance is found
+                rows, calls, seconds = scipy_run(functions, y0, times, method, tolerance, FIRST)
                 if rows is None:
-                    table.append(_said((model, f"scipy {method}", tolerance, None, *(np.nan,) * 3, seconds, None)))
+                    table.append(said((model, f"scipy {method}", tolerance, None, *(np.nan,) * 3, seconds, None)))
                     break
                 found = errors(rows, exact, balls)
                 rivals.setdefault(method, []).append((found[0], seconds))
-                table.append(_said((model, f"scipy {method}", tolerance, calls, *found, seconds, None)))
+                table.append(said((model, f"scipy {method}", tolerance, calls, *found, seconds, None)))
                 if seconds > SLOWEST:
                     break
-        ahead = lambda error, rivals=rivals: [
-            t for t in (time_at(error, points) for points in rivals.values()) if t is not None
-        ]
         for solver in OURS[model][:1] if quick else OURS[model]:
             for tolerance in tolerances:
                 options = IntegratorOptions(solver=solver, tolerance=tolerance)
                 run = lambda options=options, start=start: ours(start, jnp.asarray(times), options)
                 result = jax.block_until_ready(run())
                 if int(result.status) != Status.CONVERGED:
-                    table.append(_said((model, solver, tolerance, None, *(np.nan,) * 4, None)))
+                    table.append(said((model, solver, tolerance, None, *(np.nan,) * 4, None)))
                     continue
                 seconds, found = best_time(run, 2), errors(flat(result.states), exact, balls)
-                others = ahead(found[0])
-                ratio = min(others) / seconds if others else None
                 steps = int(result.accepted) + int(result.rejected)
-                table.append(_said((model, solver, tolerance, steps, *found, seconds, ratio)))
-        for tolerance in tolerances[-1:] if quick else tolerances[-2:]:
-            each, failed = batch(start, jnp.asarray(times), tolerance, 2 if quick else 64)
+                ratio = times_as_fast(found[0], seconds, rivals)
+                table.append(said((model, solver, tolerance, steps, *found, seconds, ratio)))
+        shares = jnp.linspace(0.9, 1.1, 2 if quick else 64)
+        asked = tolerances[-1:] if quick else tolerances[-2:]
+        for tolerance, each, failed in batches_of(loaded_run, start, shares, jnp.asarray(times), asked):
             error = next(row[4] for row in table if row[:3] == (model, "tsit5", tolerance))
-            others = ahead(error)
-            batches.append(_said((model, tolerance, each, failed, min(others) / each if others else None)))
+            batches.append(said((model, tolerance, each, failed, times_as_fast(error, each, rivals))))
     return {"table": table, "batches": batches}
 
 
 def spectra(quick=False):
     """At each operating point, of both models: energy of the spectrum of the mean ball's speed v (m/s) and of the
-    place of the cage (um) in bands, from runs of constant load."""
+    place of the cage (um) in bands, from runs whose load rises from 90 % in 2 ms and then stays."""
     found = {}
     count = 64 if quick else 512
     times = np.linspace(0.0, 2e-4 if quick else 20e-3, count + 1)[1:]
@@ -266,7 +218,7 @@ def spectra(quick=False):
             cage = 10.0 * np.asarray(run.states.globals)[:, 1:3]
             steps = int(run.accepted) + int(run.rejected)
             found[name, model] = steps, bands(times, speed), bands(times, cage)
-            _said((name, model, steps, *found[name, model][1], *found[name, model][2]))
+            said((name, model, steps, *found[name, model][1], *found[name, model][2]))
     return found
 
 
@@ -295,7 +247,7 @@ def scene_speed(quick=False):
         seconds = best_time(run, 1)
         steps = int(result.accepted) + int(result.rejected)
         found[model] = 1e3 * float(times[-1]) / seconds, steps, int(result.status)
-        _said((model, *found[model]))
+        said((model, *found[model]))
     return found
 
 
@@ -334,4 +286,4 @@ if __name__ == "__main__":
         for meridian, (rate, steps, status) in scene_speed(arguments.quick).items():
             print(f"{meridian}: {rate:.3g} simulated ms to a second, {steps} steps, status {status}")
     else:
-        print_table(benchmark(arguments.quick))
+        print_table(benchmark(arguments.quick, [arguments.meridian] if arguments.meridian else MODELS))

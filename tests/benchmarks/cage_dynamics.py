@@ -34,9 +34,8 @@ import equinox as eqx  # noqa: E402
 import jax  # noqa: E402
 import jax.numpy as jnp  # noqa: E402
 import numpy as np  # noqa: E402
-from benchmark_tools import best_time, sharded, time_at  # noqa: E402
+from benchmark_tools import batches_of, best_time, said, scipy_run, times_as_fast  # noqa: E402
 from moving_roller import start_of, started, table_16  # noqa: E402
-from scipy.integrate import solve_ivp  # noqa: E402
 
 from jaxbearing.bearings.cylindrical.motion.energy import WORKS  # noqa: E402
 from jaxbearing.bearings.cylindrical.motion.rates import CAGE_UNITS, ROLLER_UNITS  # noqa: E402
@@ -102,54 +101,16 @@ def errors(rows, exact, rollers):
     return 1e6 * ROLLER_UNITS[0] * float(np.max(apart[:, :n])), ROLLER_UNITS[1] * float(np.max(apart[:, n : 2 * n]))
 
 
-def scipy_run(functions, y0, times, method, tolerance):
-    """Rows, calls of the field, wall time, s."""
-    field, jacobian = functions
-    count = [0]
-
-    def f(t, y):
-        count[0] += 1
-        return np.asarray(field(np.float64(t), y, tolerance))
-
-    more = {} if method == "DOP853" else {"jac": lambda t, y: np.asarray(jacobian(np.float64(t), y, tolerance))}
-    begin = time.perf_counter()
-    found = solve_ivp(f, (0.0, times[-1]), y0, method, t_eval=times, rtol=tolerance, atol=tolerance, **more)
-    seconds = time.perf_counter() - begin
-    rows = found.y.T if found.success else None
-    return rows, count[0], seconds
+def loaded_run(start, load, tolerance, times):
+    """A run from the start at another load, N."""
+    dynamics = eqx.tree_at(lambda d: d.system.ring.load, start.dynamics, load)
+    return ours(start._replace(dynamics=dynamics), times, IntegratorOptions(solver="tsit5", tolerance=tolerance))
 
 
-@functools.cache
-def batch_program(static, solver):
-    """Runs that differ in load and tolerance, from one start and at the same times; `static`: what of the start is no
-    array."""
-
-    def one(given, numbers, times):
-        load, tolerance = given
-        start = eqx.combine(numbers, static)
-        dynamics = eqx.tree_at(lambda d: d.system.ring.load, start.dynamics, load)
-        options = IntegratorOptions(solver=solver, tolerance=tolerance)
-        return ours(start._replace(dynamics=dynamics), times, options)
-
-    return sharded(jax.vmap(one, in_axes=(0, None, None)))
-
-
-def batches_of(start, times, tolerances, size, solver="tsit5"):
-    """By tolerance: seconds a run of a batch at loads from 90 % to 110 %, and the lanes that failed; one program."""
+def batches(start, times, tolerances, size):
+    """See `benchmark_tools.batches_of`: loads from 90 % to 110 %."""
     loads = start.dynamics.system.ring.load[None, :] * jnp.linspace(0.9, 1.1, size)[:, None]
-    numbers, static = eqx.partition(start, eqx.is_array)
-    program = batch_program(static, solver)
-    for tolerance in tolerances:
-        given = loads, jnp.full(size, tolerance)
-        run = lambda given=given: program(given, numbers, times)
-        failed = int(np.sum(np.asarray(run().status) != Status.CONVERGED))
-        yield tolerance, best_time(run, 1) / size, failed
-
-
-def _said(row):
-    """The row, shown at once: the whole takes minutes."""
-    print(*(f"{value:.3g}" if isinstance(value, float) else value for value in row), file=sys.stderr, flush=True)
-    return row
+    return batches_of(loaded_run, start, loads, times, tolerances)
 
 
 def benchmark(quick=False):
@@ -178,7 +139,7 @@ def benchmark(quick=False):
                 q, v = errors(rows, exact, rollers)
                 if tolerance > 1e-10:
                     points.append((q, seconds))
-                table.append(_said((f"scipy {method}", tolerance, calls, None, q, v, seconds, None)))
+                table.append(said((f"scipy {method}", tolerance, calls, None, q, v, seconds, None)))
                 if seconds > SLOWEST:
                     break
             rival[method] = points
@@ -194,21 +155,19 @@ def benchmark(quick=False):
                 if seconds < 1.0:
                     seconds = min(seconds, best_time(run, 3))
                 if int(found.status) != Status.CONVERGED:
-                    table.append(_said((solver, tolerance, None, None, np.nan, np.nan, np.nan, None)))
+                    table.append(said((solver, tolerance, None, None, np.nan, np.nan, np.nan, None)))
                     continue
                 q, v = errors(flat(found.states), exact, rollers)
-                rivals = [t for t in (time_at(q, points) for points in rival.values()) if t is not None]
-                ratio = min(rivals) / seconds if rivals else None
+                ratio = times_as_fast(q, seconds, rival)
                 steps = int(found.accepted), int(found.rejected)
-                table.append(_said((solver, tolerance, *steps, q, v, seconds, ratio)))
+                table.append(said((solver, tolerance, *steps, q, v, seconds, ratio)))
                 if seconds > SLOWEST:
                     break
-        size, batches = 4 if quick else 64, []
-        for tolerance, each, failed in batches_of(start, jnp.asarray(times), tolerances, size):
+        size, together = 4 if quick else 64, []
+        for tolerance, each, failed in batches(start, jnp.asarray(times), tolerances, size):
             q = next(row[4] for row in table if row[:2] == ("tsit5", tolerance))
-            rivals = [t for t in (time_at(q, points) for points in rival.values()) if t is not None]
-            batches.append(_said((size, tolerance, each, failed, min(rivals) / each if rivals else None)))
-        figures[name] = {"table": table, "batches": batches, "turns": times[-1] / turn}
+            together.append(said((size, tolerance, each, failed, times_as_fast(q, each, rival))))
+        figures[name] = {"table": table, "batches": together, "turns": times[-1] / turn}
     return figures
 
 
@@ -260,7 +219,7 @@ def scenes_table():
                 seconds = processor_time(lambda options=options, run=run: run(options), 5)
                 row = int(result.accepted), int(result.rejected), q, v, seconds
                 found[name, solver, tolerance] = row
-                _said((name, solver, tolerance, *row))
+                said((name, solver, tolerance, *row))
     return found
 
 

@@ -58,6 +58,19 @@ def test_last_good_state_is_kept():
     np.testing.assert_allclose(short.last.elements, 1.0 / (1.0 - short.last_time), rtol=1e-4)
 
 
+def test_steps_that_nearly_fill_a_run_complete_it():
+    """Round-off leaves 1e-16 s, less than the shortest step, between the first step and the end of the run."""
+    still = lambda t, y, args: jax.tree.map(jnp.zeros_like, y)
+    options = IntegratorOptions()
+    first = jnp.asarray(1e-3 - 1e-16)
+    assert 0.0 < 1e-3 - float(first) < options.shortest_step
+    found = integrate_segment(still, START, ZERO, jnp.asarray([1e-3]), None, options, first_step=first)
+    assert int(found.accepted) == 2
+    assert int(found.status) == Status.CONVERGED
+    assert float(found.last_time) == 1e-3
+    np.testing.assert_array_equal(found.states.elements[0], START.elements)
+
+
 def test_unknown_names_are_refused():
     with pytest.raises(ValueError, match="kvaerno5"):
         IntegratorOptions(solver="euler")

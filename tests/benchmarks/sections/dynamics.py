@@ -7,7 +7,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from benchmark_report import HERE, load
-from benchmark_tools import best_time, time_at
+from benchmark_tools import best_time, scipy_run, times_as_fast
 from section_shape import Section, Table
 
 SOLVERS = {
@@ -57,23 +57,18 @@ def section(quick=False):
                 rival.setdefault(method, []).append((found.q, found.seconds))
                 rows.append((name, f"scipy {method}", tolerance, *found, None))
 
-        def times_of(q, seconds, rival=rival):
-            """Time of scipy's fastest run that is as exact over ours."""
-            found = [t for t in (time_at(q, points) for points in rival.values()) if t is not None]
-            return min(found) / seconds if found else None
-
         errors = {}
         for solver, tolerances in SOLVERS.items():
             if solver in ("kvaerno5", "auto") and quick:
                 continue
             for tolerance in tolerances[:2] if quick else tolerances:
                 found = mean([ours(script, lane, times, solver, tolerance) for lane in lanes])
-                rows.append((name, solver, tolerance, *found, times_of(found.q, found.seconds)))
+                rows.append((name, solver, tolerance, *found, times_as_fast(found.q, found.seconds, rival)))
                 errors[solver, tolerance] = found.q
                 facts[f"{name}: error of q of {solver} at {tolerance:g}, um"] = found.q
         asked = SOLVERS["tsit5"][:1] if quick else SOLVERS["tsit5"]
-        for tolerance, each, failed in script.batches_of(nominal, jnp.asarray(times), asked, 4 if quick else 64):
-            batches.append((name, tolerance, each, failed, times_of(errors["tsit5", tolerance], each)))
+        for tolerance, each, failed in script.batches(nominal, jnp.asarray(times), asked, 4 if quick else 64):
+            batches.append((name, tolerance, each, failed, times_as_fast(errors["tsit5", tolerance], each, rival)))
     facts["failed"] = float(sum(row[3] for row in batches))
     return Section(
         "Cage dynamics",
@@ -137,12 +132,12 @@ def ours(script, lane, times, solver, tolerance):
 
 def theirs(script, lane, times, method, tolerance):
     first = first_of(script, lane.start)
-    states, calls, seconds = script.scipy_run(lane.functions, first, times, method, tolerance)
+    states, calls, seconds = scipy_run(lane.functions, first, times, method, tolerance)
     assert states is not None, method
     return Measured(calls, *errors_of(script, lane, states), seconds)
 
 
 def off_dop853(script, lane, times):
     """Error of q of a rival at 1e-10, which has to agree with what errors are counted from."""
-    states, *_ = script.scipy_run(lane.functions, first_of(script, lane.start), times, "DOP853", 1e-10)
+    states, *_ = scipy_run(lane.functions, first_of(script, lane.start), times, "DOP853", 1e-10)
     return errors_of(script, lane, states)[0]
