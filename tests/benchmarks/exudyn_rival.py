@@ -134,7 +134,7 @@ CASES = {
         ),
         tight=("kvaerno5", 1e-9),
         tight_of_theirs=1e-7,
-        batches=(("kvaerno5", 1e-4), ("kvaerno5", 1e-6)),
+        batches=(("kvaerno5", 1e-4),),
     ),
 }
 QUICK = 2e-4
@@ -401,7 +401,9 @@ def benchmark(name: str, python: str, quick: bool = False) -> Figures:
     of = equations(case)
     state, duration, repeats = beginning(case, of), jnp.asarray(case.duration), 1 if quick else REPEATS
     options = lambda solver, tolerance: IntegratorOptions(solver=solver, tolerance=tolerance)
+    begin = time.process_time()
     exact = coordinates(of, case, ours(of, state, duration, options(*case.tight)))
+    first, errors = {case.tight[0]: time.process_time() - begin}, {}
 
     given = for_exudyn(case, of, state)
     at_end = lambda answer: np.append(np.ravel(answer["balls"]), answer["ring"])
@@ -428,7 +430,6 @@ def benchmark(name: str, python: str, quick: bool = False) -> Figures:
         found = [each for each in (time_at(error, method) for method in points.values()) if each is not None]
         return min(found) / cpu if found else None
 
-    first, errors = {}, {}
     for solver, tolerances in case.ours.items():
         for tolerance in tolerances:
             call = lambda solver=solver, tolerance=tolerance: ours(of, state, duration, options(solver, tolerance))
