@@ -33,7 +33,7 @@ FIRST = ("traction", "roller", "ball", "tapered", "scaling", "dynamics", "film",
 LONGEST = 600
 """Seconds after which a section has failed."""
 PACKAGES = ("jaxbearing", "jax", "jaxlib", "numpy", "scipy", "diffrax", "optimistix", "equinox")
-RIVALS = ("tamaas", "ross-rotordynamics")
+RIVALS = ("tamaas", "ross-rotordynamics", "exudyn")
 
 
 def section_names() -> list[str]:

@@ -129,6 +129,25 @@ def test_ball_dynamics():
 
 @pytest.mark.usefixtures("optimized")
 @pytest.mark.report
+def test_exudyn_rival():
+    """Both programs state the same case: they differ by what 1 mN does, the force that keeps a ball of ours in its
+    place (0.2 nm at 5e6 N/m). The errors of ours fall with the tolerance."""
+    module = script("exudyn_rival")
+    python = module.arguments.python
+    if not module.installed(python):
+        pytest.skip(f"EXUDYN is not installed for {python}: pip install '.[rivals]', or EXUDYN_PYTHON")
+    figures = module.benchmark("fast", python, quick=True)
+    module.print_figures("fast", figures)
+    assert figures.apart < 1e-4 * figures.moved
+    assert figures.apart < 1e-2 * figures.plain
+    for solver in ("tsit5", "dopri8"):
+        coarse, fine = (row.error for row in figures.rows if row.method == solver)
+        assert fine < 0.5 * coarse < 1e-9
+    assert all(failed == 0 for _, _, failed, _, _ in figures.batches.values())
+
+
+@pytest.mark.usefixtures("optimized")
+@pytest.mark.report
 def test_cage_shocks():
     """Mean peaks in the third turn are those of the independent solution of our model sheet, to the 20 % to which
     shocks are repeatable; the perturbed shaft shakes the cage along."""

@@ -58,8 +58,7 @@ def section(quick=False):
         "tamaas solves the contact of a ball of the 6205 with its inner groove by boundary elements on n x n nodes "
         "that cover 1.25 times the ellipse; the ellipse of Hertz has a closed form. ROSS takes the stiffness of a ball "
         "bearing from an empirical formula of load, number and size of the balls; ours is that of the equilibrium, "
-        "without clearance. EXUDYN moves ball bearings in time, which this package does not do: there is nothing to "
-        "compare.",
+        "without clearance. EXUDYN moves ball bearings in time: tests/benchmarks/exudyn_rival.py compares it.",
         (
             Table(
                 f"Peak pressure under {LOAD:g} N:",
