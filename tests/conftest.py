@@ -6,6 +6,7 @@ On the CPU, unless JAX_PLATFORMS says otherwise: `JAX_PLATFORMS=cuda python -m p
 import ctypes
 import gc
 import os
+import time
 from pathlib import Path
 
 os.environ.setdefault("JAX_PLATFORMS", "cpu")
@@ -46,6 +47,23 @@ def pytest_addoption(parser):
     )
     parser.addoption("--campaign-seed", type=int, default=0, help="of the random scenes")
     parser.addoption("--campaign-file", type=Path, default=Path("campaign.json"), help="for the cases that fail")
+    parser.addoption(
+        "--within",
+        type=float,
+        metavar="SECONDS",
+        help="tests that have not begun so long after the start are skipped, and the summary says how many",
+    )
+
+
+_BEGIN = time.monotonic()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item):
+    """Machines differ by a factor of two and more: a run that must end in time leaves out what comes last."""
+    within = item.config.getoption("within")
+    if within is not None and time.monotonic() - _BEGIN > within:
+        pytest.skip(f"not begun within {within:g} s of the start (--within)")
 
 
 _FLAGS = (
