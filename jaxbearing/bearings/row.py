@@ -5,7 +5,7 @@ Shafts on bearings begin their search with it, and find the preload of bearings 
 """
 
 import abc
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax
@@ -17,10 +17,6 @@ from ..numerics.convex import settled
 from ..numerics.small_linear import solve_blocks
 from .ring import LENGTH_UNIT, InnerRing, levers, shift_matrix
 from .solution import RING_FREEDOMS
-
-if TYPE_CHECKING:
-    from .cylindrical.tilting import TiltingRollers
-    from .tapered.system import TaperedSystem
 
 
 class HeldRow(NamedTuple):
@@ -61,9 +57,7 @@ def free_ring(lever: Array, distance: Array, expansion: Array | None) -> InnerRi
     return InnerRing(jnp.zeros(5), jnp.zeros(5), jnp.asarray(lever), RING_FREEDOMS, expansion, distance)
 
 
-def settled_row(
-    full: "TaperedSystem | TiltingRollers", ring: InnerRing, elements: Float[Array, "m element"]
-) -> HeldRow:
+def settled_row(full: Any, ring: InnerRing, elements: Float[Array, "m element"]) -> HeldRow:
     """A row of rollers whose equations are the gradient of one potential.
 
     **Arguments:**
@@ -79,9 +73,7 @@ def settled_row(
     return HeldRow(found.energy, force, shift.T @ stiffness @ shift, found.point.elements)
 
 
-def settled_force(
-    full: "TaperedSystem | TiltingRollers", ring: InnerRing, elements: Float[Array, "m element"]
-) -> Float[Array, "5"]:
+def settled_force(full: Any, ring: InnerRing, elements: Float[Array, "m element"]) -> Float[Array, "5"]:
     """The force of `settled_row` with its first derivatives: one Newton step of the elements, which does not move
     them. **Arguments:** as `settled_row`; `elements`: those that it found."""
     elements, globals_ = jax.lax.stop_gradient(elements), ring.held / LENGTH_UNIT
@@ -93,6 +85,6 @@ def settled_force(
     return _at_port(full, ring, full.global_residual(globals_, totals)[0])
 
 
-def _at_port(full: "TaperedSystem | TiltingRollers", ring: InnerRing, residual: Float[Array, "5"]) -> Float[Array, "5"]:
+def _at_port(full: Any, ring: InnerRing, residual: Float[Array, "5"]) -> Float[Array, "5"]:
     force = (residual * full.load_scale() + full.ring.load) * levers(ring.lever)
     return force if ring.distance is None else shift_matrix(ring.distance).T @ force
