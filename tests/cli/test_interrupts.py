@@ -43,6 +43,9 @@ def lowered(event, seconds, **more):
     if event.endswith("jaxpr_to_mlir_module_duration") and seconds > 0.1:
         reach()
 def hook(event, arguments):
+    if event == "os.rename" and os.path.basename(arguments[1]) == {at!r}:
+        reach()
+        time.sleep(60)
     if event != "import":
         return
     if arguments[0] == {at!r}:
@@ -55,8 +58,8 @@ if {at!r} == END:
     atexit.register(reach)
 sys.addaudithook(hook)
 """
-"""Python runs it before anything else: Ctrl-C comes when a module is imported, when a large program goes to the
-compiler, at the end of the process, or so many seconds later."""
+"""Python runs it before anything else: Ctrl-C comes when a module is imported, when a file is about to take its place,
+when a large program goes to the compiler, at the end of the process, or so many seconds later."""
 COMPILER, END = "a large program for the compiler", "the end of the process"
 MOMENTS = {
     "the first import": (("scenes",), "jax", 0),
@@ -69,7 +72,9 @@ MOMENTS = {
         COMPILER,
         0,
     ),
-    "a sweep": (SWEEP, "jaxbearing.sweeps.engine", 0.5),
+    "a sweep that begins": (SWEEP, "jaxbearing.sweeps.engine", 0),
+    "a sweep without a case": (SWEEP, "plan.data", 0),
+    "a sweep with cases": (SWEEP, "chunk-000001.npz", 0),
     "a picture that is being drawn": (("solve", *DRY, "--out", "a.nc", "--plot", "a.png"), "matplotlib.figure", 0),
 }
 DEAR = {
@@ -120,8 +125,12 @@ def test_any_moment(moment, tmp_path):
         assert "CONVERGED" in done.stdout
         assert done.stderr == "interrupted: not written: a.png\n"
         assert os.listdir(place) == ["a.nc"]
-    elif moment == "a sweep":
-        assert re.fullmatch(r"interrupted: (no case is|[24] of 4 cases are) kept.*\n", done.stderr)
+    elif moment == "a sweep without a case":
+        assert done.stderr == "interrupted: no case is kept\n"
+    elif moment == "a sweep with cases":
+        kept = "2 of 4 cases are kept in 'a.nc.chunks': the same command goes on there"
+        assert done.stderr == f"interrupted: {kept}\n"
+        assert sorted(os.listdir(place / "a.nc.chunks"))[0] == "chunk-000000.npz"
     elif moment == "the end of the process":
         assert "CONVERGED" in done.stdout
         assert done.stderr == "interrupted: all results are there\n"
