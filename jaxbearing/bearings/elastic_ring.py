@@ -6,14 +6,20 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from .._types import Scalar
+from ..materials import Material
 from ..mounting.bent_ring import BentRing
-from .ring import LENGTH_UNIT
+from ..numerics.convex import anchored
+from .ring import ANCHOR, LENGTH_UNIT
 from .ring_deflection import RingDeflection
+from .ring_shape import FlexibleRing
 
 PLACES = 361
 """Azimuths at which results have the deflection of the ring."""
 LEANS = 0.1
 """Least cosine of the angle between the load and a support that counts in the first guess."""
+EQUATION = "bending of the outer ring"
+"""Name of the equation of each amplitude."""
 
 
 class ElasticRing(eqx.Module):
@@ -37,9 +43,25 @@ class ElasticRing(eqx.Module):
         """Generalised loads of the rolling elements, N, from their radial forces on the ring."""
         return self.shapes @ load
 
-    def balance(self, amplitudes: Float[Array, " mode"], pressed: Float[Array, " mode"]) -> Float[Array, " mode"]:
-        """Forces on the amplitudes that do not balance, N."""
-        return self.ring.balance(LENGTH_UNIT * amplitudes, pressed)
+    def balance(
+        self, amplitudes: Float[Array, " mode"], pressed: Float[Array, " mode"], held: bool
+    ) -> Float[Array, " mode"]:
+        """Forces on the amplitudes that do not balance, N.
+
+        **Arguments:** `held`: whether displacements of the inner ring are given. Nothing touches an outer ring that
+        floats between held elements and its supports: it is anchored.
+        """
+        balance = self.ring.balance(LENGTH_UNIT * amplitudes, pressed)
+        return balance + anchored(amplitudes, ANCHOR * LENGTH_UNIT) if held else balance
+
+    def under(self, factor: Float[Array, ""]) -> "ElasticRing":
+        """The same ring under multiples of its given loads, which balance those on the inner ring where nothing else
+        holds the ring."""
+        loads = self.ring.loads
+        if loads is None:
+            return self
+        scaled = [loads.radial * factor, loads.tangential * factor]
+        return eqx.tree_at(lambda outer: [outer.ring.loads.radial, outer.ring.loads.tangential], self, scaled)
 
     def start(self, load: Float[Array, "2"]) -> Float[Array, " mode"]:
         """First guess: the ring displaced as a rigid body to where housing and supports bear the load on the bearing,
@@ -63,6 +85,15 @@ class ElasticRing(eqx.Module):
         cosine, sine = orders.index(1), len(orders)
         return amplitudes.at[np.asarray([cosine, sine])].set(along * shift / LENGTH_UNIT)
 
+    def displacement(self, amplitudes: Float[Array, " mode"]) -> Float[Array, "2"]:
+        """Displacement of the ring as a rigid body, along and across the load line, from its amplitudes, m: the
+        harmonic of order 1, or 0 without that."""
+        orders = self.ring.orders
+        if 1 not in orders:
+            return jnp.zeros(2)
+        # order 1 is the first that has a sine
+        return amplitudes[np.asarray([orders.index(1), len(orders)])]
+
     def shape(self, amplitudes: Float[Array, " mode"]) -> RingDeflection:
         """The result."""
         scaled, ring = LENGTH_UNIT * amplitudes, self.ring
@@ -74,3 +105,21 @@ class ElasticRing(eqx.Module):
         radius = jnp.asarray(ring.section.radius)
         deflection = ring.deflection(scaled, azimuth)
         return RingDeflection(jnp.asarray(azimuth), deflection, scaled[:count], sines, radius, orders, forces)
+
+
+def elastic_ring(
+    part: FlexibleRing,
+    material: Material,
+    raceway_radius: Scalar,
+    width: Scalar | None,
+    azimuth: Float[Array, " element"],
+) -> ElasticRing | None:
+    """The outer ring of a scene in the equations; `None` if it has no harmonics and is therefore rigid.
+
+    **Arguments:** `part`: of the scene; `raceway_radius`, `width`: of `FlexibleRing.bent_ring`, m; `azimuth`: of the
+    rolling elements, rad.
+    """
+    if not part.harmonics:
+        return None
+    ring = part.bent_ring(material, raceway_radius, width)
+    return ElasticRing(ring, jnp.asarray(ring.shapes(azimuth)))

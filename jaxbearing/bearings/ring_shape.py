@@ -1,7 +1,7 @@
 """Parts of a scene for rings that are not rigid or not round: a flexible outer ring, and the roundness of raceways."""
 
 from collections.abc import Iterator
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol
 
 import equinox as eqx
 import jax
@@ -20,6 +20,7 @@ from ..numerics.precision import as_float
 from ..numerics.refusals import refusals_of, refuse_all
 from ..numerics.safe import safe_norm
 from ..numerics.structure import count, switch
+from .operation import AbstractOperation
 
 HARMONICS = 12
 """Highest order of the deflection, where a scene does not say: 4e-4 to 4e-3 of the largest load are left out. A ring on
@@ -86,7 +87,8 @@ class FlexibleRing(_Lists):
     elements, as on a planet gear, whose rim is the ring.
 
     **Arguments:**
-    - `thickness`: radial height of the section, m, > 0, from the raceway outwards.
+    - `thickness`: radial height of the section, m, > 0, from the raceway outwards; of a ball bearing from the bottom of
+      the groove.
     - `width`: along the axis, m, > 0; not given: the width of the bearing, otherwise the length of a roller.
     - `harmonics`: highest order of the deflection, 0 for a rigid ring (structure: another number recompiles).
     - `housing_stiffness`: of a housing all around the ring, radial force per area of the seat's developed line (length
@@ -214,6 +216,71 @@ class OuterRoundness(AbstractRoundness):
     """Roundness of the outer raceway; see `AbstractRoundness`."""
 
     part: ClassVar[str] = "outer_roundness"
+
+
+class _Shaped(Protocol):
+    """A scene with rings that may bend or not be round."""
+
+    @property
+    def outer_ring(self) -> FlexibleRing | None: ...
+
+    @property
+    def inner_roundness(self) -> InnerRoundness | None: ...
+
+    @property
+    def outer_roundness(self) -> OuterRoundness | None: ...
+
+
+def shaped_parts(scene: _Shaped) -> tuple[str, ...]:
+    """Names of the parts of a scene that make a ring not rigid or not round."""
+    parts = {
+        "outer_ring": scene.outer_ring,
+        "inner_roundness": scene.inner_roundness,
+        "outer_roundness": scene.outer_roundness,
+    }
+    return tuple(name for name, part in parts.items() if part is not None)
+
+
+def refuse_shapes_in_rows(scene: _Shaped) -> None:
+    """**Raises:** `ValueError` for a scene of a set or of a shaft whose rings bend or are not round."""
+    shaped = shaped_parts(scene)
+    if shaped:
+        raise ValueError(f"{shaped[0]}: a row of a set or of a shaft has rigid, round rings in this version")
+
+
+def unheld_problems(ring: FlexibleRing | None, operation: AbstractOperation) -> Iterator[str | ValueError]:
+    """Refusals of an outer ring that nothing holds under loads that do not balance."""
+    load = operation.radial_load
+    if ring is None or not ring.harmonics or ring.held:
+        return
+    if ring.load_angle is None or load is None:
+        yield (
+            "outer_ring: nothing holds the ring; expected a housing_stiffness, supports, or loads from outside and "
+            "an operation.radial_load that balance each other"
+        )
+        return
+    lateral = operation.load("lateral")
+    across = jnp.zeros(()) if lateral is None else jnp.asarray(lateral)
+    unbalanced = ring.unbalanced(jnp.stack([jnp.asarray(load), across]))
+    yield from refusals_of(
+        demand,
+        "outer_ring: the loads on a ring without housing and supports must balance operation.radial_load",
+        unbalanced <= UNBALANCED,
+        lambda: (
+            "outer_ring: the loads on a ring without housing and supports must balance operation.radial_load, got "
+            f"a resultant of {float(unbalanced):.3g} times the load"
+        ),
+    )
+
+
+def said_of_bending(ring: FlexibleRing | None) -> list[str]:
+    """Notes for the user on an outer ring that bends."""
+    if ring is None or not ring.harmonics:
+        return []
+    return [
+        "outer_ring: a thin ring that bends in its plane; the stiffness of a housing is uncertain by a factor of 2 to "
+        "10, which moves the largest load by up to some 20 %"
+    ]
 
 
 def out_of_round(

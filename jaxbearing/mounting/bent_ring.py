@@ -160,6 +160,15 @@ class BentRing(eqx.Module):
         shapes = self.shapes(self.supports.angle)
         return rows + shapes @ self.supports.forces(amplitudes @ shapes)
 
+    def tangent(self, amplitudes: Float[Array, " mode"]) -> Float[Array, "mode mode"]:
+        """Derivatives of `balance` by the amplitudes, N/m."""
+        stiffness = jnp.diag(self.stiffness())
+        if self.supports is None:
+            return stiffness
+        shapes = self.shapes(self.supports.angle)
+        touching = amplitudes @ shapes > self.supports.gap
+        return stiffness + (shapes * jnp.where(touching, self.supports.stiffness, 0.0)) @ shapes.T
+
     def energy(self, amplitudes: Float[Array, " mode"]) -> Float[Array, ""]:
         """Energy less the work of `loads`, J; `balance` with no element is its gradient."""
         energy = 0.5 * jnp.sum(self.stiffness() * jnp.square(amplitudes)) - self.given_loads() @ amplitudes

@@ -88,7 +88,7 @@ class ArchedBallSystem(AbstractBallEquations):
         d = len(self.freedoms)
         own = dict(zip(self.own_unknowns, unknowns[2:], strict=True))
         centre = self.free_centre() + LENGTH_UNIT * unknowns[:2]
-        touch = self.touch(shared[:d], centre)
+        touch = self.touch(shared, centre)
         angle, first_outer = touch.angle, self.arcs.first_outer
         orbit = self.orbit(shared[d] if self.global_orbit else own["orbit"])
         motion = self._motion(angle[0], angle[first_outer], orbit, own)
@@ -137,7 +137,7 @@ class ArchedBallSystem(AbstractBallEquations):
             return state
         # the transverse traction of each contact is known only now: it acts on the ball and on the inner ring
         assert state.traction is not None
-        touch = self.touch(shared[: len(self.freedoms)], state.centre)
+        touch = self.touch(shared, state.centre)
         carried = jnp.asarray(self.arcs.senses * state.traction.transverse)
         push, bare = self.push(touch, state.load, carried), self.push(touch, state.load, None)
         more = jnp.stack([push.axial - bare.axial, push.outward - bare.outward]) / self.ball_scale()

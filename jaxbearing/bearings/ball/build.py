@@ -15,9 +15,11 @@ from ...gaps.ball_pocket import BallPocket
 from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowPoint
 from ...numerics.safe import safe_norm
+from ..elastic_ring import ElasticRing, elastic_ring
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..parts import azimuths, drag_density
 from ..ring import LENGTH_UNIT, InnerRing, inner_ring
+from ..ring_shape import out_of_round
 from .arched import ArchedBallSystem
 from .core import FORCE_FLOOR, BallCore
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
@@ -65,7 +67,7 @@ def ring_directions(azimuth: Float[Array, " ball"], turning: Array | None = None
 def ball_row(scene: BallBearing, ring: InnerRing | None = None) -> Row:
     """All balls, or one for all where they are alike; with the ring of the scene, or with another one."""
     operation, geometry = scene.operation, scene.geometry
-    azimuth = azimuths(geometry, geometry.n_balls, operation.symmetric and ring is None)
+    azimuth = azimuths(geometry, geometry.n_balls, operation.symmetric and not scene.shaped_parts and ring is None)
     if ring is None:
         ring = inner_ring(scene, geometry.groove_circle_radius)
     apart = geometry.arcs.inner
@@ -114,6 +116,8 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
         azimuth=row.azimuth,
         ring=row.ring.asking(_held_load(grooves, row)) if row.ring.asks else row.ring,
         held_shift=row.held_shift,
+        out_of_round=out_of_round(scene.inner_roundness, scene.outer_roundness, row.azimuth),
+        outer=_elastic_ring(scene, row.azimuth),
         mass=geometry.mass(density),
         inertia=geometry.inertia(density),
         gyroscopic=gyroscopic if isinstance(gyroscopic, AbstractGyroscopic) else None,
@@ -124,6 +128,14 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
         common_orbit=scene.kinematics.orbit == "common",
         spread=_spread(scene) if slipping else None,
     )
+
+
+def _elastic_ring(scene: BallBearing, azimuth: Float[Array, " ball"]) -> ElasticRing | None:
+    """The outer ring of a scene, if it bends."""
+    if scene.outer_ring is None:
+        return None
+    width = scene.geometry.width
+    return elastic_ring(scene.outer_ring, scene.materials.rings, 0.5 * scene.raceway_diameters[1], width, azimuth)
 
 
 def _spread(scene: BallBearing) -> Float[Array, "2"]:
@@ -224,17 +236,20 @@ def _guesses(core: BallCore, slips: bool, guess_at: Callable[[BallCore, ArrowPoi
     guess, heavy = core.guesses()
     if slips:
         return {"guess": guess_at(core, guess)}
-    easiest = core.ring.load * core.heavier
-    loads, points = jax.tree.map(lambda a, b: jnp.stack([a, b]), (core.ring.load, guess), (easiest, heavy))
-    under = lambda load: dataclasses.replace(core, ring=core.ring.under(load))
-    both = jax.vmap(lambda load, point: guess_at(under(load), point))(loads, points)
+    factors, points = jax.tree.map(lambda a, b: jnp.stack([a, b]), (jnp.ones(()), guess), (core.heavier, heavy))
+
+    def under(factor: Array) -> BallCore:
+        ring, outer = core.rings_under(factor)
+        return dataclasses.replace(core, ring=ring, outer=outer)
+
+    both = jax.vmap(lambda factor, point: guess_at(under(factor), point))(factors, points)
     own, easy = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
     return {"guess": own, "heavy_guess": easy, "heavier": core.heavier}
 
 
 def _places(core: BallCore, point: ArrowPoint) -> BallPlaces:
     state = core.at(point)
-    ring = point.globals[: len(core.freedoms)] * LENGTH_UNIT
+    ring = point.globals[: core.ring_unknowns] * LENGTH_UNIT
     return jax.lax.stop_gradient(BallPlaces(state.centre, ring, state.load, state.angle))
 
 
@@ -245,7 +260,7 @@ def _guess(core: BallCore, point: ArrowPoint) -> BallGuess:
     log_load = jnp.log(jnp.maximum(state.load, least))
     control = jax.nn.sigmoid(CONTROL_AT_EQUAL_LOADS + CONTROL_BY_LOAD * (log_load[1] - log_load[0]))
     low, high = core.kinematics.outer_control(outer), core.kinematics.inner_control(inner)
-    ring = point.globals[: len(core.freedoms)] * LENGTH_UNIT
+    ring = point.globals[: core.ring_unknowns] * LENGTH_UNIT
     # a ball beyond the centre of its inner groove: in a film thicker than the groove's radius, on the near side
     inner = jnp.where(jnp.abs(inner) > 0.5 * jnp.pi, inner - jnp.pi * jnp.sign(inner), inner)
     guess = BallGuess(log_load[0], inner, high + control * (low - high), ring)

@@ -25,7 +25,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
-from ...numerics.arrow import ArrowPoint
+from ...numerics.arrow import ArrowPoint, seen_by_elements
 from ..ring import LENGTH_UNIT
 from .kinematics import BallMotion
 from .linear_slip import linear_slip, slip_weights
@@ -82,9 +82,10 @@ class BallState(NamedTuple):
     """Orbital speed of rolling without sliding at the ball's own angles, rad/s; `motion` may have the common one."""
     balance: Float[Array, "2 ball"]
     """Left side minus right side of the ball's two force balances, N."""
-    on_ring: Float[Array, "freedom ball"]
+    on_ring: Float[Array, "row ball"]
     """Contributions of each ball to the forces on the ring's freedoms, N: of p_x, p_r, the force along the orbit where
-    the ring may tilt, and the moment about the tangent of the circle of groove centres."""
+    the ring may tilt, and the moment about the tangent of the circle of groove centres; then the outward force on an
+    outer ring that bends."""
 
 
 class BallCore(AbstractBallSystem):
@@ -128,18 +129,18 @@ class BallCore(AbstractBallSystem):
 
     def equation_names(self) -> tuple[str, ...]:
         orbit = ("common orbital speed",) if self.common_orbit else ()
-        return ("axial balance of a ball", "radial balance of a ball", *self.ring.equation_names(), *orbit)
+        return ("axial balance of a ball", "radial balance of a ball", *self.ring_names(), *orbit)
 
     def step_caps(self) -> ArrowPoint:
         half = 0.5 * self.grooves.centre_distance / LENGTH_UNIT
-        ring = jnp.full(len(self.freedoms), half)
+        ring = jnp.full(self.ring_unknowns, half)
         if self.common_orbit:
             ring = jnp.append(ring, 0.5)
         return ArrowPoint(jnp.stack([half, half])[:, None], ring)
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
         far = 1e6
-        elements, ring = jnp.full((2, 1), far), jnp.full(len(self.freedoms) + self.common_orbit, far)
+        elements, ring = jnp.full((2, 1), far), jnp.full(self.ring_unknowns + self.common_orbit, far)
         return ArrowPoint(-elements, -ring), ArrowPoint(elements, ring)
 
     @property
@@ -171,31 +172,31 @@ class BallCore(AbstractBallSystem):
         return dataclasses.replace(self, guess=guess, heavy_guess=heavy), found.steps
 
     def _points(
-        self, centres: Float[Array, "2 2 ball"], rings: Float[Array, "2 freedom"]
+        self, centres: Float[Array, "2 2 ball"], rings: Float[Array, "2 coordinate"]
     ) -> tuple[ArrowPoint, ArrowPoint]:
-        """Unknowns at ball centres and displacements of the ring, m, under its load and under the easiest one."""
+        """Unknowns at ball centres and displacements of the rings, m, under the load and under the easiest one."""
         points = jax.lax.stop_gradient(jax.vmap(self._point)(centres, rings))
         own, easiest = (jax.tree.map(lambda leaf, i=i: leaf[i], points) for i in (0, 1))
         return own, easiest
 
-    def _point(self, centre: Float[Array, "2 ball"], moved: Float[Array, " freedom"]) -> ArrowPoint:
+    def _point(self, centre: Float[Array, "2 ball"], moved: Float[Array, " coordinate"]) -> ArrowPoint:
         elements, ring = (centre - self.free_centre()) / LENGTH_UNIT, moved / LENGTH_UNIT
         if not self.common_orbit:
             return ArrowPoint(elements, ring)
         at_rest = jnp.append(ring, 0.0)
-        state = self.balls(elements, jnp.broadcast_to(at_rest[:, None], (at_rest.size, elements.shape[1])))
+        state = self.at(ArrowPoint(elements, at_rest))
         away = orbit_totals(self.arcs.on_inner(state.load), state.own_orbit, state.motion.orbital_speed)
         return ArrowPoint(elements, at_rest.at[-1].set(-orbit_row(jnp.sum(away, axis=1), self.orbit_unit)))
 
-    def _estimates(self) -> tuple[CentrifugalProblem, Float[Array, "2 2 ball"], Float[Array, "2 freedom"]]:
+    def _estimates(self) -> tuple[CentrifugalProblem, Float[Array, "2 2 ball"], Float[Array, "2 coordinate"]]:
         """The convex problem at the centrifugal forces of the estimated contact angles, and estimates of ball centres
-        and displacements of the ring under its load and under the easiest one; not differentiated."""
+        and displacements of the rings under the load and under the easiest one; not differentiated."""
         core = jax.lax.stop_gradient(self)
         free = jnp.broadcast_to(core.grooves.free_angle, (2, core.azimuth.shape[0]))
         first = core._frozen(free)
 
-        def under(load: Array) -> tuple[Array, Array, Array]:
-            problem = dataclasses.replace(first, ring_load=load)
+        def under(factor: Array) -> tuple[Array, Array, Array]:
+            problem = first.under(factor)
             ring = ring_estimate(problem)
             groove = problem.groove_at(ring)
 
@@ -210,7 +211,7 @@ class BallCore(AbstractBallSystem):
                 0, ESTIMATES + 1, better, (jnp.zeros((2, groove.shape[1])), problem.centrifugal)
             ), ring
 
-        centres, forces, rings = jax.vmap(under)(jnp.stack([core.ring.load, core.heavier * core.ring.load]))
+        centres, forces, rings = jax.vmap(under)(jnp.stack([jnp.ones(()), core.heavier]))
         return dataclasses.replace(first, centrifugal=forces[0]), centres, rings
 
     def _loaded_side(self, groove: Array, centre: Array) -> tuple[Array, Array]:
@@ -231,7 +232,7 @@ class BallCore(AbstractBallSystem):
             offset=self.grooves.offset,
             stiffness=self.grooves.stiffness,
             groove=self._groove_at_rest(),
-            directions=self.directions,
+            directions=self._directions_of_rings(),
             ring_load=self.ring.load,
             held_load=self.ring.held_load,
             centrifugal=self.outward_force(self.motion(angle)),
@@ -241,15 +242,27 @@ class BallCore(AbstractBallSystem):
             aligned=self.grooves.aligned,
             freedoms=self.freedoms,
             arcs=self.arcs,
+            outer=self.outer,
         )
+
+    def _directions_of_rings(self) -> Float[Array, "coordinate p ball"]:
+        """Change of the coordinates of the inner groove, seen from the outer one, for a unit of each freedom of the
+        inner ring and of each amplitude of the outer one, m."""
+        if self.outer is None:
+            return self.directions
+        p, count = self.arcs.coordinates, self.azimuth.shape[0]
+        bent = jnp.zeros((self.outer.modes, p, count)).at[:, 1].set(-self.outer.shapes)
+        return jnp.concatenate([self.directions, bent])
 
     def _groove_at_rest(self) -> Float[Array, "p ball"]:
         """Coordinates of the inner groove of the ring without displacement, at its misalignment, m."""
         shift = jnp.zeros((len(self.freedoms), self.azimuth.shape[0]))
         if not self.exact:
-            return self.groove_centres(shift)
+            places = self.groove_centres(shift)
+            return places if self.out_of_round is None else places.at[1].add(self.out_of_round)
         centre = jnp.broadcast_to(self.free_centre(), (2, self.azimuth.shape[0]))
-        places = [centre + arm.in_plane for arm in self.inner_arms(shift, centre)]
+        round_centre = centre if self.out_of_round is None else centre.at[1].add(-self.out_of_round)
+        places = [centre + arm.in_plane for arm in self.inner_arms(shift, round_centre)]
         if len(places) == 1:
             return places[0]
         front, back = places
@@ -278,9 +291,11 @@ class BallCore(AbstractBallSystem):
             ratio = jnp.where(path == 0, ratio, 1.0)
             heavy = jax.tree.map(lambda a, b: jnp.where(path == 0, a, b), heavy, guess)
             share = share * jnp.where(path == 0, 1.0, 1.0 - parameter)
+        ring, outer = self.rings_under(ratio**parameter)
         return dataclasses.replace(
             self,
-            ring=self.ring.under(self.ring.load * ratio**parameter),
+            ring=ring,
+            outer=outer,
             couple_share=share,
             guess=guess,
             heavy_guess=heavy,
@@ -306,10 +321,9 @@ class BallCore(AbstractBallSystem):
         return state.balance / self.ball_scale(), totals, state
 
     def global_residual(self, globals_, totals):
-        d = len(self.freedoms)
-        rows = self.load_balance(globals_[:d], totals[:d]) / self.load_scale()
+        rows = self.ring_balance(globals_, totals) / self.load_scale()
         if self.common_orbit:
-            rows = jnp.append(rows, orbit_row(totals[d:], self.orbit_unit))
+            rows = jnp.append(rows, orbit_row(totals[self.ring_unknowns :], self.orbit_unit))
         return rows, jnp.zeros(())
 
     # -- physics --------------------------------------------------------------------------------------------------
@@ -319,12 +333,11 @@ class BallCore(AbstractBallSystem):
         return self.centrifugal(motion.orbital_speed) + FORCE_FLOOR
 
     def at(self, point: ArrowPoint) -> BallState:
-        shape = (point.globals.shape[0], point.elements.shape[1])
-        return self.balls(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+        return self.balls(point.elements, seen_by_elements(self, point))
 
     def balls(self, unknowns: Float[Array, "2 ball"], shared: Float[Array, "g ball"]) -> BallState:
         centre = self.free_centre() + LENGTH_UNIT * unknowns[:2]
-        touch = self.touch(shared[: len(self.freedoms)], centre)
+        touch = self.touch(shared, centre)
         load = self.loads(touch.apart)
         motion = self.rolling(touch.angle, load)
         own_orbit = motion.orbital_speed

@@ -37,7 +37,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ...numerics.arrow import ArrowPoint
+from ...numerics.arrow import ArrowPoint, seen_by_elements
 from ..land import LandState, guided_land
 from ..ring import LENGTH_UNIT
 from .core import orbit_row, orbit_totals
@@ -89,32 +89,32 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
         own = tuple(OWN_EQUATIONS[name] for name in self.own_unknowns)
         orbit = "common orbital speed" if self.cage is None else "moment balance of the cage"
         last = (orbit,) if self.global_orbit else ()
-        return (*self.of_contacts.names, *own, *self.ring.equation_names(), *last)
+        return (*self.of_contacts.names, *own, *self.ring_names(), *last)
 
     def step_caps(self) -> ArrowPoint:
         caps = dict.fromkeys(("spin", "axial spin", "radial spin", "orbit"), 0.15)
         caps |= {"attitude": 0.3, "outward": 1.0, "transverse": 0.02, "carried": 1.0}
         elements = [*self.of_contacts.caps, *(caps[name] for name in self.own_unknowns)]
-        ring = [5.0] * len(self.freedoms) + [0.15] * self.global_orbit
+        ring = [5.0] * self.ring_unknowns + [0.15] * self.global_orbit
         return ArrowPoint(jnp.asarray(elements)[:, None], jnp.asarray(ring))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
         own = len(self.own_unknowns)
         lowest, highest = [*self.of_contacts.lowest] + [-50.0] * own, [*self.of_contacts.highest] + [50.0] * own
-        ring = jnp.asarray([1e5] * len(self.freedoms) + [3.0] * self.global_orbit)
+        ring = jnp.asarray([1e5] * self.ring_unknowns + [3.0] * self.global_orbit)
         return ArrowPoint(jnp.asarray(lowest)[:, None], -ring), ArrowPoint(jnp.asarray(highest)[:, None], ring)
 
     def _started(
         self,
         contacts: tuple[Array, Array],
-        ring: Float[Array, " freedom"],
+        ring: Float[Array, " coordinate"],
         load: Float[Array, " ball"],
         rolling: BallMotion,
         held: Callable[[Array], BallMotion],
     ) -> ArrowPoint:
         """Initial guess of all unknowns.
 
-        **Arguments:** `contacts`: initial guess of the two contact unknowns; `ring`: displacements of the ring, m;
+        **Arguments:** `contacts`: initial guess of the two contact unknowns; `ring`: displacements of the rings, m;
         `load`: load of each ball, N; `rolling`: motion of the balls if each has its own orbital speed; `held`: function
         that returns the motion of the balls if all have the given orbital speed, rad/s.
         """
@@ -167,8 +167,8 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
         if self.heavier is not None:
             of_load, of_films = jnp.where(path == 0, parameter, 0.0), jnp.where(path == 0, 0.0, parameter)
             guess = jax.tree.map(lambda a, b: jnp.where(of_load > 0, a, b), self.heavy_guess, self.guess)
-            ring = self.ring.under(self.ring.load * self.heavier**of_load)
-            return dataclasses.replace(self, ring=ring, film_share=THINNEST_FILM**of_films, guess=guess)
+            ring, outer = self.rings_under(self.heavier**of_load)
+            return dataclasses.replace(self, ring=ring, outer=outer, film_share=THINNEST_FILM**of_films, guess=guess)
         if not self.rough:
             return self._slower(parameter, path)
         first = path == 0
@@ -207,8 +207,8 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
         return local, jnp.concatenate(totals), jnp.maximum(jnp.max(state.film.residual), state.orbit_residual)
 
     def global_residual(self, globals_, totals):
-        d = len(self.freedoms)
-        ring = self.load_balance(globals_[:d], totals[:d]) / self.load_scale()
+        d = self.ring_unknowns
+        ring = self.ring_balance(globals_, totals) / self.load_scale()
         if self.common_orbit:
             return jnp.append(ring, orbit_row(totals[d:], self.orbit_unit)), jnp.zeros(())
         if self.cage is None:
@@ -221,8 +221,7 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
     # -- physics --------------------------------------------------------------------------------------------------
 
     def at(self, point: ArrowPoint) -> BallsState:
-        shape = (point.globals.shape[0], point.elements.shape[1])
-        return self.balls(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+        return self.balls(point.elements, seen_by_elements(self, point))
 
     def land(self, orbit: Array, force_x: Array, force_y: Array) -> LandState:
         """State of the lands (the surfaces of a ring that guide the cage), which carry the sum of the pocket forces."""

@@ -110,14 +110,15 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
         each = [over[race](motion, angle[k]) for k, race in enumerate(self.arcs.races)]
         return jax.tree.map(lambda *values: jnp.stack(values), *each)
 
-    def _through_land(self, pocket: Float[Array, " ball"]) -> Float[Array, "freedom ball"]:
-        """Gives the contributions of the pockets' outward friction, N, to the forces on the ring.
+    def _through_land(self, pocket: Float[Array, " ball"]) -> Float[Array, "row ball"]:
+        """Gives the contributions of the pockets' outward friction, N, to the forces on the rings.
 
         They go through cage and land and act in the middle plane, hence without a moment."""
         along = {"radial": jnp.cos(self.azimuth), "lateral": jnp.sin(self.azimuth)}
         zero = jnp.zeros_like(pocket)
         rows = [along.get(name, zero) * pocket for name in self.freedoms]
-        return self.multiplicity * jnp.stack(rows) if rows else zero[None][:0]
+        through = self.multiplicity * jnp.stack(rows) if rows else zero[None][:0]
+        return self.on_rings(through, zero)
 
     def _motion(self, inner: Array, outer: Array, orbit: Array | None, own: dict[str, Array]) -> BallMotion:
         reference, unit = self.reference, self.spin_unit()

@@ -79,7 +79,7 @@ class LubricatedBallSystem(AbstractBallEquations):
         contact = self.geometry.contacts(cosine[0], cosine[1], self.reduced_modulus).shaped()
         if film is None:
             film = self.laws.film_state(contact, load, races.mean_speed, races.rolling, self.oil, self.inlet)
-        fit, centre, arm, on_ring = self._fit(load, direction, film.separation, shared[:d])
+        fit, centre, arm, on_ring = self._fit(load, direction, film.separation, shared)
         axial, radial, moment = self.with_friction(load, direction, friction)
         sideways = ()
         if arm.along is not None:
@@ -87,7 +87,7 @@ class LubricatedBallSystem(AbstractBallEquations):
             forward = arm.in_plane[0] * jnp.sin(inner) + arm.in_plane[1] * jnp.cos(inner) > 0
             within = arm.length * arm.share
             sideways = (load[0] * arm.along / jnp.where(forward, within, -within),)
-        on_ring = on_ring((jnp.stack([axial[0], radial[0], *sideways]),), moment)
+        on_ring = self.on_rings(on_ring((jnp.stack([axial[0], radial[0], *sideways]),), moment), radial[1])
         if pocket is not None and self.cage is not None and self.cage.guidance == "inner_ring":
             on_ring = on_ring + self._through_land(pocket)
         return BallsState(
@@ -183,7 +183,7 @@ class LubricatedBallSystem(AbstractBallEquations):
         return jax.lax.fori_loop(0, ROLLING_PASSES, better, start)
 
     def _fit(
-        self, load: Array, angle: Array, film: Array, shift: Array
+        self, load: Array, angle: Array, film: Array, shared: Array
     ) -> tuple[Float[Array, "2 ball"], Float[Array, "2 ball"], InnerArm, OnRing]:
         """Misfit of the centres, along the inner contact's normal, as a logarithm, and across it; ball centres, from
         the outer groove centre, m, the arms from them to the inner groove, and what forces there do. `angle`: of the
@@ -194,7 +194,7 @@ class LubricatedBallSystem(AbstractBallEquations):
         compression = jnp.cbrt(jnp.square(load / grooves.stiffness[:, None]))
         reach = grooves.offset[1] + compression[1] - film[1]
         centre = reach[None] * jnp.stack([jnp.sin(angle[1]), jnp.cos(angle[1])])
-        (arm,), on_ring = self.reach(shift, centre)
+        (arm,), on_ring = self.reach(shared, centre)
         # the arm laid into the half-plane
         groove = centre + (arm.in_plane / arm.share[None] if self.exact else arm.in_plane)
         turned = angle[1] - angle[0]

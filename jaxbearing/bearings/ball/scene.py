@@ -43,6 +43,15 @@ from ..parts import DragSettings
 from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
+from ..ring_shape import (
+    FlexibleRing,
+    InnerRoundness,
+    OuterRoundness,
+    refuse_shapes_in_rows,
+    said_of_bending,
+    shaped_parts,
+    unheld_problems,
+)
 from ..row import AbstractRow
 from ..solution import LaminaLoads, Solution
 from ..supplied import supply_problems
@@ -172,6 +181,9 @@ class BallBearing(AbstractMovingBearing):
       "outer" or "inner".
     - `contact.traction=None`: films too, and where named the rolling resistance; balls roll without sliding.
     - with traction the balls slide and spin; without a `cage` every ball has its own orbital speed.
+    - `outer_ring`: an outer ring that bends in its housing; `None`: it is rigid. `inner_roundness`,
+      `outer_roundness`: raceways that are not round, standing still relative to the load. A run in time of moving balls
+      has rigid, round rings.
     - `simulation`: what a run in time does beyond the operating point; a steady solve does not look at it.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
@@ -196,6 +208,9 @@ class BallBearing(AbstractMovingBearing):
     thermal: Thermal | None = None
     simulation: Simulation | WarmUpSimulation | None = None
     oil_temperatures: OilTemperatures | None = None
+    outer_ring: FlexibleRing | None = None
+    inner_roundness: InnerRoundness | None = None
+    outer_roundness: OuterRoundness | None = None
 
     def __check_init__(self):
         refuse_all(self._problems())
@@ -205,6 +220,7 @@ class BallBearing(AbstractMovingBearing):
         yield from thermal_problems(self)
         yield from supply_problems(self)
         yield from self._attitude_problems()
+        yield from self._shape_problems()
         if self.slips and self.kinematics.orbit == "common":
             yield (
                 "kinematics.orbit: 'common' is for balls that roll without sliding; with contact.traction they orbit "
@@ -225,6 +241,21 @@ class BallBearing(AbstractMovingBearing):
                 f"contact.film: {type(self.contact.film).__name__} holds for oils whose viscosity rises with pressure, "
                 "not for an isoviscous one"
             )
+
+    def _shape_problems(self) -> Iterator[str | ValueError]:
+        """Refusals of rings that bend or are not round."""
+        if isinstance(self.simulation, Simulation) and self.thermal is None:
+            for name in self.shaped_parts:
+                yield f"{name}: balls in motion have rigid, round rings in this version; leave out the simulation"
+        ring = self.outer_ring
+        if ring is not None and ring.width is None and self.geometry.width is None:
+            yield "outer_ring.width: found nothing, and no geometry.width either; expected one of the two"
+        yield from unheld_problems(ring, self.operation)
+
+    @property
+    def shaped_parts(self) -> tuple[str, ...]:
+        """Names of the parts that make a ring not rigid or not round."""
+        return shaped_parts(self)
 
     def _attitude_problems(self) -> Iterator[str]:
         found = self.kinematics.attitude
@@ -288,6 +319,7 @@ class BallBearing(AbstractMovingBearing):
     def row(self, expansion: Array) -> AbstractRow:
         from .row import ball_row_of
 
+        refuse_shapes_in_rows(self)
         return ball_row_of(self, expansion)
 
     @property
@@ -396,6 +428,7 @@ class BallBearing(AbstractMovingBearing):
                 "kinematics.attitude = 'linear_slip': speeds of the balls are those of tractions proportional to "
                 "pressure and sliding; no loss of sliding is computed from them"
             )
+        said += said_of_bending(self.outer_ring)
         if self.rating is not None:
             said += self.rating.groove_assumptions()
         return tuple(said)

@@ -3,6 +3,7 @@
 See `start`, which minimises the energy.
 """
 
+import dataclasses
 from typing import NamedTuple
 
 import equinox as eqx
@@ -10,6 +11,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ...numerics.safe import safe_norm
+from ..elastic_ring import ElasticRing
 from .arcs import Arcs, added, coordinate_map
 
 NO_APPROACH = 1e-300
@@ -20,15 +22,16 @@ class CentrifugalProblem(eqx.Module):
     """Balls between two grooves under given forces. Units m, N; (inner, outer) or (axial, radial) first.
 
     `groove`: coordinates of the inner groove at every ball with the ring at rest (`arcs`; of one arc its centre);
-    `directions`: their change for a unit of every ring freedom (a length each); `ring_load`: on them; `held_load`: of
-    `InnerRing`; `aligned`: axial
-    displacement at which the planes of the grooves coincide; `multiplicity`: balls that each ball stands for.
+    `directions`: their change for a unit of every coordinate of the rings: the freedoms of the inner one (a length
+    each), then the amplitudes of an `outer` ring that bends; `ring_load`: on the freedoms; `held_load`: of `InnerRing`;
+    `aligned`: axial displacement at which the planes of the grooves coincide; `multiplicity`: balls that each ball
+    stands for.
     """
 
     offset: Float[Array, "2"]
     stiffness: Float[Array, "2"]
     groove: Float[Array, "p ball"]
-    directions: Float[Array, "freedom p ball"]
+    directions: Float[Array, "coordinate p ball"]
     ring_load: Float[Array, " freedom"]
     held_load: Float[Array, ""] | None
     centrifugal: Float[Array, " ball"]
@@ -38,9 +41,41 @@ class CentrifugalProblem(eqx.Module):
     multiplicity: int = eqx.field(static=True)
     freedoms: tuple[str, ...] = eqx.field(static=True)
     arcs: Arcs = Arcs()
+    outer: ElasticRing | None = None
 
-    def groove_at(self, ring: Float[Array, " freedom"]) -> Float[Array, "p ball"]:
+    def groove_at(self, ring: Float[Array, " coordinate"]) -> Float[Array, "p ball"]:
         return self.groove + jnp.einsum("f,fcn->cn", ring, self.directions)
+
+    def under(self, factor: Array) -> "CentrifugalProblem":
+        """The same balls under multiples of the loads on the rings."""
+        outer = None if self.outer is None else self.outer.under(factor)
+        return dataclasses.replace(self, ring_load=factor * self.ring_load, outer=outer)
+
+    def ring_energy(self, ring: Float[Array, " coordinate"]) -> Array:
+        """Energy less work of loads that belongs to the rings, J, at displacements, m: all but the balls' own."""
+        d = len(self.freedoms)
+        energy = -jnp.sum(self.ring_load * ring[:d])
+        if self.outer is None:
+            return energy
+        # the centrifugal forces move with the outer groove
+        work = jnp.sum(self.outer.pressed(self.centrifugal) * ring[d:])
+        return energy + self.outer.ring.energy(ring[d:]) - work
+
+    def ring_balance(self, ring: Array, force: Float[Array, " coordinate"]) -> Float[Array, " coordinate"]:
+        """Derivatives of the whole energy by the displacements of the rings, N; `force`: by those of the grooves."""
+        d = len(self.freedoms)
+        balance = force[:d] - self.ring_load
+        if self.outer is None:
+            return balance
+        pressed = self.outer.pressed(self.centrifugal) - force[d:]
+        return jnp.concatenate([balance, self.outer.ring.balance(ring[d:], pressed)])
+
+    def ring_stiffness(self, ring: Array, matrix: Float[Array, "coordinate coordinate"]) -> Array:
+        """Derivatives of `ring_balance`, N/m; `matrix`: those of its `force`."""
+        if self.outer is None:
+            return matrix
+        d = len(self.freedoms)
+        return matrix.at[d:, d:].add(self.outer.ring.tangent(ring[d:]))
 
 
 class Forces(NamedTuple):

@@ -17,6 +17,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from ...numerics.safe import safe_norm
 from ...numerics.small_linear import solve_blocks, solve_dense
+from ..ring import LENGTH_UNIT
 from .arcs import added
 from .springs import CentrifugalProblem, Forces, forces_at, inner_springs, together
 
@@ -35,10 +36,10 @@ SHORTEST = 1e-6
 
 
 class Start(NamedTuple):
-    """Ball centres from the outer groove centre and ring displacements, m; outer Newton steps."""
+    """Ball centres from the outer groove centre and displacements of the rings, m; outer Newton steps."""
 
     centre: Float[Array, "2 ball"]
-    ring: Float[Array, " freedom"]
+    ring: Float[Array, " coordinate"]
     steps: Int[Array, ""]
 
 
@@ -139,8 +140,8 @@ def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: 
     return jax.lax.while_loop(going, advance, begin).centre
 
 
-def _on_ring(problem: CentrifugalProblem, forces: Forces) -> tuple[Float[Array, " freedom"], Array]:
-    """Forces that hold the ring, and their derivatives with every ball in equilibrium."""
+def _on_ring(problem: CentrifugalProblem, forces: Forces) -> tuple[Float[Array, " coordinate"], Array]:
+    """Forces that hold the grooves, and their derivatives with every ball in equilibrium."""
     # stiffness of a ball in equilibrium: springs in series
     series = forces.stiffness + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
     reduced = forces.of_groove - jnp.einsum("jin,jkn->ikn", forces.coupling, solve_blocks(series, forces.coupling))
@@ -199,13 +200,13 @@ class _Ring(NamedTuple):
     steps: Int[Array, ""]
 
 
-def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
-    """The minimum of the potential to `RING_TOLERANCE`, from an estimate of the ring's displacement, `ring`, m."""
+def start(problem: CentrifugalProblem, ring: Float[Array, " coordinate"]) -> Start:
+    """The minimum of the potential to `RING_TOLERANCE`, from an estimate of the rings' displacements, `ring`, m."""
     problem = jax.lax.stop_gradient(problem)
     total, count = _scale(problem)
     scale = total / count + problem.centrifugal
     cap = 0.5 * problem.centre_distance
-    if not problem.freedoms:
+    if not ring.size:
         return Start(_equilibrium(problem, problem.groove, scale, cap), ring, jnp.asarray(0))
 
     def evaluate(ring: Array):
@@ -213,10 +214,10 @@ def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
         centre = _equilibrium(problem, groove, scale, cap)
         forces = forces_at(problem, centre, groove)
         force, matrix = _on_ring(problem, forces)
-        balance = force - problem.ring_load
+        balance, matrix = problem.ring_balance(ring, force), problem.ring_stiffness(ring, matrix)
         step = -solve_dense(matrix + SOFTEST * jnp.eye(matrix.shape[0]), balance)
         step = step * jnp.minimum(1.0, cap / jnp.maximum(jnp.max(jnp.abs(step)), 1e-30))
-        energy = problem.multiplicity * jnp.sum(forces.energy) - jnp.sum(problem.ring_load * ring)
+        energy = problem.multiplicity * jnp.sum(forces.energy) + problem.ring_energy(ring)
         small = jnp.max(jnp.abs(balance)) <= RING_TOLERANCE * total
         return centre, step, energy, jnp.sum(balance * step), small
 
@@ -266,9 +267,23 @@ def _scale(problem: CentrifugalProblem) -> tuple[Array, int]:
     return size + 1e-3 * count, count
 
 
-def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
-    """Ring displacements, pressed in rather too deep: Newton on a power 3/2 contracts from there, and a ring that
-    touches no ball has no stiffness.
+def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " coordinate"]:
+    """Displacements of the rings: an outer one that bends begins displaced as a rigid body; the inner one follows."""
+    inner = _inner_estimate(problem)
+    if problem.outer is None:
+        return inner
+    load = dict(zip(problem.freedoms, problem.ring_load, strict=True))
+    in_plane = jnp.stack([load.get(name, jnp.zeros(())) for name in ("radial", "lateral")])
+    amplitudes = LENGTH_UNIT * problem.outer.start(in_plane)
+    along, across = problem.outer.displacement(amplitudes)
+    follow = {"radial": along, "lateral": across}
+    shift = [follow.get(name, jnp.zeros(())) for name in problem.freedoms]
+    return jnp.concatenate([inner + jnp.stack(shift) if shift else inner, amplitudes])
+
+
+def _inner_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
+    """Displacements of the inner ring between round, rigid races, pressed in rather too deep: Newton on a power 3/2
+    contracts from there, and a ring that touches no ball has no stiffness.
 
     Axially from $\\sin\\alpha(\\cos\\alpha_0/\\cos\\alpha - 1)^{3/2} = F/(NK_nBD^{3/2})$ with the axial force that
     would load half the balls (Harris), radially from Sjovall's load distribution.

@@ -40,15 +40,16 @@ class BallGuess(NamedTuple):
     log_load: Float[Array, " ball"]
     angle: Float[Array, " ball"]
     attitude: Float[Array, " ball"]
-    ring: Float[Array, " freedom"]
+    ring: Float[Array, " coordinate"]
+    """Displacements of the inner ring, m, then the amplitudes of an outer one that bends."""
 
 
 class BallPlaces(NamedTuple):
-    """Start of the iteration of balls with more than two contacts: centres and displacements of the ring, m, and loads
-    and contact angles, N and rad, of the bearing without friction."""
+    """Start of the iteration of balls with more than two contacts: centres and displacements of the rings (as in
+    `BallGuess`), m, and loads and contact angles, N and rad, of the bearing without friction."""
 
     centre: Float[Array, "2 ball"]
-    ring: Float[Array, " freedom"]
+    ring: Float[Array, " coordinate"]
     load: Float[Array, "contact ball"]
     angle: Float[Array, "contact ball"]
 
@@ -82,8 +83,9 @@ class BallsState(NamedTuple):
     """Residuals of the two equations of the contacts."""
     rows: tuple[Array, ...]
     """Residuals of the ball's motion, in the order of its unknowns."""
-    on_ring: Float[Array, "freedom ball"]
-    """Contributions of each ball to the forces on the ring's freedoms, N."""
+    on_ring: Float[Array, "row ball"]
+    """Contributions of each ball to the forces on the inner ring's freedoms, N; then the outward force on an outer ring
+    that bends."""
     cage_moment: Float[Array, " ball"] | None
     cage_force: Float[Array, "2 ball"] | None
 

@@ -11,7 +11,7 @@ from jaxtyping import Array, Float
 
 from ...contacts.point_laws import PointFilm
 from ...materials import reduced_modulus
-from ...numerics.arrow import ArrowJacobian, ArrowPoint, assembled, element_tangents, shared_by_elements
+from ...numerics.arrow import ArrowJacobian, ArrowPoint, assembled, element_tangents, seen_by_elements
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results, assemble
 from ..facts import Facts
@@ -56,6 +56,8 @@ def solve_ball(
         system, result = newton_solve(build_lubricated(scene, core), options)
         state = system.at(result.point)
         results, port = _lubricated(scene, system, result, state), _port(scene, system, result, state.film)
+    if system.outer is not None:
+        results = results._replace(outer_ring=system.outer.shape(system.amplitudes(result.point.globals)))
     steps = steps + result.iterations
     lever = system.grooves.lever
     if any(name in TILTS for name in system.freedoms):
@@ -301,7 +303,7 @@ def _port_anew(
 ) -> tuple[Port, Seen]:
     """The reaction and the stiffness of the ring with all its freedoms and all balls, from derivatives of `element`;
     and the third result of that."""
-    values, tangents, seen = element_tangents(element, point.elements, shared_by_elements(point))
+    values, tangents, seen = element_tangents(element, point.elements, seen_by_elements(full, point))
     equations, jacobian = assembled(full, point, values, tangents, jnp.zeros(()))
     force = equations.residual.globals[:5] * full.load_scale() + full.ring.load
     return full.ring.port(jacobian, force, full.load_scale(), freedoms), seen
@@ -315,6 +317,8 @@ def _port(
         every, point = _released(scene, system, result)
         return _port_anew(every, point, every.element, system.freedoms)[0]
     full, point = _released(scene, system, result)
+    if full.outer is not None:
+        return _port_anew(full, point, full.element, system.freedoms)[0]
     # a ring that cannot tilt moves the groove centres only: at given unknowns of the balls the films stay
     kept = None if full.exact else jax.tree.map(lambda values: _wide(values, scene.geometry.n_balls), film)
     jacobian, force = _all_freedoms(full, point, result.jacobian, len(system.freedoms), system.multiplicity, kept)

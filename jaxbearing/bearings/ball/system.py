@@ -11,6 +11,7 @@ from jaxtyping import Array, Float
 from ...numerics.arrow import AbstractArrowSystem
 from ...numerics.convex import anchored
 from ...numerics.safe import safe_norm
+from ..elastic_ring import EQUATION, ElasticRing
 from ..ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
 from .arcs import Arcs, added
 from .groove_motion import RingFrame, inner_arm, length_of, ring_frame
@@ -112,20 +113,26 @@ class Touch(NamedTuple):
 
 class Push(NamedTuple):
     """Forces of the contacts: on the outer ring less those on the inner one, axial and outward, N, and what they
-    contribute to the forces on the ring's freedoms, N."""
+    contribute to the forces on the rings, N: on the freedoms of the inner one, and of a flexible outer ring the outward
+    force."""
 
     axial: Float[Array, " ball"]
     outward: Float[Array, " ball"]
-    on_ring: Float[Array, "freedom ball"]
+    on_ring: Float[Array, "row ball"]
 
 
 class AbstractBallSystem(AbstractArrowSystem):
-    """Balls between two grooved rings; globals: first the displacements of the inner ring.
+    """Balls between two grooved rings; globals: first the displacements of the inner ring, then the amplitudes of the
+    outer one if it bends.
+
+    Ball centres count from the centre of the outer groove at the azimuth of the ball, which moves outwards by the
+    deflection of the ring there. A ball feels the deflection as one number (`local_inputs`), the last of `shared`.
 
     `directions[f]` are the changes of the coordinates of the inner groove (`arcs`; of one arc its centre, axial and
     radial) at every ball for a unit of freedom f, to first order; the lever of the `ring` is R_i. `held_shift`: their
     changes by what the ring is held at, m. `exact`: whether the grooves move with the exact rotation of the ring
-    (`groove_motion`).
+    (`groove_motion`). `out_of_round`: displacement towards each ball of races that are not round, m, and `outer`: the
+    outer ring if it bends; `None` where they are round and rigid.
     """
 
     kinematics: BallKinematics
@@ -139,6 +146,8 @@ class AbstractBallSystem(AbstractArrowSystem):
     gyroscopic: AbstractGyroscopic | None
     couple_share: Float[Array, ""]
     """Part of the gyroscopic couple that acts: 1, less in an easier system."""
+    out_of_round: Float[Array, " ball"] | None
+    outer: ElasticRing | None
     multiplicity: int = eqx.field(static=True)
     """Balls that each ball stands for."""
     attitude: Attitude = eqx.field(static=True)
@@ -153,13 +162,54 @@ class AbstractBallSystem(AbstractArrowSystem):
         """Freedoms of the ring that are unknown."""
         return self.ring.freedoms
 
-    def load_balance(self, unknowns: Float[Array, " freedom"], totals: Float[Array, " freedom"]) -> Array:
-        """Returns the forces of the balls on the unknown freedoms of the ring less the load on these, N.
+    @property
+    def ring_unknowns(self) -> int:
+        """Number of globals that belong to the rings."""
+        return len(self.freedoms) + (0 if self.outer is None else self.outer.modes)
+
+    def ring_names(self) -> tuple[str, ...]:
+        """Names of the equations of both rings."""
+        names = self.ring.equation_names()
+        return names if self.outer is None else (*names, *(EQUATION,) * self.outer.modes)
+
+    def amplitudes(self, globals_: Float[Array, " g"]) -> Float[Array, " mode"]:
+        """The unknowns of a flexible outer ring."""
+        return globals_[len(self.freedoms) : self.ring_unknowns]
+
+    def local_inputs(self, globals_):
+        """With an outer ring that bends, returns the globals without its amplitudes, and its deflection at each ball,
+        m. Returns `None` for a rigid outer ring."""
+        if self.outer is None:
+            return None
+        others = jnp.concatenate([globals_[: len(self.freedoms)], globals_[self.ring_unknowns :]])
+        copied = jnp.broadcast_to(others[:, None], (others.size, self.azimuth.shape[0]))
+        return jnp.concatenate([copied, self.outer.deflection(self.amplitudes(globals_))[None]])
+
+    def gathered(self, globals_, acting):
+        if self.outer is None:
+            return jnp.sum(acting, axis=1)
+        d = len(self.freedoms)
+        totals = jnp.sum(acting, axis=1)
+        return jnp.concatenate([totals[:d], self.outer.pressed(acting[d]), totals[d + 1 :]])
+
+    def ring_balance(self, globals_: Float[Array, " g"], totals: Float[Array, " k"]) -> Float[Array, " row"]:
+        """Returns the forces of the balls on the unknown freedoms of the inner ring less the load on these, N, and the
+        forces on the amplitudes of an outer ring that bends.
 
         A ring that is held so that no ball touches it may float along the others: it is anchored.
         """
-        balance = totals - self.ring.load
-        return balance + anchored(unknowns, ANCHOR * LENGTH_UNIT) if self.ring.asks else balance
+        d = len(self.freedoms)
+        balance = totals[:d] - self.ring.load
+        if self.ring.asks:
+            balance = balance + anchored(globals_[:d], ANCHOR * LENGTH_UNIT)
+        if self.outer is None:
+            return balance
+        bent = self.outer.balance(self.amplitudes(globals_), totals[d : self.ring_unknowns], self.ring.asks)
+        return jnp.concatenate([balance, bent])
+
+    def rings_under(self, factor: Float[Array, ""]) -> tuple[InnerRing, ElasticRing | None]:
+        """Both rings under multiples of their loads."""
+        return self.ring.under(self.ring.load * factor), None if self.outer is None else self.outer.under(factor)
 
     @property
     def arcs(self) -> Arcs:
@@ -179,9 +229,17 @@ class AbstractBallSystem(AbstractArrowSystem):
         """The displaced ring of an `exact` system, for displacements in units of `LENGTH_UNIT`."""
         return ring_frame(self.ring.moved(shift) * self.ring.units[:, None], self.azimuth)
 
+    def from_round(self, centre: Float[Array, "2 ball"], shared: Float[Array, "p ball"]) -> Float[Array, "2 ball"]:
+        """Ball centres (axial, radial), m, counted from the centre of the outer groove, as they are for rings that are
+        round and rigid."""
+        if self.outer is not None:
+            centre = jnp.stack([centre[0], centre[1] + shared[-1]])
+        if self.out_of_round is not None:
+            centre = jnp.stack([centre[0], centre[1] - self.out_of_round])
+        return centre
+
     def inner_arms(self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]) -> tuple[InnerArm, ...]:
-        """From ball centres, counted from the outer groove centre (axial, radial), m, to the centres of each inner
-        arc."""
+        """From ball centres of `from_round`, m, to the centres of each inner arc."""
         if not self.exact:
             arms = [groove - centre for groove in self.arcs.inner_centres(self.groove_centres(shift))]
             return tuple(InnerArm(arm, None, safe_norm(arm[0], arm[1]), None) for arm in arms)
@@ -233,7 +291,7 @@ class AbstractBallSystem(AbstractArrowSystem):
         return self.gyroscopic.sign * jnp.stack(shares)
 
     def reach(
-        self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]
+        self, shared: Float[Array, "p ball"], centre: Float[Array, "2 ball"]
     ) -> tuple[tuple[InnerArm, ...], OnRing]:
         r"""From ball centres, counted from the outer groove centre (axial, radial), m, to the inner arcs' centres;
         and what forces there contribute to those on the ring's freedoms.
@@ -242,6 +300,7 @@ class AbstractBallSystem(AbstractArrowSystem):
         moment times the turning of the groove. To second order the moment is
         $R_i(p_x\cos t\cos\psi - p_r\sin t\cos^2\psi)$.
         """
+        shift, centre = shared[: len(self.freedoms)], self.from_round(centre, shared)
         if not self.exact:
             return self.inner_arms(shift, centre), self._to_first_order
 
@@ -261,9 +320,9 @@ class AbstractBallSystem(AbstractArrowSystem):
 
         return arms, on_ring
 
-    def touch(self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]) -> Touch:
+    def touch(self, shared: Float[Array, "p ball"], centre: Float[Array, "2 ball"]) -> Touch:
         """The contacts of balls whose centres are known, m from the middle of the outer arcs (axial, radial)."""
-        arms, on_ring = self.reach(shift, centre)
+        arms, on_ring = self.reach(shared, centre)
         rests = self.arcs.from_outer(centre)
         apart = jnp.stack([*(arm.length for arm in arms), *(safe_norm(rest[0], rest[1]) for rest in rests)])
         leaning = [*(arm.in_plane for arm in arms), *rests]
@@ -287,7 +346,12 @@ class AbstractBallSystem(AbstractArrowSystem):
             sideways = () if arm.along is None else (load[k] * arm.along / arm.length,)
             forces.append(jnp.stack([axial[k], radial[k], *sideways]))
         (pushed, held), (raised, lowered) = self.arcs.by_race(axial), self.arcs.by_race(radial)
-        return Push(held - pushed, lowered - raised, touch.on_ring(tuple(forces), moment))
+        return Push(held - pushed, lowered - raised, self.on_rings(touch.on_ring(tuple(forces), moment), lowered))
+
+    def on_rings(self, on_ring: Float[Array, "freedom ball"], outward: Float[Array, " ball"]) -> Array:
+        """Contributions to the forces on both rings, N, from those on the inner one, and the outward force on the outer
+        one."""
+        return on_ring if self.outer is None else jnp.concatenate([on_ring, outward[None]])
 
     def _to_first_order(self, forces: tuple[Array, ...], moment: Array) -> Array:
         if not self.freedoms:

@@ -34,6 +34,7 @@ The sign of $F_{C2} - F_{C1}$ in the x balance of the cage differs from the sour
 the source's eq. (32) and action = reaction. The force and the dissipation of an interaction use the same speed.
 """
 
+import dataclasses
 from typing import NamedTuple
 
 import equinox as eqx
@@ -183,9 +184,9 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         per_roller = 2.0 * jnp.pi * EASED_PRESSURE**2 * contact.reduced_radius * contact.length
         heavy = per_roller / contact.reduced_modulus * self.azimuth.shape[0] / 4.0
         factor = jnp.where(path == 1, jnp.maximum(heavy / self.load_scale(), 1.0) ** parameter, 1.0)
-        loads = lambda system: [system.ring.load, *_outer_loads(system)]
-        where = lambda system: (*loads(system), system.laws.entrainment_offset)
-        return eqx.tree_at(where, self, (*(load * factor for load in loads(self)), offset))
+        easier = eqx.tree_at(lambda system: system.laws.entrainment_offset, self, offset)
+        outer = None if self.outer is None else self.outer.under(factor)
+        return dataclasses.replace(easier, ring=self.ring.under(self.ring.load * factor), outer=outer)
 
     @property
     def extra_totals(self) -> int:
@@ -319,13 +320,6 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         assert state.cage_force is not None
         force = jnp.sum(state.cage_force, axis=1)
         return self.land(self.orbit(point.globals[-1]), force[0], force[1])
-
-
-def _outer_loads(system: LubricatedRollerSystem) -> list[Array]:
-    """Given forces on the outer ring, which balance those on the inner one if nothing else holds it."""
-    if system.outer is None or system.outer.ring.loads is None:
-        return []
-    return [system.outer.ring.loads.radial, system.outer.ring.loads.tangential]
 
 
 class DryRollerSystem(AbstractInPlane):

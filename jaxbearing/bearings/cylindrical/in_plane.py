@@ -9,9 +9,8 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ...numerics.arrow import AbstractArrowSystem
-from ...numerics.convex import anchored
-from ..elastic_ring import ElasticRing
-from ..ring import ANCHOR, LENGTH_UNIT, InnerRing
+from ..elastic_ring import EQUATION, ElasticRing
+from ..ring import LENGTH_UNIT, InnerRing
 
 System = TypeVar("System", bound="AbstractInPlane")
 IN_PLANE = ("radial", "lateral")
@@ -83,15 +82,12 @@ class AbstractInPlane(AbstractArrowSystem):
         if self.outer is None:
             return rows
         amplitudes = self.amplitudes(globals_)
-        bent = self.outer.balance(amplitudes, totals[d : d + self.modes])
-        if self.ring.asks:
-            # nothing touches an outer ring that floats between held rollers and its supports
-            bent = bent + anchored(amplitudes, ANCHOR * LENGTH_UNIT)
+        bent = self.outer.balance(amplitudes, totals[d : d + self.modes], self.ring.asks)
         return jnp.concatenate([rows, bent / self.load_scale()])
 
     def ring_names(self) -> tuple[str, ...]:
         """Names of the equations of both rings."""
-        return (*self.ring.equation_names(), *("bending of the outer ring",) * self.modes)
+        return (*self.ring.equation_names(), *(EQUATION,) * self.modes)
 
     def begun(self, ring: Float[Array, " freedom"]) -> Float[Array, " row"]:
         """First guess of the unknowns of both rings, from that of the inner ring on a rigid one."""

@@ -19,7 +19,6 @@ from ...contacts import LineContact, RigidRollingResistance
 from ...lubricants import Lubricant, NoPressureViscosity
 from ...materials import reduced_modulus
 from ...mounting import Fits, PartTemperatures
-from ...numerics.checks import demand
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
 from ...thermal.settings import Thermal
@@ -37,7 +36,15 @@ from ..profile import RollerProfile
 from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
-from ..ring_shape import UNBALANCED, FlexibleRing, InnerRoundness, OuterRoundness
+from ..ring_shape import (
+    FlexibleRing,
+    InnerRoundness,
+    OuterRoundness,
+    refuse_shapes_in_rows,
+    said_of_bending,
+    shaped_parts,
+    unheld_problems,
+)
 from ..row import AbstractRow
 from ..solution import RING_FREEDOMS, LaminaLoads, Solution
 from ..supplied import supply_problems
@@ -152,39 +159,12 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
     def _shape_problems(self, moves: bool) -> Iterator[str | ValueError]:
         """Refusals of parts that cannot be combined with rings that bend or are not round."""
-        for name in self._shaped:
+        for name in shaped_parts(self):
             if self.tilts:
                 yield f"{name}: rollers that tilt or have a profile run between rigid, round rings in this version"
             if moves and name == "outer_ring":
                 yield f"{name}: a run in time has rigid rings in this version; leave out the simulation"
-        ring, load = self.outer_ring, self.operation.radial_load
-        if ring is None or not ring.harmonics or ring.held:
-            return
-        if ring.load_angle is None or load is None:
-            yield (
-                "outer_ring: nothing holds the ring; expected a housing_stiffness, supports, or loads from outside and "
-                "an operation.radial_load that balance each other"
-            )
-            return
-        lateral = self.operation.load("lateral")
-        across = jnp.zeros(()) if lateral is None else jnp.asarray(lateral)
-        unbalanced = ring.unbalanced(jnp.stack([jnp.asarray(load), across]))
-        yield from refusals_of(
-            demand,
-            "outer_ring: the loads on a ring without housing and supports must balance operation.radial_load",
-            unbalanced <= UNBALANCED,
-            lambda: (
-                "outer_ring: the loads on a ring without housing and supports must balance operation.radial_load, got "
-                f"a resultant of {float(unbalanced):.3g} times the load"
-            ),
-        )
-
-    @property
-    def _shaped(self) -> tuple[str, ...]:
-        """Names of the parts that make a ring not rigid or not round."""
-        return tuple(
-            name for name in ("outer_ring", "inner_roundness", "outer_roundness") if getattr(self, name) is not None
-        )
+        yield from unheld_problems(self.outer_ring, self.operation)
 
     def solve_ring(
         self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
@@ -200,7 +180,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
             evenly = self.slips
         elif self.contact is None and not self.unknown_freedoms:
             evenly = False
-        if self._shaped:
+        if shaped_parts(self):
             # rings that bend or are not round are modelled for rollers that carry evenly only
             evenly = True
         if evenly:
@@ -232,8 +212,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     def row(self, expansion: Array) -> AbstractRow:
         from .row import TiltingRow
 
-        if self._shaped:
-            raise ValueError(f"{self._shaped[0]}: a row of a set or of a shaft has rigid, round rings in this version")
+        refuse_shapes_in_rows(self)
         return TiltingRow(self, expansion)
 
     def range_checks(self) -> RangeChecks:
@@ -274,7 +253,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     @property
     def may_tilt(self) -> bool:
         """False where rollers slide or a ring is not rigid or round: they carry evenly along their length."""
-        return not (self.slips or self._shaped)
+        return not (self.slips or shaped_parts(self))
 
     @property
     def skewed(self) -> bool:
@@ -336,11 +315,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
             said.append("geometry.contact_length is not given: the whole roller length carries load")
         if self.slips and self.cage is not None:
             said += self.cage.assumptions()
-        if self.outer_ring is not None and self.outer_ring.harmonics:
-            said.append(
-                "outer_ring: a thin ring that bends in its plane; the stiffness of a housing is uncertain by a factor "
-                "of 2 to 10, which moves the largest load by up to some 20 %"
-            )
+        said += said_of_bending(self.outer_ring)
         if self.slips and self.flange is not None and self.flange.height is None:
             said.append(f"flange.height is not given: assumed {ASSUMED_FLANGE_HEIGHT:.3f} of the roller diameter")
         return tuple(said)

@@ -10,7 +10,7 @@ from ...numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results, assemble
 from ..computed import computed_results
-from ..elastic_ring import ElasticRing
+from ..elastic_ring import ElasticRing, elastic_ring
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..interactions import Costs, Interaction, costs, of_land
@@ -94,12 +94,11 @@ def build_system(
 
 def _elastic_ring(scene: CylindricalRollerBearing, azimuth: Float[Array, " roller"]) -> ElasticRing | None:
     """The outer ring of a scene, if it bends."""
-    part, geometry = scene.outer_ring, scene.geometry
-    if part is None or not part.harmonics:
+    geometry = scene.geometry
+    if scene.outer_ring is None:
         return None
     width = geometry.roller_length if geometry.width is None else geometry.width
-    ring = part.bent_ring(scene.materials.rings, geometry.outer_radius, width)
-    return ElasticRing(ring, jnp.asarray(ring.shapes(azimuth)))
+    return elastic_ring(scene.outer_ring, scene.materials.rings, geometry.outer_radius, width, azimuth)
 
 
 def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> CageParts:

@@ -19,7 +19,7 @@ from ...bearings.rating import Rating
 from ...bearings.warming.settings import WarmUpSimulation
 from ...contacts import PointLaws, Supply
 from ...lubricants import Lubricant
-from ..bearing.build import built, cage, part, seats, solids
+from ..bearing.build import built, cage, part, seats, shapes, solids
 from ..bearing.simulation import simulation, warm_up
 from ..laws import BALL_FILMS, POINT_ROLLING, distributed_traction, thermal_factor
 from ..mixed import mixed_friction
@@ -48,6 +48,7 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
         drag=lambda: part(BallDragSettings, table.drag),
         rating=lambda: part(Rating, table.rating),
         **seats(table),
+        **shapes(table),
         simulation=lambda: _run(table),
     )
 

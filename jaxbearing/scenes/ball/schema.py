@@ -15,6 +15,9 @@ from ..bearing.schema import (
     CageBase,
     CatalogueTable,
     FitsTable,
+    InnerRoundnessTable,
+    OuterRingTable,
+    OuterRoundnessTable,
     RatingTable,
     SupplyTable,
     TemperaturesTable,
@@ -159,6 +162,9 @@ class BallBearingTable(Table):
     temperatures: TemperaturesTable | None = None
     thermal: ThermalTable | None = None
     simulation: BallSimulationTable | None = None
+    outer_ring: OuterRingTable | None = None
+    inner_roundness: InnerRoundnessTable | None = None
+    outer_roundness: OuterRoundnessTable | None = None
 
     @check
     def _flow(self) -> Problems:

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import jax
 
 from ...bearings.cage import AbstractCage
+from ...bearings.ring_shape import FlexibleRing, InnerRoundness, OuterRoundness
 from ...materials import Material
 from ...mounting import Fits, PartTemperatures
 from ...numerics.checks import STAND_IN
@@ -94,6 +95,15 @@ def seats(table: Any) -> dict[str, Callable[[], Any]]:
         "fits": lambda: None if table.fits is None else _fits(table.fits),
         "temperatures": lambda: part(PartTemperatures, table.temperatures),
         "thermal": lambda: part(Thermal, table.thermal, exclude_none=True),
+    }
+
+
+def shapes(table: Any) -> dict[str, Callable[[], Any]]:
+    """The parts of a bearing whose rings bend or are not round, as `built` takes them."""
+    return {
+        "outer_ring": lambda: part(FlexibleRing, table.outer_ring),
+        "inner_roundness": lambda: part(InnerRoundness, table.inner_roundness),
+        "outer_roundness": lambda: part(OuterRoundness, table.outer_roundness),
     }
 
 

@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar
 from ...bearings.cage import AbstractCage
 from ...bearings.operation import AbstractOperation, HeldDisplacement
 from ...bearings.rating import Rating
+from ...bearings.ring_shape import FlexibleRing, InnerRoundness, OuterRoundness
 from ...contacts.oil_supply import GIVEN, Supply
 from ...contacts.rolling_heating import AIHARA
 from ...makers.catalogue import Catalogue
@@ -98,6 +99,18 @@ class ThermalTable(table_of(Thermal)):
     capacity: CapacityTable | None = None
     factor: ConductanceFactorTable | None = None
     share: ShareTable | None = None
+
+
+class OuterRingTable(table_of(FlexibleRing)):
+    """An outer ring that bends; see `bearings.ring_shape.FlexibleRing`."""
+
+
+class InnerRoundnessTable(table_of(InnerRoundness)):
+    """Shape of the inner raceway; see `bearings.ring_shape.AbstractRoundness`."""
+
+
+class OuterRoundnessTable(table_of(OuterRoundness)):
+    """Shape of the outer raceway; see `bearings.ring_shape.AbstractRoundness`."""
 
 
 class RatingTable(table_of(Rating)):

@@ -9,9 +9,8 @@ from ...bearings.motion.settings import Simulation
 from ...bearings.operation import Operation
 from ...bearings.parts import Drag, Materials
 from ...bearings.rating import Rating
-from ...bearings.ring_shape import FlexibleRing, InnerRoundness, OuterRoundness
 from ...bearings.warming.settings import WarmUpSimulation
-from ..bearing.build import built, cage, part, seats, solids
+from ..bearing.build import built, cage, part, seats, shapes, solids
 from ..bearing.profile import roller_profile
 from ..bearing.simulation import simulation, warm_up
 from ..contact_laws import contact_laws
@@ -39,9 +38,7 @@ def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRoll
         rating=lambda: part(Rating, table.rating),
         **seats(table),
         profile=lambda: roller_profile(table.profile),
-        outer_ring=lambda: part(FlexibleRing, table.outer_ring),
-        inner_roundness=lambda: part(InnerRoundness, table.inner_roundness),
-        outer_roundness=lambda: part(OuterRoundness, table.outer_roundness),
+        **shapes(table),
     )
 
 

@@ -6,12 +6,14 @@ from typing import Annotated, ClassVar, Literal
 from ...bearings.cylindrical.geometry import RollerCage, RollerFlange, RollerGeometry
 from ...bearings.operation import Operation
 from ...bearings.parts import ContactLaws, Drag
-from ...bearings.ring_shape import FlexibleRing, InnerRoundness, OuterRoundness
 from ..bearing.profile import ProfileTable
 from ..bearing.schema import (
     CageBase,
     CatalogueTable,
     FitsTable,
+    InnerRoundnessTable,
+    OuterRingTable,
+    OuterRoundnessTable,
     RatingTable,
     SupplyTable,
     TemperaturesTable,
@@ -105,18 +107,6 @@ class OperationTable(operation_table(Operation)):
     """See `bearings.operation.Operation`."""
 
     needs: ClassVar[tuple[str, ...]] = ("radial_load",)
-
-
-class OuterRingTable(table_of(FlexibleRing)):
-    """See `bearings.ring_shape.FlexibleRing`."""
-
-
-class InnerRoundnessTable(table_of(InnerRoundness)):
-    """See `bearings.ring_shape.AbstractRoundness`."""
-
-
-class OuterRoundnessTable(table_of(OuterRoundness)):
-    """See `bearings.ring_shape.AbstractRoundness`."""
 
 
 class CylindricalRollerTable(Table):
