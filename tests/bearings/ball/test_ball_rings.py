@@ -222,7 +222,7 @@ def test_reaction_is_the_load():
     free = deep_groove(radial_load_lateral="0 N", moment_lateral="0 N*m")
     scene = dataclasses.replace(on_housing(free), outer_roundness=lobes(OuterRoundness, 2, 3e-6, 0.3))
     solution = jb.solve(scene)
-    held = jb.reaction(scene, [float(getattr(solution.ring, name)) for name in RING_FREEDOMS], tilt="exact")
+    held = jb.reaction(scene, [float(getattr(solution.ring, name)) for name in RING_FREEDOMS], at="ring")
     np.testing.assert_allclose(held.force, [500.0, 3e3, 0.0, 5.0, 0.0], rtol=1e-8, atol=1e-4)
     np.testing.assert_allclose(
         held.stiffness, solution.stiffness, rtol=1e-6, atol=1e-9 * np.max(np.abs(held.stiffness))
