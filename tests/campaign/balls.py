@@ -131,7 +131,10 @@ def ball_numbers(v: Numbers, scene: Any) -> Numbers:
     return numbers
 
 
-def ball_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:
+def ball_balances(
+    scene: Any, n: Numbers, r: Results, opening: np.ndarray | float = 0.0
+) -> dict[str, tuple[np.ndarray, float]]:
+    """Balances of balls and inner ring. **Arguments:** by how much the outer race has moved outwards, m."""
     inner, outer = r["elements.load_inner"], r["elements.load_outer"]
     cosine, sine = np.cos(r["elements.azimuth"]), np.sin(r["elements.azimuth"])
     mass = n["materials.balls.density"] * np.pi / 6.0 * n["geometry.ball_diameter"] ** 3
@@ -148,7 +151,7 @@ def ball_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndar
     if scene.kinematics.gyroscopic is not None or not places_known(scene):
         # its friction stands in all balances of forces; without the places of the balls there are none
         return found
-    place, fits = _placed(scene, n, r)
+    place, fits = _placed(scene, n, r, opening)
     # a tilted ring is displaced along the orbit too; with films the printed loads are those in the balls' half-planes
     length = np.linalg.norm(place.arm if scene.contact is None else place.arm[:2], axis=0)
     pushed = inner * place.arm / length
@@ -188,7 +191,9 @@ class Placed(NamedTuple):
     lever: np.ndarray
 
 
-def _placed(scene: Any, n: Numbers, r: Results) -> tuple[Placed, dict[str, tuple[np.ndarray, float]]]:
+def _placed(
+    scene: Any, n: Numbers, r: Results, opening: np.ndarray | float
+) -> tuple[Placed, dict[str, tuple[np.ndarray, float]]]:
     """Where the inner grooves are, seen from the balls; groove centres, balls and elastic approaches close at every
     loaded ball; Hertz's pressures."""
     diameter, pitch = n["geometry.ball_diameter"], n["geometry.pitch_diameter"]
@@ -225,7 +230,8 @@ def _placed(scene: Any, n: Numbers, r: Results) -> tuple[Placed, dict[str, tuple
         found[f"Hertz, {name}"] = (np.where(largest_of(load) > 1.0, error, 0.0), 1e-6)
     at_outer = r["elements.contact_angle_outer"]
     # the ball: along the axis from the middle plane of the outer groove, and from the axis
-    ball = reach["outer"] * np.sin(at_outer), (lever - distance * free)[:, None] + reach["outer"] * np.cos(at_outer)
+    ball = [reach["outer"] * np.sin(at_outer), (lever - distance * free)[:, None] + reach["outer"] * np.cos(at_outer)]
+    ball[1] = ball[1] + opening
     axial, radial, tilt = (r[f"ring.{name}"][:, None] for name in ("axial", "radial", "tilt"))
     cosine, sine = np.cos(r["elements.azimuth"]), np.sin(r["elements.azimuth"])
     middle = axial - aligned[:, None]

@@ -1,20 +1,21 @@
-"""Random cylindrical roller bearings whose outer ring bends or is not round."""
+"""Random cylindrical roller and ball bearings whose outer ring bends or is not round."""
 
 import dataclasses
 from typing import Any
 
 import numpy as np
-from campaign.bearings import CRAWL, MIRROR, YIELDING, scaled
+from campaign import balls
+from campaign.bearings import CRAWL, MIRROR, OIL, YIELDING, scaled
 from campaign.draws import Numbers, Range, even, log
 from campaign.rollers import DRY, LUBRICATED, MEAN, roller_balances, roller_numbers, structure
 from campaign.structure import Results, Structure
 
 RIM: dict[str, Range] = {"rim": log(0.3, 2.0), "wide": even(1.0, 2.0)}
-"""Thickness over the roller diameter, width over the roller length."""
+"""Thickness over the diameter of a rolling element, width over the roller length or the ball diameter."""
 HOUSING: dict[str, Range] = {"housing": log(1e9, 1e13), "glued": log(1e7, 1e12, zero=0.5)}
 """N/m^2, all round and along the circumference."""
 OVAL: dict[str, Range] = {"lobe": even(-2e-3, 2e-3, zero=0.1)}
-"""Height over the roller diameter."""
+"""Height over the diameter of a rolling element."""
 SUPPORTS: dict[str, Range] = {
     "support": log(1e8, 1e10),
     "spread": even(0.25, 1.2),
@@ -30,14 +31,13 @@ ELASTIC = (MIRROR, YIELDING, CRAWL, scaled(LENGTHS))
 TABLES: dict[str, Any] = {"outer_ring.thickness": "8 mm", "outer_ring.width": "20 mm", "outer_ring.harmonics": "6"}
 
 
-def ring_numbers(v: Numbers, scene: Any) -> Numbers:
-    """Numbers of the ring and of the lobe, as far as the scene has them."""
-    numbers = roller_numbers(v, scene)
+def ring_numbers(numbers: Numbers, v: Numbers, scene: Any) -> Numbers:
+    """Numbers of the ring and of the lobe, as far as the scene has them, beside those of the rigid bearing."""
     diameter = v["diameter"]
     column = lambda values: np.asarray(values)[:, None]
     numbers |= {
         "outer_ring.thickness": v["rim"] * diameter,
-        "outer_ring.width": v["wide"] * numbers["geometry.roller_length"],
+        "outer_ring.width": v["wide"] * numbers.get("geometry.roller_length", diameter),
     }
     if scene.outer_ring.housing_stiffness is not None:
         numbers |= {"outer_ring.housing_stiffness": v["housing"], "outer_ring.housing_shear_stiffness": v["glued"]}
@@ -58,17 +58,30 @@ def _shapes(order: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarra
     return np.cos(turned), np.sin(turned)
 
 
-def ring_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:
-    """The amplitudes balance what bends the ring, written again from the printed loads; rings and rollers fit."""
-    order, azimuth = r["outer_ring.order"][0], r["elements.azimuth"]
-    cosines, sines = r["outer_ring.cosines"], r["outer_ring.sines"]
-    at = lambda angle: np.einsum("fcn,fcnj->cj", np.stack([cosines, sines]), np.stack(_shapes(order, angle)))
-    opening = at(azimuth)
+def _deflection(r: Results, angle: np.ndarray) -> np.ndarray:
+    """Outward deflection at angles, m."""
+    amplitudes = np.stack([r["outer_ring.cosines"], r["outer_ring.sines"]])
+    return np.einsum("fcn,fcnj->cj", amplitudes, np.stack(_shapes(r["outer_ring.order"][0], angle)))
+
+
+def opening_of(scene: Any, n: Numbers, r: Results) -> np.ndarray:
+    """By how much the outer race has moved outwards at each rolling element, m."""
+    azimuth = r["elements.azimuth"]
+    opening = _deflection(r, azimuth)
     if scene.outer_roundness is not None:
         opening = opening + n["outer_roundness.lobe_height"] * np.cos(2.0 * azimuth)
-    rigid = roller_balances(scene, n, r, opening)
+    return opening
+
+
+def ring_balances(
+    scene: Any, n: Numbers, r: Results, raceway: np.ndarray, load: np.ndarray
+) -> dict[str, tuple[np.ndarray, float]]:
+    """The amplitudes balance what bends the ring, written again from the printed loads. **Arguments:** diameter of the
+    race, m, and the outward force of each rolling element, N."""
+    order, azimuth = r["outer_ring.order"][0], r["elements.azimuth"]
+    cosines, sines = r["outer_ring.cosines"], r["outer_ring.sines"]
     height, width = n["outer_ring.thickness"], n["outer_ring.width"]
-    radius = 0.5 * (n["geometry.pitch_diameter"] + n["geometry.roller_diameter"] + height)
+    radius = 0.5 * (raceway + height)
     modulus = n["materials.rings.youngs_modulus"]
     bending, axial = modulus * width * height**3 / 12.0, modulus * width * height
     share = bending / (axial * radius**2)
@@ -79,13 +92,14 @@ def ring_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndar
         each = each + n["outer_ring.housing_stiffness"][:, None]
         each = each + n["outer_ring.housing_shear_stiffness"][:, None] * along
     stiffness = np.pi * radius[:, None] * each * np.where(order == 0, 2.0, 1.0)
-    load = r["elements.load_outer"]
     found = {}
     worst = np.zeros(len(load))
     held = [np.zeros_like(cosines), np.zeros_like(sines)]
     if scene.outer_ring.support_angle is not None:
         angle = n["outer_ring.support_angle"]
-        forces = n["outer_ring.support_stiffness"] * np.maximum(at(angle) - n["outer_ring.support_gap"], 0.0)
+        forces = n["outer_ring.support_stiffness"] * np.maximum(
+            _deflection(r, angle) - n["outer_ring.support_gap"], 0.0
+        )
         off = np.max(np.abs(forces - r["outer_ring.support_forces"]), axis=1)
         found["forces of the supports"] = (off / np.sum(load, axis=1), 1e-6)
         held = [np.einsum("cnm,cm->cn", shape, r["outer_ring.support_forces"]) for shape in _shapes(order, angle)]
@@ -93,18 +107,52 @@ def ring_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndar
         row = stiffness * part + also - np.einsum("cnj,cj->cn", shape, load)
         worst = np.maximum(worst, np.max(np.abs(row), axis=1))
     found["the ring is in balance"] = (worst / np.sum(load, axis=1), 1e-8)
-    return rigid | found
+    return found
+
+
+def roller_ring_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:
+    """Rings and rollers fit, and both rings are in balance."""
+    raceway = n["geometry.pitch_diameter"] + n["geometry.roller_diameter"]
+    rigid = roller_balances(scene, n, r, opening_of(scene, n, r))
+    return rigid | ring_balances(scene, n, r, raceway, r["elements.load_outer"])
+
+
+def ball_ring_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:
+    """Rings and balls fit, and both rings are in balance."""
+    diameter, groove = n["geometry.ball_diameter"], n["geometry.conformity_outer"]
+    distance = (n["geometry.conformity_inner"] + groove - 1.0) * diameter
+    free = 1.0 - n["geometry.diametral_clearance"] / (2.0 * distance)
+    bottom = n["geometry.pitch_diameter"] + 2.0 * diameter * (groove - (groove - 0.5) * free)
+    load = r["elements.load_outer"] * np.cos(r["elements.contact_angle_outer"])
+    rigid = balls.ball_balances(scene, n, r, opening_of(scene, n, r))
+    return rigid | ring_balances(scene, n, r, bottom, load)
 
 
 def bent(name: str, count: int, changes: dict[str, Any], ranges: dict[str, Range], **kwargs: Any) -> Structure:
     base = structure(name, count, {**TABLES, **changes}, {**RIM, **ranges}, **kwargs)
     return dataclasses.replace(
         base,
-        numbers=lambda v: ring_numbers(v, base.scene),
-        balances=lambda n, r: ring_balances(base.scene, n, r),
+        numbers=lambda v: ring_numbers(roller_numbers(v, base.scene), v, base.scene),
+        balances=lambda n, r: roller_ring_balances(base.scene, n, r),
     )
 
 
+def bent_balls(name: str, count: int, changes: dict[str, Any], ranges: dict[str, Range], **kwargs: Any) -> Structure:
+    base = balls.structure(name, "deep_groove_6205", count, {**TABLES, **changes}, {**RIM, **ranges}, **kwargs)
+    return dataclasses.replace(
+        base,
+        numbers=lambda v: ring_numbers(balls.ball_numbers(v, base.scene), v, base.scene),
+        balances=lambda n, r: ball_ring_balances(base.scene, n, r),
+    )
+
+
+BALLS = (MIRROR, CRAWL, scaled(LENGTHS, floor=0.05))
+FILMS = {
+    "oil.name": "mobil_jet_ii",
+    "operation.oil_temperature": "60 degC",
+    "operation.moment": "none",
+    "contact.film": "hamrock_dowson",
+}
 LOBE = {
     "outer_roundness.lobe_order": "2",
     "outer_roundness.lobe_height": "1 um",
@@ -137,5 +185,18 @@ STRUCTURES = [
         10,
         {**MEAN, "outer_ring.housing_stiffness": "1e10 N/m^2"},
         {**LUBRICATED, **HOUSING},
+    ),
+    bent_balls(
+        "dry, flexible outer ring, housing, oval race, tilt free",
+        9,
+        {"outer_ring.housing_stiffness": "1e10 N/m^2", **LOBE},
+        {**HOUSING, **OVAL},
+        twins=BALLS,
+    ),
+    bent_balls(
+        "films, flexible outer ring, housing",
+        8,
+        {**FILMS, "outer_ring.housing_stiffness": "1e10 N/m^2"},
+        {**OIL, **HOUSING},
     ),
 ]
