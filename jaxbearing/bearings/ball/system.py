@@ -8,11 +8,10 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ...numerics.arrow import AbstractArrowSystem
-from ...numerics.convex import anchored
 from ...numerics.safe import safe_norm
-from ..elastic_ring import EQUATION, ElasticRing
-from ..ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
+from ..elastic_ring import ElasticRing
+from ..ring import LENGTH_UNIT, TILTS, InnerRing
+from ..rings import AbstractBetweenRings
 from .arcs import Arcs, added
 from .groove_motion import RingFrame, inner_arm, length_of, ring_frame
 from .gyroscopic import NO_LOAD, AbstractGyroscopic
@@ -121,12 +120,11 @@ class Push(NamedTuple):
     on_ring: Float[Array, "row ball"]
 
 
-class AbstractBallSystem(AbstractArrowSystem):
-    """Balls between two grooved rings; globals: first the displacements of the inner ring, then the amplitudes of the
-    outer one if it bends.
+class AbstractBallSystem(AbstractBetweenRings):
+    """Balls between two grooved rings.
 
     Ball centres count from the centre of the outer groove at the azimuth of the ball, which moves outwards by the
-    deflection of the ring there. A ball feels the deflection as one number (`local_inputs`), the last of `shared`.
+    deflection of the ring there.
 
     `directions[f]` are the changes of the coordinates of the inner groove (`arcs`; of one arc its centre, axial and
     radial) at every ball for a unit of freedom f, to first order; the lever of the `ring` is R_i. `held_shift`: their
@@ -156,60 +154,6 @@ class AbstractBallSystem(AbstractArrowSystem):
     @property
     def ball_count(self) -> int:
         return self.multiplicity * self.azimuth.shape[0]
-
-    @property
-    def freedoms(self) -> tuple[str, ...]:
-        """Freedoms of the ring that are unknown."""
-        return self.ring.freedoms
-
-    @property
-    def ring_unknowns(self) -> int:
-        """Number of globals that belong to the rings."""
-        return len(self.freedoms) + (0 if self.outer is None else self.outer.modes)
-
-    def ring_names(self) -> tuple[str, ...]:
-        """Names of the equations of both rings."""
-        names = self.ring.equation_names()
-        return names if self.outer is None else (*names, *(EQUATION,) * self.outer.modes)
-
-    def amplitudes(self, globals_: Float[Array, " g"]) -> Float[Array, " mode"]:
-        """The unknowns of a flexible outer ring."""
-        return globals_[len(self.freedoms) : self.ring_unknowns]
-
-    def local_inputs(self, globals_):
-        """With an outer ring that bends, returns the globals without its amplitudes, and its deflection at each ball,
-        m. Returns `None` for a rigid outer ring."""
-        if self.outer is None:
-            return None
-        others = jnp.concatenate([globals_[: len(self.freedoms)], globals_[self.ring_unknowns :]])
-        copied = jnp.broadcast_to(others[:, None], (others.size, self.azimuth.shape[0]))
-        return jnp.concatenate([copied, self.outer.deflection(self.amplitudes(globals_))[None]])
-
-    def gathered(self, globals_, acting):
-        if self.outer is None:
-            return jnp.sum(acting, axis=1)
-        d = len(self.freedoms)
-        totals = jnp.sum(acting, axis=1)
-        return jnp.concatenate([totals[:d], self.outer.pressed(acting[d]), totals[d + 1 :]])
-
-    def ring_balance(self, globals_: Float[Array, " g"], totals: Float[Array, " k"]) -> Float[Array, " row"]:
-        """Returns the forces of the balls on the unknown freedoms of the inner ring less the load on these, N, and the
-        forces on the amplitudes of an outer ring that bends.
-
-        A ring that is held so that no ball touches it may float along the others: it is anchored.
-        """
-        d = len(self.freedoms)
-        balance = totals[:d] - self.ring.load
-        if self.ring.asks:
-            balance = balance + anchored(globals_[:d], ANCHOR * LENGTH_UNIT)
-        if self.outer is None:
-            return balance
-        bent = self.outer.balance(self.amplitudes(globals_), totals[d : self.ring_unknowns], self.ring.asks)
-        return jnp.concatenate([balance, bent])
-
-    def rings_under(self, factor: Float[Array, ""]) -> tuple[InnerRing, ElasticRing | None]:
-        """Both rings under multiples of their loads."""
-        return self.ring.under(self.ring.load * factor), None if self.outer is None else self.outer.under(factor)
 
     @property
     def arcs(self) -> Arcs:
@@ -347,11 +291,6 @@ class AbstractBallSystem(AbstractArrowSystem):
             forces.append(jnp.stack([axial[k], radial[k], *sideways]))
         (pushed, held), (raised, lowered) = self.arcs.by_race(axial), self.arcs.by_race(radial)
         return Push(held - pushed, lowered - raised, self.on_rings(touch.on_ring(tuple(forces), moment), lowered))
-
-    def on_rings(self, on_ring: Float[Array, "freedom ball"], outward: Float[Array, " ball"]) -> Array:
-        """Contributions to the forces on both rings, N, from those on the inner one, and the outward force on the outer
-        one."""
-        return on_ring if self.outer is None else jnp.concatenate([on_ring, outward[None]])
 
     def _to_first_order(self, forces: tuple[Array, ...], moment: Array) -> Array:
         if not self.freedoms:

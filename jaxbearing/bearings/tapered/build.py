@@ -8,9 +8,11 @@ from jaxtyping import Array, Float
 
 from ...contacts import StraightLine, palmgren_stiffness
 from ...materials import reduced_modulus
+from ..elastic_ring import ElasticRing, elastic_ring
 from ..parts import azimuths
 from ..profile import pressed_load
 from ..ring import InnerRing, inner_ring
+from ..ring_shape import shaped_parts
 from .geometry import TaperedGeometry
 from .scene import TaperedOperation, TaperedRollerBearing
 from .system import Inertia, TaperedForm, TaperedSystem
@@ -97,7 +99,7 @@ def ring_columns(azimuth: Float[Array, " roller"], lever: Array, load_position: 
 def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) -> TaperedSystem:
     """The equations of a scene with its own ring, or with another one and then all rollers."""
     geometry, operation = scene.geometry, scene.operation
-    azimuth = azimuths(geometry, geometry.n_rollers, operation.symmetric and ring is None)
+    azimuth = azimuths(geometry, geometry.n_rollers, operation.symmetric and not shaped_parts(scene) and ring is None)
     lever = geometry.apex_distance
     columns = ring_columns(azimuth, lever, jnp.asarray(operation.load_position))
     if ring is None:
@@ -115,6 +117,8 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
         columns=ring.of_unknown(columns),
         held=held if ring.expansion is None else held.at[1].add(ring.expansion),
         ring=ring,
+        outer=_elastic_ring(scene, azimuth),
+        out_of_round=_out_of_round(scene, azimuth),
         closing=scene.closing,
         guess=None,
         seated=None,
@@ -123,6 +127,28 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
     if not ring.asks:
         return system
     return dataclasses.replace(system, ring=ring.asking(_held_load(system, stiffness)))
+
+
+def _elastic_ring(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"]) -> ElasticRing | None:
+    """The cup of a scene, if it bends."""
+    geometry = scene.geometry
+    if scene.outer_ring is None:
+        return None
+    width = geometry.roller_length if geometry.width is None else geometry.width
+    return elastic_ring(scene.outer_ring, scene.materials.rings, 0.5 * scene.raceway_diameters[1], width, azimuth)
+
+
+def _out_of_round(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"]) -> Float[Array, "2 roller"] | None:
+    """What raceways that are not round add to the approaches of inner and outer race, m; `None` if they are round."""
+    inner, outer = scene.inner_roundness, scene.outer_roundness
+    if inner is None and outer is None:
+        return None
+    nothing = jnp.zeros_like(azimuth)
+    closing = nothing if inner is None else inner.deviation(azimuth) * jnp.cos(scene.geometry.cone_angle)
+    opening = (
+        nothing if outer is None else outer.deviation(azimuth) * jnp.cos(jnp.asarray(scene.geometry.contact_angle))
+    )
+    return jnp.stack([closing, -opening])
 
 
 def _held_load(system: TaperedSystem, stiffness: Array) -> Float[Array, ""]:

@@ -37,6 +37,14 @@ from ..profile import RollerProfile
 from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
+from ..ring_shape import (
+    FlexibleRing,
+    InnerRoundness,
+    OuterRoundness,
+    refuse_shapes_in_rows,
+    said_of_bending,
+    unheld_problems,
+)
 from ..row import AbstractRow
 from ..solution import LaminaLoads, Solution
 from ..supplied import supply_problems
@@ -84,6 +92,8 @@ class TaperedRollerBearing(AbstractBearing):
     - `drag`: of the oil on the orbiting rollers.
     - `profile`: without one rollers are straight, and contacts integrated in closed form.
     - `fits`, `temperatures`: seats of the rings and temperatures of the parts.
+    - `outer_ring`: a cup that bends in its plane; `None`: it is rigid. `inner_roundness`, `outer_roundness`: raceways
+      that are not round, standing still relative to the load.
     - `closing`: what growth adds to the approaches of inner race, outer race and rib, m (`mounting.closing`); a
       scene that has seats makes it.
 
@@ -108,6 +118,9 @@ class TaperedRollerBearing(AbstractBearing):
     simulation: WarmUpSimulation | None = None
     oil_temperatures: OilTemperatures | None = None
     closing: Float[Array, "3"] | None = None
+    outer_ring: FlexibleRing | None = None
+    inner_roundness: InnerRoundness | None = None
+    outer_roundness: OuterRoundness | None = None
 
     def __check_init__(self):
         refuse_all(self._problems())
@@ -116,6 +129,7 @@ class TaperedRollerBearing(AbstractBearing):
         yield from mounting_problems(self)
         yield from thermal_problems(self)
         yield from supply_problems(self)
+        yield from unheld_problems(self.outer_ring, self.operation)
         if self.contact is None:
             if self.rib is not None:
                 yield "contact: a scene with laws of the rib needs those of the raceways"
@@ -156,6 +170,7 @@ class TaperedRollerBearing(AbstractBearing):
     def row(self, expansion: Array) -> AbstractRow:
         from .row import TaperedRow
 
+        refuse_shapes_in_rows(self)
         return TaperedRow(self, expansion)
 
     def range_checks(self) -> RangeChecks:
@@ -223,7 +238,7 @@ class TaperedRollerBearing(AbstractBearing):
 
     def assumptions(self) -> tuple[str, ...]:
         """Notes for the user: assumptions of the model, and uses for which its data were not made."""
-        said = self.geometry.assumptions()
+        said = self.geometry.assumptions() + said_of_bending(self.outer_ring)
         if self.contact is not None and self.oil is not None:
             said += [f"oil: {note}" for note in self.oil.notes]
             laws = (self.contact.traction, None if self.rib is None else self.rib.traction)

@@ -59,10 +59,13 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
     if scene.contact is not None:
         friction = tapered_friction(scene, state)
         result = _with_nested(result, friction, options)
+    results = _results(scene, system, result, state, friction)
+    if system.outer is not None:
+        results = results._replace(outer_ring=system.outer.shape(system.amplitudes(result.point.globals)))
     return assemble(
         scene,
         result,
-        _results(scene, system, result, state, friction),
+        results,
         system.ring.displacement(result.point.globals),
         _port(scene, system, result),
         failure_causes=_reasons(scene, asked.inertia) if _bounded(scene, ring) else {},
@@ -351,5 +354,5 @@ def _port(scene: TaperedRollerBearing, system: TaperedSystem, result: NewtonResu
     elements = jnp.broadcast_to(result.point.elements, (3, scene.geometry.n_rollers))
     point = ArrowPoint(elements, system.ring.released_unknowns(result.point.globals))
     equations, jacobian = linearize(full, point)
-    force = equations.residual.globals * full.load_scale() + full.ring.load
+    force = equations.residual.globals[:5] * full.load_scale() + full.ring.load
     return full.ring.port(jacobian, force, full.load_scale(), system.freedoms)

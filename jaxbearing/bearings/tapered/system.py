@@ -16,6 +16,9 @@ M_g\phi] - F\cdot q$, with $u_r$ outwards at the centre of mass: the rows are th
 moments about the big end's centre (the source takes the contacts' about it and the rib's lever about the centre of
 mass: its moment row is off by $s_c(Q_i - Q_o)$).
 
+A cup that bends moves its raceway outwards by w at a roller, which takes $w\cos\alpha_o$ from $f_o$; the roller presses
+it outwards by $Q_o\cos\alpha_o$. Deviations of the raceways' radii act in the same way.
+
 A roller that nothing touches has no place, nor has a cone that touches no roller. Each is held by a spring of `ANCHOR`
 from where it is, which adds to the Jacobian and nothing to the balances.
 """
@@ -29,11 +32,13 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
 from ...contacts import AbstractTiltedLine
-from ...numerics.arrow import ArrowPoint
+from ...numerics.arrow import ArrowPoint, seen_by_elements
 from ...numerics.batching import in_turn
 from ...numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
 from ...numerics.safe import positive_power
+from ..elastic_ring import ElasticRing
 from ..ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
+from ..rings import AbstractBetweenRings
 
 LOAD_FLOOR = 1e-3
 """Added to the scale of loads, N."""
@@ -92,7 +97,7 @@ class TaperedState(NamedTuple):
     flange_load: Float[Array, " roller"]
 
 
-class TaperedSystem(AbstractConvexArrow):
+class TaperedSystem(AbstractBetweenRings, AbstractConvexArrow):
     """See the module. Unknowns are lengths in units of 10 um: phi times the roller length, ring tilts times d.
 
     `columns[f]` are (Da, Dr, t) at every roller for a unit of freedom f, `held` those of what the ring
@@ -106,17 +111,16 @@ class TaperedSystem(AbstractConvexArrow):
     columns: Float[Array, "freedom 3 roller"]
     held: Float[Array, "3 roller"]
     ring: InnerRing
+    outer: ElasticRing | None
+    """The cup if it bends; `None`: it is rigid."""
+    out_of_round: Float[Array, "2 roller"] | None
+    """What raceways that are not round add to the approaches of inner and outer race, m; `None`: they are round."""
     guess: ArrowPoint | None
     seated: ArrowPoint | None
     """First guess at parameter 1 of the homotopy."""
     multiplicity: int = eqx.field(static=True)
     closing: Float[Array, "3"] | None = None
     """Growth adds these lengths to the approaches of inner race, outer race and rib, m."""
-
-    @property
-    def freedoms(self) -> tuple[str, ...]:
-        """Freedoms of the ring that are unknown."""
-        return self.ring.freedoms
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -140,16 +144,18 @@ class TaperedSystem(AbstractConvexArrow):
 
     def equation_names(self) -> tuple[str, ...]:
         own = ("force balance along a roller", "force balance across a roller", "moment balance of a roller")
-        return (*own, *self.ring.equation_names())
+        return (*own, *self.ring_names())
 
     def step_caps(self) -> ArrowPoint:
         cap = LONGEST_STEP / LENGTH_UNIT
-        return ArrowPoint(jnp.full((3, 1), cap), jnp.full(len(self.freedoms), cap))
+        return ArrowPoint(jnp.full((3, 1), cap), jnp.full(self.ring_unknowns, cap))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        """Limits of the search for an equilibrium; of the ring the apex distance, or the largest tilt."""
+        """Limits of the search for an equilibrium; of the rings the apex distance, or the largest tilt."""
         away = self.form.apex_distance / LENGTH_UNIT
         ring = self.ring.of_each(lambda name: MOST_TILT * away if name in TILTS else away)
+        if self.outer is not None:
+            ring = jnp.concatenate([ring, jnp.full(self.outer.modes, away)])
         high = ArrowPoint(jnp.full((3, 1), FARTHEST / LENGTH_UNIT), ring)
         return ArrowPoint(-high.elements, -high.globals), high
 
@@ -161,11 +167,12 @@ class TaperedSystem(AbstractConvexArrow):
             # towards each roller, as far as an axial displacement would bring the cone
             pressed = self.pressed(self.held) / jnp.sin(self.form.cone_angle)
             axial = jnp.maximum(pressed, 2e-6) / LENGTH_UNIT
-            return ArrowPoint(jnp.stack([0.9 * axial, 0.05 * axial, 0.0 * axial]), jnp.zeros(0))
+            return ArrowPoint(jnp.stack([0.9 * axial, 0.05 * axial, 0.0 * axial]), jnp.zeros(self.ring_unknowns))
         share = self.load_scale() / (self.roller_count * jnp.sin(self.form.cup_angle))
         even = (share / (self.line.stiffness * self.line.length)) ** 0.9
         axial = jnp.maximum(2.0 * even / jnp.sin(self.form.cone_angle), 2e-6) / LENGTH_UNIT
         ring = self.ring.of_each(lambda name: axial if name == "axial" else 0.0)
+        ring = ring if self.outer is None else jnp.concatenate([ring, jnp.zeros(self.outer.modes)])
         ones = jnp.ones(self.held.shape[1])
         return ArrowPoint(jnp.stack([0.9 * axial * ones, 0.05 * axial * ones, 0.0 * ones]), ring)
 
@@ -177,11 +184,11 @@ class TaperedSystem(AbstractConvexArrow):
         state = self.state(unknowns, shared)
         balance = self.balance(state) + anchored(unknowns, ANCHOR * LENGTH_UNIT)
         totals = self.multiplicity * jnp.einsum("fcn,cn->fn", self.columns, self.ring_force(state))
+        totals = self.on_rings(totals, state.load[1] * jnp.cos(self.form.cup_angle))
         return balance / self.roller_scale(), totals, self._energies(state, self.units() * unknowns)
 
     def global_residual(self, globals_, totals):
-        held = anchored(globals_, ANCHOR * LENGTH_UNIT)
-        return (totals - self.ring.load + held) / self.load_scale(), jnp.zeros(())
+        return self.ring_balance(globals_, totals, floats=True) / self.load_scale(), jnp.zeros(())
 
     def _energies(self, state: TaperedState, place: Float[Array, "3 roller"]) -> Float[Array, " roller"]:
         along, across, tilt = place
@@ -192,8 +199,9 @@ class TaperedSystem(AbstractConvexArrow):
         return self.multiplicity * (line + flange - self.inertia.force * outwards + self.inertia.moment * tilt)
 
     def work(self, globals_):
-        """Work of the ring's loads, J."""
-        return LENGTH_UNIT * jnp.sum(self.ring.load * globals_)
+        """Work of the loads on the rings less the energy of a cup that bends, J."""
+        work = LENGTH_UNIT * jnp.sum(self.ring.load * globals_[: len(self.freedoms)])
+        return work if self.outer is None else work - self.outer.ring.energy(LENGTH_UNIT * self.amplitudes(globals_))
 
     @property
     def homotopies(self) -> int:
@@ -227,12 +235,16 @@ class TaperedSystem(AbstractConvexArrow):
     # -- physics --------------------------------------------------------------------------------------------------
 
     def at(self, point: ArrowPoint) -> TaperedState:
-        shape = (point.globals.shape[0], point.elements.shape[1])
-        return self.state(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+        return self.state(point.elements, seen_by_elements(self, point))
 
-    def state(self, unknowns: Float[Array, "3 roller"], shared: Float[Array, "freedom roller"]) -> TaperedState:
-        motion = self.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shared, self.columns)
-        return self._loaded(*self.approaches(self.units() * unknowns, motion))
+    def state(self, unknowns: Float[Array, "3 roller"], shared: Float[Array, "p roller"]) -> TaperedState:
+        motion = self.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shared[: len(self.freedoms)], self.columns)
+        approach, slope, flange = self.approaches(self.units() * unknowns, motion)
+        if self.out_of_round is not None:
+            approach = approach + self.out_of_round
+        if self.outer is not None:
+            approach = approach.at[1].add(-shared[-1] * jnp.cos(self.form.cup_angle))
+        return self._loaded(approach, slope, flange)
 
     def pressed(self, motion: Float[Array, "3 roller"]) -> Float[Array, " roller"]:
         """Displacement of the cone's raceway towards each roller, in its middle, m; of the cone's (Da, Dr, t)."""

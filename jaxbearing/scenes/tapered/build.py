@@ -17,7 +17,7 @@ from ...contacts import (
 )
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant, NoPressureViscosity
-from ..bearing.build import built, part, seats, solids
+from ..bearing.build import built, part, seats, shapes, solids
 from ..bearing.profile import roller_profile
 from ..bearing.simulation import warm_up
 from ..laws import RIB_FILMS, ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
@@ -44,6 +44,7 @@ def tapered_roller_bearing(table: TaperedRollerTable) -> TaperedRollerBearing:
         profile=lambda: roller_profile(table.profile),
         rating=lambda: part(Rating, table.rating),
         **seats(table),
+        **shapes(table),
         simulation=lambda: warm_up(table),
     )
 

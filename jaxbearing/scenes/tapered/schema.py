@@ -10,6 +10,9 @@ from ..bearing.profile import ProfileTable
 from ..bearing.schema import (
     CatalogueTable,
     FitsTable,
+    InnerRoundnessTable,
+    OuterRingTable,
+    OuterRoundnessTable,
     RatingTable,
     SupplyTable,
     TemperaturesTable,
@@ -100,6 +103,9 @@ class TaperedRollerTable(Table):
     temperatures: TemperaturesTable | None = None
     thermal: ThermalTable | None = None
     simulation: WarmUpTable | None = None
+    outer_ring: OuterRingTable | None = None
+    inner_roundness: InnerRoundnessTable | None = None
+    outer_roundness: OuterRoundnessTable | None = None
 
     @check
     def _flow(self) -> Problems:
