@@ -1,10 +1,11 @@
-"""Flexible outer ring of the cylindrical roller bearing, time AND error by the number of harmonics.
+"""Flexible outer ring, time AND error by the number of harmonics.
 
-    python tests/benchmarks/flexible_ring.py [--dry]
+    python tests/benchmarks/flexible_ring.py [roller | dry_roller | dry_ball | ball | tapered]
 
-One table for `reference_roller` (30 rollers, with cage; `--dry`: the loads alone) in a ring of 20 x 8 mm on a housing
-of 1e10 N/m^2: unknowns, Newton steps, time of a warm solve beside that of the rigid ring in the same run, and the
-largest error of a load over the largest load, against `MOST` harmonics.
+One table for a bearing in a ring on a housing of 1e10 N/m^2: unknowns, Newton steps, time of a warm solve beside that
+of the rigid ring in the same run, and the largest error of a load over the largest load, against `MOST` harmonics.
+`roller` is `reference_roller` (30 rollers, with cage), `dry_roller` its loads alone at rest, `dry_ball` the 6205 under
+combined load, `ball` is `turbine_ball` with a radial load (20 balls, with cage), `tapered` the dry `tapered_example`.
 """
 
 import dataclasses
@@ -27,14 +28,31 @@ TWELVE = 3.0
 """Most time that a solve with 12 harmonics may take over one with a rigid ring."""
 
 
-def rows(scene, harmonics=HARMONICS, repeats=200):
+def scene_and_section(name):
+    """The rigid bearing, and thickness and width of its outer ring, m."""
+    match name:
+        case "roller":
+            return reference_roller(), (8e-3, 20e-3)
+        case "dry_roller":
+            return dry_roller().at_operation(inner_speed=0.0), (8e-3, 20e-3)
+        case "dry_ball":
+            loads = {"operation.radial_load": "3 kN", "operation.axial_load": "500 N", "operation.moment": "5 N*m"}
+            return jb.load_scene("deep_groove_6205", loads), (3e-3, 15e-3)
+        case "ball":
+            return jb.load_scene("turbine_ball", {"operation.radial_load": "5 kN"}), (8e-3, 30e-3)
+        case "tapered":
+            return jb.load_scene("tapered_example", {"contact": "none"}), (4e-3, 14e-3)
+    raise SystemExit(f"{name}: expected roller, dry_roller, dry_ball, ball or tapered")
+
+
+def rows(scene, section=(8e-3, 20e-3), harmonics=HARMONICS, repeats=200):
     """Harmonics (0: rigid) -> unknowns, Newton steps, seconds, loads on the inner race.
 
     The solvers take turns, so that other work on the machine slows all of them; the time is the shortest of `repeats`.
     """
     solvers, found = {}, {}
     for count in (0, *harmonics):
-        ring = FlexibleRing(thickness=8e-3, width=20e-3, harmonics=count, housing_stiffness=1e10)
+        ring = FlexibleRing(thickness=section[0], width=section[1], harmonics=count, housing_stiffness=1e10)
         fast = jb.jit_solver(dataclasses.replace(scene, outer_ring=ring if count else None))
         solution = fast()
         assert bool(solution.converged)
@@ -53,9 +71,8 @@ def errors(found, exact):
 
 
 if __name__ == "__main__":
-    dry = "--dry" in sys.argv[1:]
-    scene = dry_roller().at_operation(inner_speed=0.0) if dry else reference_roller()
-    found = rows(scene, (*HARMONICS, MOST))
+    scene, section = scene_and_section(sys.argv[1] if sys.argv[1:] else "roller")
+    found = rows(scene, section, (*HARMONICS, MOST))
     error = errors(found, found[MOST][3])
     rigid = found[0][2]
     print("harmonics   unknowns   steps   us a solve   over rigid   error of a load over the largest")
