@@ -210,7 +210,7 @@ def test_flexible_ring():
     """Errors of the loads by the number of harmonics; 12 leave out what the sheet of the model says, 0.23 %."""
     module = script("flexible_ring")
     scene = module.dry_roller().at_operation(inner_speed=0.0)
-    found = module.rows(scene, (4, 12, module.MOST), repeats=1)
+    found = module.rows(scene, harmonics=(4, 12, module.MOST), repeats=1)
     error = module.errors(found, found[module.MOST][3])
     assert error[12] < 0.1 * error[4] < 0.1 * error[0]
     assert error[12] < 2.5e-3

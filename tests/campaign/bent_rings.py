@@ -1,10 +1,10 @@
-"""Random cylindrical roller and ball bearings whose outer ring bends or is not round."""
+"""Random bearings whose outer ring bends or is not round."""
 
 import dataclasses
 from typing import Any
 
 import numpy as np
-from campaign import balls
+from campaign import balls, tapered
 from campaign.bearings import CRAWL, MIRROR, OIL, YIELDING, scaled
 from campaign.draws import Numbers, Range, even, log
 from campaign.rollers import DRY, LUBRICATED, MEAN, roller_balances, roller_numbers, structure
@@ -128,12 +128,31 @@ def ball_ring_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np
     return rigid | ring_balances(scene, n, r, bottom, load)
 
 
+def cup_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:
+    """The balances of tapered rollers, cone and cup."""
+    cup, half, length = (n[f"geometry.{name}"] for name in ("contact_angle", "roller_half_angle", "roller_length"))
+    # the cup in the middle of the rollers, from the apex
+    apex = n["geometry.roller_diameter"] / (2.0 * np.sin(half))
+    middle = 2.0 * (apex - 0.5 * length) * np.sin(cup)
+    load = r["elements.load_outer"] * np.cos(cup)[:, None]
+    return tapered.tapered_balances(scene, n, r) | ring_balances(scene, n, r, middle, load)
+
+
 def bent(name: str, count: int, changes: dict[str, Any], ranges: dict[str, Range], **kwargs: Any) -> Structure:
     base = structure(name, count, {**TABLES, **changes}, {**RIM, **ranges}, **kwargs)
     return dataclasses.replace(
         base,
         numbers=lambda v: ring_numbers(roller_numbers(v, base.scene), v, base.scene),
         balances=lambda n, r: roller_ring_balances(base.scene, n, r),
+    )
+
+
+def bent_cup(name: str, count: int, changes: dict[str, Any], ranges: dict[str, Range], **kwargs: Any) -> Structure:
+    base = tapered.structure(name, count, {**TABLES, **changes}, {**RIM, **ranges}, **kwargs)
+    return dataclasses.replace(
+        base,
+        numbers=lambda v: ring_numbers(tapered.tapered_numbers(v, base.scene), v, base.scene),
+        balances=lambda n, r: cup_balances(base.scene, n, r),
     )
 
 
@@ -198,5 +217,12 @@ STRUCTURES = [
         8,
         {**FILMS, "outer_ring.housing_stiffness": "1e10 N/m^2"},
         {**OIL, **HOUSING},
+    ),
+    bent_cup(
+        "dry, moment, flexible cup, housing, oval race",
+        11,
+        {**tapered.DRY, "operation.moment": "0 N*m", "outer_ring.housing_stiffness": "1e10 N/m^2", **LOBE},
+        {**HOUSING, "lobe": even(-5e-4, 5e-4, zero=0.1)},
+        twins=(MIRROR, CRAWL),
     ),
 ]

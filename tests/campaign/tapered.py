@@ -132,7 +132,9 @@ def tapered_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.n
         apex = column(n["geometry.roller_diameter"] / (2.0 * np.sin(half)))
         moment = np.sum((apex * outer - length * place) * cosine, axis=1)
         given = n["operation.moment"] - float(scene.operation.load_position) * radial
-        left = np.abs(moment - given) - np.sum(length * left_open * np.abs(cosine), axis=1)
+        # a contact shorter than a lamina: its load there is not the whole one
+        missed = np.abs(np.sum(r["laminae.outer"], axis=-1) - outer)
+        left = np.abs(moment - given) - np.sum(length * (left_open + missed) * np.abs(cosine), axis=1)
         size = np.max(outer, axis=1) * n["geometry.roller_length"]
         found["ring carries the moment"] = (np.maximum(left, 0.0) / size, 1e-8)
     return found | {
