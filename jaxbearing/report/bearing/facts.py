@@ -38,6 +38,9 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
     if solution.thermal is not None:
         yield from thermal_facts(solution.thermal)
     yield "Inner ring", ", ".join(_ring(solution))
+    ring = solution.outer_ring
+    if ring is not None:
+        yield "Outer ring", f"bends outwards by {_between(np.asarray(ring.deflection))}"
     held = ", ".join(_held(solution))
     if held:
         yield "Held by", held
@@ -52,6 +55,12 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
     yield from _frequencies(solution)
     if solution.life is not None:
         yield from life_facts(solution)
+
+
+def _between(deflection: np.ndarray) -> str:
+    """The least and the largest of deflections, m, in words."""
+    least, most = (with_unit(float(value), "m") for value in (np.min(deflection), np.max(deflection)))
+    return f"{least} to {most}"
 
 
 def _mixed_facts(solution: Solution) -> Iterator[tuple[str, str]]:

@@ -10,6 +10,7 @@ from ...colours import FAINT, GRID, INK
 if TYPE_CHECKING:
     import matplotlib.axes
     import matplotlib.figure
+    import matplotlib.text
 
 _HEAD = (0.37, 0.66)
 """Inches from the top of a page to the middle of its title and of the line below it."""
@@ -17,6 +18,9 @@ _WARNING_LINES = 4
 """Lines of warnings at the foot of the page; more are counted."""
 _LINE_LENGTH = 170
 _LONG_TITLE = 65
+"""Letters of a title from which on they are smaller."""
+_TITLE_GAP = 0.2
+"""Inches between the title and the version at its right."""
 _LONG_OPERATION = 95
 """Letters of an operating point from which on they are smaller: a legend may stand at their right."""
 
@@ -25,12 +29,21 @@ def head(figure: "matplotlib.figure.Figure", title: str, operation: str) -> None
     """Title, operating point and version at the top of a page or a part of one, whatever its height."""
     first, second = (1.0 - inches * figure.dpi / figure.bbox.height for inches in _HEAD)
     size = 15 if len(title) <= _LONG_TITLE else 10
-    shown = title if len(title) <= 2 * _LONG_TITLE else title[: 2 * _LONG_TITLE] + "..."
     # names of files are not formulas, whatever signs are in them
-    figure.text(0.03, first, shown, fontsize=size, fontweight="bold", color=INK, va="center", parse_math=False)
+    shown = figure.text(0.03, first, title, fontsize=size, fontweight="bold", color=INK, va="center", parse_math=False)
     small = 9.5 if len(operation) <= _LONG_OPERATION else 8
     figure.text(0.03, second, operation, fontsize=small, color=INK, va="center")
-    figure.text(0.985, first, f"jaxbearing {__version__}", fontsize=8, color=FAINT, va="center", ha="right")
+    version = figure.text(0.985, first, f"jaxbearing {__version__}", fontsize=8, color=FAINT, va="center", ha="right")
+    _shorten(shown, version.get_window_extent().x0 - figure.dpi * _TITLE_GAP)
+
+
+def _shorten(text: "matplotlib.text.Text", end: float) -> None:
+    """Cuts a text that reaches beyond a place of the figure, in pixels."""
+    whole, kept = text.get_text(), len(text.get_text())
+    while kept > 1 and text.get_window_extent().x1 > end:
+        box = text.get_window_extent()
+        kept = min(kept - 1, max(1, int(kept * (end - box.x0) / box.width)))
+        text.set_text(f"{whole[:kept].rstrip()}...")
 
 
 def foot(figure: "matplotlib.figure.Figure", warnings: Iterable[str]) -> int:
