@@ -37,6 +37,11 @@ class AbstractBetweenRings(AbstractArrowSystem):
         names = self.ring.equation_names()
         return names if self.outer is None else (*names, *(EQUATION,) * self.outer.modes)
 
+    def of_freedoms(self, values: Float[Array, "row ..."]) -> Float[Array, "freedom ..."]:
+        """Selects the rows that belong to the freedoms of the inner ring."""
+        count = len(self.freedoms)
+        return values if values.shape[0] == count else values[:count]
+
     def amplitudes(self, globals_: Float[Array, " g"]) -> Float[Array, " mode"]:
         """The unknowns of a flexible outer ring."""
         return globals_[len(self.freedoms) : self.ring_unknowns]
@@ -58,10 +63,11 @@ class AbstractBetweenRings(AbstractArrowSystem):
         d = len(self.freedoms)
         return jnp.concatenate([totals[:d], self.outer.pressed(acting[d]), totals[d + 1 :]])
 
-    def on_rings(self, on_ring: Float[Array, "freedom element"], outward: Float[Array, " element"]) -> Array:
+    @staticmethod
+    def on_both(on_ring: Float[Array, "freedom element"], outward: Float[Array, " element"]) -> Array:
         """Contributions to the forces on both rings, N, from those on the freedoms of the inner ring, and the outward
-        force on the outer one."""
-        return on_ring if self.outer is None else jnp.concatenate([on_ring, outward[None]])
+        force on an outer ring that bends."""
+        return jnp.concatenate([on_ring, outward[None]])
 
     def ring_balance(
         self, globals_: Float[Array, " g"], totals: Float[Array, " k"], floats: bool
@@ -71,13 +77,12 @@ class AbstractBetweenRings(AbstractArrowSystem):
 
         **Arguments:** `floats`: whether a ring may stand where no element touches it: it is anchored then.
         """
-        d = len(self.freedoms)
-        balance = totals[:d] - self.ring.load
+        balance = self.of_freedoms(totals) - self.ring.load
         if floats:
-            balance = balance + anchored(globals_[:d], ANCHOR * LENGTH_UNIT)
+            balance = balance + anchored(self.of_freedoms(globals_), ANCHOR * LENGTH_UNIT)
         if self.outer is None:
             return balance
-        bent = self.outer.balance(self.amplitudes(globals_), totals[d : self.ring_unknowns], floats)
+        bent = self.outer.balance(self.amplitudes(globals_), totals[len(self.freedoms) : self.ring_unknowns], floats)
         return jnp.concatenate([balance, bent])
 
     def rings_under(self, factor: Float[Array, ""]) -> tuple[InnerRing, ElasticRing | None]:

@@ -236,13 +236,12 @@ def _guesses(core: BallCore, slips: bool, guess_at: Callable[[BallCore, ArrowPoi
     guess, heavy = core.guesses()
     if slips:
         return {"guess": guess_at(core, guess)}
-    factors, points = jax.tree.map(lambda a, b: jnp.stack([a, b]), (jnp.ones(()), guess), (core.heavier, heavy))
+    rings, points = core.own_and_easiest(), jax.tree.map(lambda a, b: jnp.stack([a, b]), guess, heavy)
 
-    def under(factor: Array) -> BallCore:
-        ring, outer = core.rings_under(factor)
-        return dataclasses.replace(core, ring=ring, outer=outer)
+    def under(rings: tuple[Array, ElasticRing | None]) -> BallCore:
+        return dataclasses.replace(core, ring=core.ring.under(rings[0]), outer=rings[1])
 
-    both = jax.vmap(lambda factor, point: guess_at(under(factor), point))(factors, points)
+    both = jax.vmap(lambda rings, point: guess_at(under(rings), point))(rings, points)
     own, easy = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
     return {"guess": own, "heavy_guess": easy, "heavier": core.heavier}
 

@@ -26,6 +26,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
 from ...numerics.arrow import ArrowPoint, seen_by_elements
+from ..elastic_ring import ElasticRing
 from ..ring import LENGTH_UNIT
 from .kinematics import BallMotion
 from .linear_slip import linear_slip, slip_weights
@@ -195,8 +196,8 @@ class BallCore(AbstractBallSystem):
         free = jnp.broadcast_to(core.grooves.free_angle, (2, core.azimuth.shape[0]))
         first = core._frozen(free)
 
-        def under(factor: Array) -> tuple[Array, Array, Array]:
-            problem = first.under(factor)
+        def under(rings: tuple[Array, ElasticRing | None]) -> tuple[Array, Array, Array]:
+            problem = dataclasses.replace(first, ring_load=rings[0], outer=rings[1])
             ring = ring_estimate(problem)
             groove = problem.groove_at(ring)
 
@@ -211,8 +212,14 @@ class BallCore(AbstractBallSystem):
                 0, ESTIMATES + 1, better, (jnp.zeros((2, groove.shape[1])), problem.centrifugal)
             ), ring
 
-        centres, forces, rings = jax.vmap(under)(jnp.stack([jnp.ones(()), core.heavier]))
+        centres, forces, rings = jax.vmap(under)(core.own_and_easiest())
         return dataclasses.replace(first, centrifugal=forces[0]), centres, rings
+
+    def own_and_easiest(self) -> tuple[Float[Array, "2 freedom"], ElasticRing | None]:
+        """The load on the inner ring and the outer one if it bends: under their own loads and under the easiest ones,
+        along a first axis."""
+        ring, outer = self.rings_under(self.heavier)
+        return jax.tree.map(lambda a, b: jnp.stack([a, b]), (self.ring.load, self.outer), (ring.load, outer))
 
     def _loaded_side(self, groove: Array, centre: Array) -> tuple[Array, Array]:
         """Arms of the contacts on the side towards which the inner ring has moved: from the ball centre to the inner

@@ -118,7 +118,7 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
         zero = jnp.zeros_like(pocket)
         rows = [along.get(name, zero) * pocket for name in self.freedoms]
         through = self.multiplicity * jnp.stack(rows) if rows else zero[None][:0]
-        return self.on_rings(through, zero)
+        return through if self.outer is None else self.on_both(through, zero)
 
     def _motion(self, inner: Array, outer: Array, orbit: Array | None, own: dict[str, Array]) -> BallMotion:
         reference, unit = self.reference, self.spin_unit()

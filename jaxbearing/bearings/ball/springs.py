@@ -3,7 +3,6 @@
 See `start`, which minimises the energy.
 """
 
-import dataclasses
 from typing import NamedTuple
 
 import equinox as eqx
@@ -46,29 +45,22 @@ class CentrifugalProblem(eqx.Module):
     def groove_at(self, ring: Float[Array, " coordinate"]) -> Float[Array, "p ball"]:
         return self.groove + jnp.einsum("f,fcn->cn", ring, self.directions)
 
-    def under(self, factor: Array) -> "CentrifugalProblem":
-        """The same balls under multiples of the loads on the rings."""
-        outer = None if self.outer is None else self.outer.under(factor)
-        return dataclasses.replace(self, ring_load=factor * self.ring_load, outer=outer)
-
-    def ring_energy(self, ring: Float[Array, " coordinate"]) -> Array:
-        """Energy less work of loads that belongs to the rings, J, at displacements, m: all but the balls' own."""
-        d = len(self.freedoms)
-        energy = -jnp.sum(self.ring_load * ring[:d])
+    def ring_work(self, ring: Float[Array, " coordinate"]) -> Array:
+        """Work of the loads on the rings at displacements, m, less the energy of an outer ring that bends, J."""
         if self.outer is None:
-            return energy
+            return jnp.sum(self.ring_load * ring)
+        d = len(self.freedoms)
         # the centrifugal forces move with the outer groove
-        work = jnp.sum(self.outer.pressed(self.centrifugal) * ring[d:])
-        return energy + self.outer.ring.energy(ring[d:]) - work
+        moved = jnp.sum(self.outer.pressed(self.centrifugal) * ring[d:])
+        return jnp.sum(self.ring_load * ring[:d]) + moved - self.outer.ring.energy(ring[d:])
 
     def ring_balance(self, ring: Array, force: Float[Array, " coordinate"]) -> Float[Array, " coordinate"]:
         """Derivatives of the whole energy by the displacements of the rings, N; `force`: by those of the grooves."""
-        d = len(self.freedoms)
-        balance = force[:d] - self.ring_load
         if self.outer is None:
-            return balance
+            return force - self.ring_load
+        d = len(self.freedoms)
         pressed = self.outer.pressed(self.centrifugal) - force[d:]
-        return jnp.concatenate([balance, self.outer.ring.balance(ring[d:], pressed)])
+        return jnp.concatenate([force[:d] - self.ring_load, self.outer.ring.balance(ring[d:], pressed)])
 
     def ring_stiffness(self, ring: Array, matrix: Float[Array, "coordinate coordinate"]) -> Array:
         """Derivatives of `ring_balance`, N/m; `matrix`: those of its `force`."""

@@ -217,7 +217,7 @@ def start(problem: CentrifugalProblem, ring: Float[Array, " coordinate"]) -> Sta
         balance, matrix = problem.ring_balance(ring, force), problem.ring_stiffness(ring, matrix)
         step = -solve_dense(matrix + SOFTEST * jnp.eye(matrix.shape[0]), balance)
         step = step * jnp.minimum(1.0, cap / jnp.maximum(jnp.max(jnp.abs(step)), 1e-30))
-        energy = problem.multiplicity * jnp.sum(forces.energy) + problem.ring_energy(ring)
+        energy = problem.multiplicity * jnp.sum(forces.energy) - problem.ring_work(ring)
         small = jnp.max(jnp.abs(balance)) <= RING_TOLERANCE * total
         return centre, step, energy, jnp.sum(balance * step), small
 

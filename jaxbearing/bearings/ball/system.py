@@ -290,7 +290,10 @@ class AbstractBallSystem(AbstractBetweenRings):
             sideways = () if arm.along is None else (load[k] * arm.along / arm.length,)
             forces.append(jnp.stack([axial[k], radial[k], *sideways]))
         (pushed, held), (raised, lowered) = self.arcs.by_race(axial), self.arcs.by_race(radial)
-        return Push(held - pushed, lowered - raised, self.on_rings(touch.on_ring(tuple(forces), moment), lowered))
+        on_ring = touch.on_ring(tuple(forces), moment)
+        if self.outer is not None:
+            on_ring = self.on_both(on_ring, lowered)
+        return Push(held - pushed, lowered - raised, on_ring)
 
     def _to_first_order(self, forces: tuple[Array, ...], moment: Array) -> Array:
         if not self.freedoms:

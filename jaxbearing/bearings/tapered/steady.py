@@ -354,5 +354,5 @@ def _port(scene: TaperedRollerBearing, system: TaperedSystem, result: NewtonResu
     elements = jnp.broadcast_to(result.point.elements, (3, scene.geometry.n_rollers))
     point = ArrowPoint(elements, system.ring.released_unknowns(result.point.globals))
     equations, jacobian = linearize(full, point)
-    force = equations.residual.globals[:5] * full.load_scale() + full.ring.load
+    force = full.of_freedoms(equations.residual.globals) * full.load_scale() + full.ring.load
     return full.ring.port(jacobian, force, full.load_scale(), system.freedoms)

@@ -172,7 +172,8 @@ class TaperedSystem(AbstractBetweenRings, AbstractConvexArrow):
         even = (share / (self.line.stiffness * self.line.length)) ** 0.9
         axial = jnp.maximum(2.0 * even / jnp.sin(self.form.cone_angle), 2e-6) / LENGTH_UNIT
         ring = self.ring.of_each(lambda name: axial if name == "axial" else 0.0)
-        ring = ring if self.outer is None else jnp.concatenate([ring, jnp.zeros(self.outer.modes)])
+        if self.outer is not None:
+            ring = jnp.concatenate([ring, jnp.zeros(self.outer.modes)])
         ones = jnp.ones(self.held.shape[1])
         return ArrowPoint(jnp.stack([0.9 * axial * ones, 0.05 * axial * ones, 0.0 * ones]), ring)
 
@@ -184,7 +185,8 @@ class TaperedSystem(AbstractBetweenRings, AbstractConvexArrow):
         state = self.state(unknowns, shared)
         balance = self.balance(state) + anchored(unknowns, ANCHOR * LENGTH_UNIT)
         totals = self.multiplicity * jnp.einsum("fcn,cn->fn", self.columns, self.ring_force(state))
-        totals = self.on_rings(totals, state.load[1] * jnp.cos(self.form.cup_angle))
+        if self.outer is not None:
+            totals = self.on_both(totals, state.load[1] * jnp.cos(self.form.cup_angle))
         return balance / self.roller_scale(), totals, self._energies(state, self.units() * unknowns)
 
     def global_residual(self, globals_, totals):
@@ -200,7 +202,7 @@ class TaperedSystem(AbstractBetweenRings, AbstractConvexArrow):
 
     def work(self, globals_):
         """Work of the loads on the rings less the energy of a cup that bends, J."""
-        work = LENGTH_UNIT * jnp.sum(self.ring.load * globals_[: len(self.freedoms)])
+        work = LENGTH_UNIT * jnp.sum(self.ring.load * self.of_freedoms(globals_))
         return work if self.outer is None else work - self.outer.ring.energy(LENGTH_UNIT * self.amplitudes(globals_))
 
     @property
@@ -238,7 +240,7 @@ class TaperedSystem(AbstractBetweenRings, AbstractConvexArrow):
         return self.state(point.elements, seen_by_elements(self, point))
 
     def state(self, unknowns: Float[Array, "3 roller"], shared: Float[Array, "p roller"]) -> TaperedState:
-        motion = self.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shared[: len(self.freedoms)], self.columns)
+        motion = self.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", self.of_freedoms(shared), self.columns)
         approach, slope, flange = self.approaches(self.units() * unknowns, motion)
         if self.out_of_round is not None:
             approach = approach + self.out_of_round
