@@ -63,6 +63,7 @@ def sweep(
     """
     import xarray as xr
 
+    from .report.stores import opened
     from .sweeps.engine import Watcher, run
     from .sweeps.verb import plan_in_scene, runner_of
 
@@ -74,7 +75,7 @@ def sweep(
     watcher = Watcher() if progress is None else Watcher(cases=progress)
     if out is not None:
         run(plan, Path(out), runner=runner, overwrite=overwrite, watcher=watcher)
-        return xr.open_dataset(out, engine="zarr" if Path(out).is_dir() else "h5netcdf")
+        return opened(out)
     with tempfile.TemporaryDirectory(prefix="jaxbearing-sweep-") as folder:
         target = Path(folder) / "sweep.nc"
         run(plan, target, runner=runner, watcher=watcher)

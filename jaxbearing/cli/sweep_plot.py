@@ -64,12 +64,10 @@ def own_values(source: "SceneSource", fields: "Collection[str]") -> dict[str, fl
 
 def write_plot(plot: Path, target: Path, label: str, point: "Mapping[str, float]") -> None:
     """Draw the file of a sweep. **Arguments:** `point`: SI values of swept fields at the scene's operating point."""
-    import xarray as xr
-
     from ..report.plots import save_plot
+    from ..report.stores import opened
 
-    opened = xr.open_zarr(target) if target.suffix.lower() == ".zarr" else xr.open_dataset(target)
-    with opened as whole:
+    with opened(target) as whole:
         save_plot(_page(with_stiffness(whole.squeeze()), label, point), plot)
 
 

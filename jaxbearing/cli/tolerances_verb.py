@@ -171,8 +171,7 @@ def _sampled(
     as_json: bool,
 ) -> "Tolerances":
     """The scatter with its samples. **Arguments:** `sizes`: samples, seed, chunk; `runner`: as those of `runner_of`."""
-    import xarray as xr
-
+    from ..report.stores import opened
     from ..sweeps.engine import kept_words, run
     from ..sweeps.verb import runner_of
 
@@ -183,7 +182,7 @@ def _sampled(
         if_interrupted(lambda: kept_words(plan, target))
         with shown_progress(count, as_json) as watcher:
             run(plan, target, runner=computes, overwrite=overwrite, watcher=watcher)
-        with xr.open_dataset(target, engine="h5netcdf") as dataset:
+        with opened(target) as dataset:
             return analysis.with_samples(found, dataset, seed, str(target))
 
 

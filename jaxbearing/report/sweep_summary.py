@@ -14,7 +14,8 @@ from ..bearings.operation import HELD_FIELDS, LOAD_FIELDS
 from .backends.screen import counted, headline, print_warnings
 from .display import with_unit
 from .labels import label_unit
-from .sweep_table import failures, opened, screen_table
+from .stores import opened
+from .sweep_table import failures, screen_table
 
 _MAIN = (
     "power_loss_total",

@@ -14,6 +14,7 @@ from rich.text import Text
 from .display import digits, display_unit, displayed
 from .files import atomic_file
 from .labels import label_unit
+from .stores import opened
 
 CONVERGED = "converged"
 _EXACT = 10
@@ -31,11 +32,6 @@ class Column(NamedTuple):
     def header(self) -> str:
         """Name and unit, as a list of cases for a sweep has them."""
         return f"{self.name} [{self.unit}]" if self.unit else self.name
-
-
-def opened(file: str | os.PathLike[str]) -> xr.Dataset:
-    """The data set of a store, NetCDF or Zarr, without reading it."""
-    return xr.open_dataset(file, engine="zarr" if Path(file).is_dir() else "h5netcdf")
 
 
 def failures(dataset: xr.Dataset) -> np.ndarray:

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-import xarray as xr
-
+from ..report.stores import opened
 from .chunks import GOOD, KEY, DamagedChunkError, chunk_path, compute_chunk, read_chunk
 from .gather import STORES, store
 from .plan import PLAN, Plan, read_key, write_plan
@@ -206,7 +205,7 @@ def _finished(target: Path) -> tuple[str, int] | None:
         # of a foreign store xarray warns that it has no consolidated metadata
         with (
             warnings.catch_warnings(action="ignore"),
-            xr.open_dataset(target, engine="zarr" if target.is_dir() else "h5netcdf") as dataset,
+            opened(target) as dataset,
         ):
             key = dataset.attrs.get(KEY)
             return None if key is None else (str(key), int((dataset["failure"] == "").sum()))

@@ -197,8 +197,7 @@ def _with_samples(
     overwrite: bool,
     progress: Callable[[int], None] | None,
 ) -> Tolerances:
-    import xarray as xr
-
+    from ..report.stores import opened
     from ..sweeps.engine import Watcher, run
     from ..sweeps.verb import runner_of
 
@@ -207,5 +206,5 @@ def _with_samples(
     with tempfile.TemporaryDirectory(prefix="jaxbearing-tolerances-") as folder:
         target = Path(folder) / "samples.nc" if out is None else Path(out)
         run(plan, target, runner=runner, overwrite=overwrite, watcher=watcher)
-        with xr.open_dataset(target, engine="zarr" if target.is_dir() else "h5netcdf") as dataset:
+        with opened(target) as dataset:
             return analysis.with_samples(found, dataset, seed, None if out is None else os.fspath(out))
