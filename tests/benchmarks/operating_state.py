@@ -3,10 +3,11 @@
     python tests/benchmarks/operating_state.py [--quick] [--only seats,temperatures,derivative] [--scenes TEXT]
 
 `seats`: a bearing on its seats, cold, beside the bearing that runs, whose dimensions are given (`running_scene`): the
-same equations with the same numbers. The error is the largest relative difference of ring displacement and contact
-loads. `temperatures`: a bearing with a thermal network beside the same one at the temperatures of its oil inlet; the
-error is the balance of heat that the state leaves open. `derivative`: the first derivative of a bearing with a network,
-outside of `jax.jit`, with nothing kept from earlier processes; the error is that against central differences.
+same equations with the same numbers; and the seats alone, without the solve. The error is the largest relative
+difference of ring displacement and contact loads. `temperatures`: a bearing with a thermal network beside the same one
+at the temperatures of its oil inlet; the error is the balance of heat that the state leaves open. `derivative`: the
+first derivative of a bearing with a network, outside of `jax.jit`, with nothing kept from earlier processes; the error
+is that against central differences.
 
 Times are processor times of warm calls of `jit_solver` but for `derivative`. Both programs run in turn, in blocks of
 calls, and the least of each counts: the ratio holds on a busy machine. A lane is one of many equal ones in
@@ -73,13 +74,14 @@ LANES = 256
 
 
 class Seats(NamedTuple):
-    """Processor times of a call and of a lane of a batch, s, of the seated bearing and of the one that runs; lines of
-    both programs; error."""
+    """Processor times of a call and of a lane of a batch, s, of the seated bearing and of the one that runs, and of a
+    lane of the seats alone; lines of both programs; error."""
 
     seated: float
     running: float
     seated_lane: float
     running_lane: float
+    alone_lane: float
     lines: tuple[int, int]
     error: float
 
@@ -111,16 +113,24 @@ def in_turn(functions: list[Any], blocks: int = BLOCKS) -> list[float]:
     return best
 
 
-def a_batch(scene: Any, lanes: int) -> Any:
-    """A function that solves so many equal lanes. Every number of the scene is one of the lane, so that nothing is
-    computed once for all."""
+def solved(lane: Any) -> Any:
+    """Results of a scene."""
+    solution = jb.solve(lane, throw=False)
+    return solution.ring, solution.elements.load_inner, solution.fit, solution.status
+
+
+def on_seats(lane: Any) -> Any:
+    """The dimensions of a bearing on its seats, without a solve."""
+    running, fit, _ = running_scene(lane)
+    return running.geometry, fit
+
+
+def a_batch(scene: Any, lanes: int, one: Any = solved) -> Any:
+    """A function that computes `one` of so many equal lanes. Every number of the scene is one of the lane, so that
+    nothing is computed once for all."""
     many = jax.tree.map(lambda leaf: jnp.broadcast_to(jnp.asarray(leaf, float), (lanes,)), scene)
-
-    def one(lane: Any) -> Any:
-        solution = jb.solve(lane, throw=False)
-        return solution.ring, solution.elements.load_inner, solution.fit, solution.status
-
-    batch = jax.jit(lambda many: jax.lax.map(one, many))
+    numbers = lambda lane: jax.tree.map(jnp.asarray, one(lane))
+    batch = jax.jit(lambda many: jax.lax.map(numbers, many))
     return lambda: batch(many)
 
 
@@ -142,7 +152,8 @@ def seats(name: str, lanes: int = LANES) -> Seats:
     solved = [solver() for solver in both]
     assert all(bool(one.converged) for one in solved), name
     seated, plain = in_turn(both)
-    batches = [value / lanes for value in in_turn([a_batch(one, lanes) for one in (scene, running)], 5)]
+    functions = [a_batch(scene, lanes), a_batch(running, lanes), a_batch(scene, lanes, on_seats)]
+    batches = [value / lanes for value in in_turn(functions, 5)]
     lines = [jb.compile_report(one, compile=False).lines for one in (scene, running)]
     return Seats(seated, plain, *batches, (lines[0], lines[1]), apart(*solved))
 
@@ -184,7 +195,8 @@ def _pair(before: float, after: float) -> str:
 def print_seats(name: str, one: Seats) -> None:
     call, lane = _pair(one.running, one.seated), _pair(one.running_lane, one.seated_lane)
     lines = f"{one.lines[1]} -> {one.lines[0]}"
-    print(f"{name:33s} | {call} | {lane} | {lines:14s} | {one.error:.1e}", flush=True)
+    alone = f"{1e6 * one.alone_lane:6.1f} ({100.0 * one.alone_lane / one.running_lane:5.2f} %)"
+    print(f"{name:33s} | {call} | {lane} | {alone:22s} | {lines:14s} | {one.error:.1e}", flush=True)
 
 
 def print_temperatures(name: str, one: Warmed) -> None:
@@ -205,7 +217,8 @@ def main() -> None:
     parts = ["seats"] if arguments.quick else arguments.only.split(",")
     print(f"jax {jax.__version__}, {os.cpu_count()} cores, float64, {time.strftime('%Y-%m-%d')}")
     if "seats" in parts:
-        columns = f"{'ms a call, running -> seated':30s} | {'ms a lane of a batch':30s} | {'lines':14s} | error"
+        columns = f"{'ms a call, running -> seated':30s} | {'ms a lane of a batch':30s}"
+        columns = f"{columns} | {'us a lane, seats alone':22s} | {'lines':14s} | error"
         print(f"{'seats':33s} | {columns}")
         for name in QUICK if arguments.quick else SEATED:
             if arguments.scenes in name:
