@@ -39,6 +39,7 @@ from .outline import Outline
 from .rated import RatedContacts
 from .rating import Rating
 from .ring import InnerRing
+from .ring_shape import FlexibleRing, InnerRoundness, OuterRoundness
 from .row import AbstractRow
 from .solution import RING_FREEDOMS, TILTS, LaminaLoads, Solution
 from .warm import settled, solve_warm
@@ -72,6 +73,9 @@ class AbstractBearing(AbstractScene):
     temperatures: eqx.AbstractVar[PartTemperatures | None]
     thermal: eqx.AbstractVar[Thermal | None]
     oil_temperatures: eqx.AbstractVar[OilTemperatures | None]
+    outer_ring: eqx.AbstractVar[FlexibleRing | None]
+    inner_roundness: eqx.AbstractVar[InnerRoundness | None]
+    outer_roundness: eqx.AbstractVar[OuterRoundness | None]
 
     def steady_solution(self, options: NewtonOptions) -> Solution:
         return self.solved_running(lambda running: running.solve_ring(options))

@@ -1,7 +1,7 @@
 """Parts of a scene for rings that are not rigid or not round: a flexible outer ring, and the roundness of raceways."""
 
 from collections.abc import Iterator
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import equinox as eqx
 import jax
@@ -218,6 +218,7 @@ class OuterRoundness(AbstractRoundness):
     part: ClassVar[str] = "outer_roundness"
 
 
+@runtime_checkable
 class _Shaped(Protocol):
     """A scene with rings that may bend or not be round."""
 

@@ -10,6 +10,7 @@ from jaxtyping import Array, Float
 from .._scene import AbstractScene, label, number, optional_number
 from .._types import Scalar
 from ..bearings.bearing import AbstractBearing
+from ..bearings.ring_shape import shaped_parts
 from ..life.duty import SUM_TOLERANCE
 from ..numerics.checks import Checked, known
 from ..numerics.newton import NewtonOptions
@@ -81,7 +82,7 @@ class ShaftSystem(AbstractScene):
     - `thermal`: joins the thermal networks of the bearings along shaft and housing; `None`: each has its own.
 
     **Raises:** `ValueError` for names that are given twice, for no bearing, for positions beyond the ends of the shaft,
-    and for shares that do not add up to 1.
+    for rings that bend or are not round, and for shares that do not add up to 1.
     """
 
     kind: ClassVar[str] = "shaft"
@@ -115,6 +116,7 @@ class ShaftSystem(AbstractScene):
         if sum(force.balances for force in self.forces) > 1:
             yield "force: more than one has balance = true, expected at most one"
         yield from self._beyond()
+        yield from self._shapes()
         paths = {self._table_of(place): place.scene for place in places}
         yield from thermal_problems(self.thermal, self.shaft, paths)
         if self.housing is not None:
@@ -139,6 +141,14 @@ class ShaftSystem(AbstractScene):
             at = known(position)
             if at is not None and not -1e-9 <= at[0] <= end + 1e-9:
                 yield f"{said}{at[0] * 1e3:g} mm lies beyond the shaft ({end * 1e3:g} mm)"
+
+    def _shapes(self) -> Iterator[str]:
+        """Problems of bearings whose rings bend or are not round."""
+        scenes = [(self._table_of(place), place.scene) for place in self.places]
+        shaped = [(path, shaped_parts(scene)) for path, scene in scenes if isinstance(scene, AbstractBearing)]
+        # a set has the same parts in each of its bearings
+        for path in dict.fromkeys(f"{path}.{name}" for path, names in shaped for name in names):
+            yield f"{path}: expected none, a bearing on a shaft has rigid, round rings in this version"
 
     def _table_of(self, place: Place) -> str:
         """Path of the table of a bearing, or of its set."""

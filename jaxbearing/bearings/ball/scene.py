@@ -248,8 +248,8 @@ class BallBearing(AbstractMovingBearing):
             for name in self.shaped_parts:
                 yield f"{name}: balls in motion have rigid, round rings in this version; leave out the simulation"
         ring = self.outer_ring
-        if ring is not None and ring.width is None and self.geometry.width is None:
-            yield "outer_ring.width: found nothing, and no geometry.width either; expected one of the two"
+        if ring is not None and ring.harmonics and ring.width is None and self.geometry.width is None:
+            yield "outer_ring.width: a ring that bends needs a width, here or as geometry.width"
         yield from unheld_problems(ring, self.operation)
 
     @property
