@@ -4,13 +4,15 @@ feel only as an opening of their own."""
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 from .._types import Scalar
 from ..materials import Material
 from ..mounting.bent_ring import BentRing
 from ..numerics.convex import anchored
-from .ring import ANCHOR, LENGTH_UNIT
+from ..numerics.newton import NewtonResult
+from ..numerics.status import Status
+from .ring import ANCHOR, LENGTH_UNIT, InnerRing
 from .ring_deflection import RingDeflection
 from .ring_shape import FlexibleRing
 
@@ -18,6 +20,8 @@ PLACES = 361
 """Azimuths at which results have the deflection of the ring."""
 LEANS = 0.1
 """Least cosine of the angle between the load and a support that counts in the first guess."""
+UNSUPPORTED = "outer_ring.support_angle: the supports push only, and none of them stands where the load pushes the ring"
+"""Why a solve failed."""
 EQUATION = "bending of the outer ring"
 """Name of the equation of each amplitude."""
 
@@ -84,6 +88,18 @@ class ElasticRing(eqx.Module):
         # order 1 is the first that has a sine
         cosine, sine = orders.index(1), len(orders)
         return amplitudes.at[np.asarray([cosine, sine])].set(along * shift / LENGTH_UNIT)
+
+    def judged(self, ring: InnerRing, result: NewtonResult) -> tuple[NewtonResult, Bool[Array, ""]]:
+        """The result of a solve, with the status `no_equilibrium` if it failed and the supports of the ring cannot bear
+        the loads; and whether that is so."""
+        supports, given = self.ring.supports, dict(zip(ring.freedoms, ring.load, strict=True))
+        if supports is None or self.ring.foundation is not None or "radial" not in given:
+            return result, jnp.asarray(False)
+        load = jnp.stack([given["radial"], given.get("lateral", jnp.zeros(()))])
+        if self.ring.loads is not None:
+            load = load + self.ring.loads.resultant()
+        none = supports.cannot_bear(load, "lateral" in given) & ~result.converged
+        return result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status)), none
 
     def displacement(self, amplitudes: Float[Array, " mode"]) -> Float[Array, "2"]:
         """Displacement of the ring as a rigid body, along and across the load line, from its amplitudes, m: the

@@ -131,9 +131,10 @@ class FlexibleRing(_Lists):
         """True if a housing or supports hold the ring in place."""
         return self.housing_stiffness is not None or self.support_angle is not None
 
-    def bent_ring(self, material: Material, raceway_radius: Scalar, width: Scalar) -> BentRing:
+    def bent_ring(self, material: Material, raceway_radius: Scalar, width: Scalar | None) -> BentRing:
         """The ring for the equations. **Arguments:** `width` where the scene does not give it, m."""
         width = width if self.width is None else self.width
+        assert width is not None
         radius = raceway_radius + 0.5 * self.thickness
         poisson = material.poisson_ratio if self.shear else None
         section = rectangular_section(material.youngs_modulus, width, self.thickness, radius, poisson)
@@ -156,7 +157,7 @@ class FlexibleRing(_Lists):
         assert self.load_angle is not None
         arrays = (jnp.asarray(getattr(self, name)) for name in self.groups[1])
         rest = RimLoads(*arrays).resultant() + load
-        return safe_norm(rest[0], rest[1]) / safe_norm(load[0], load[1])
+        return jnp.max(jnp.abs(rest)) / safe_norm(load[0], load[1])
 
 
 class AbstractRoundness(_Lists):

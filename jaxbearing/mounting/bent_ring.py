@@ -19,10 +19,13 @@ too. Rolling elements press with P = Q.
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Bool, Float, Int
 
 from .._types import Scalar
 from .bending import Foundation, RingSection, stiffness_of_orders
+
+ALIGNED = 1e-9
+"""Cosine of the angle between a support and a direction that counts as a right one."""
 
 
 class RimLoads(eqx.Module):
@@ -64,6 +67,24 @@ class Supports(eqx.Module):
     def forces(self, deflection: Float[Array, " support"]) -> Float[Array, " support"]:
         """Inward forces on the ring, N, from its outward deflection there, m."""
         return self.stiffness * jnp.maximum(deflection - self.gap, 0.0)
+
+    def cannot_bear(self, load: Float[Array, "2"], sideways: bool) -> Bool[Array, ""]:
+        """True if no forces of the supports balance a load on the ring along the angles 0 and 90 degrees, N.
+
+        They push, so a load can be balanced if it is a sum of positive multiples of their directions. It cannot if some
+        direction points along the load and away from all supports, or at right angles to them; in a plane the load
+        itself and the normals of the supports are all that need to be tried.
+
+        **Arguments:** `sideways`: whether the second component is given. If not, something holds the ring that way.
+        """
+        towards = jnp.stack([jnp.cos(self.angle), jnp.sin(self.angle)])
+        if not sideways:
+            return (load[0] != 0.0) & ~jnp.any(towards[0] * load[0] > 0.0)
+        normals = jnp.stack([-towards[1], towards[0]])
+        tried = jnp.concatenate([load[:, None], normals, -normals], axis=1)
+        away = jnp.all(tried.T @ towards <= ALIGNED, axis=1)
+        size = jnp.sqrt(jnp.sum(jnp.square(load)))
+        return jnp.any(away & (load @ tried > ALIGNED * size)) & (size > 0.0)
 
     def energy(self, deflection: Float[Array, " support"]) -> Float[Array, ""]:
         """Elastic energy, J."""

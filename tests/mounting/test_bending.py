@@ -178,3 +178,25 @@ def test_shapes_at_numpy_angles_are_constants():
 def test_refused_orders(orders):
     with pytest.raises(ValueError, match="orders"):
         BentRing(SHEET, orders)
+
+
+@pytest.mark.parametrize(
+    ("supports", "load", "sideways", "none"),
+    [
+        ([150.0, 210.0], (1.0, 0.0), True, True),
+        ([-30.0, 30.0], (1.0, 0.0), True, False),
+        ([-30.0, 30.0], (1.0, 1.0), True, True),
+        ([0.0], (1.0, 0.0), True, False),
+        ([0.0], (1.0, 1e-3), True, True),
+        ([0.0, 180.0], (0.0, 1.0), True, True),
+        ([0.0, 120.0, 240.0], (-0.3, -0.8), True, False),
+        ([0.0, 180.0, 90.0], (0.5, -1e-3), True, True),
+        ([60.0], (1.0, 0.0), False, False),
+        ([120.0], (1.0, 0.0), False, True),
+        ([120.0], (0.0, 0.0), True, False),
+    ],
+)
+def test_what_supports_can_bear(supports, load, sideways, none):
+    count = len(supports)
+    found = Supports(jnp.radians(jnp.asarray(supports)), jnp.full(count, 1e8), jnp.zeros(count))
+    assert bool(found.cannot_bear(jnp.asarray(load), sideways)) == none

@@ -14,6 +14,7 @@ from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowJacobian, ArrowPoint, assembled, element_tangents, seen_by_elements
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results, assemble
+from ..elastic_ring import UNSUPPORTED
 from ..facts import Facts
 from ..interactions import Costs, Interaction, costs, of_land
 from ..land import LandState
@@ -56,9 +57,12 @@ def solve_ball(
         system, result = newton_solve(build_lubricated(scene, core), options)
         state = system.at(result.point)
         results, port = _lubricated(scene, system, result, state), _port(scene, system, result, state.film)
+    causes = _without_cage(scene)
+    steps = steps + result.iterations
     if system.outer is not None:
         results = results._replace(outer_ring=system.outer.shape(system.amplitudes(result.point.globals)))
-    steps = steps + result.iterations
+        result, none = system.outer.judged(system.ring, result)
+        causes, steps = causes | {UNSUPPORTED: FailureCause(none, jnp.zeros(0))}, jnp.where(none, 0, steps)
     lever = system.grooves.lever
     if any(name in TILTS for name in system.freedoms):
         stiffness = _of_lengths(port.stiffness, lever, system.freedoms)
@@ -72,7 +76,7 @@ def solve_ball(
         port,
         iterations=steps,
         ring_freedom=scene.shown_freedoms if ring is None else RING_FREEDOMS,
-        failure_causes=_without_cage(scene)
+        failure_causes=causes
         | {
             "the load is {:.3g} times that at which the most loaded ball reaches 4.2 GPa, the limit of the static load "
             "rating: balls and races would yield": FailureCause(times > 1.0, times)

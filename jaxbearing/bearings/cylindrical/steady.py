@@ -10,7 +10,7 @@ from ...numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results, assemble
 from ..computed import computed_results
-from ..elastic_ring import ElasticRing, elastic_ring
+from ..elastic_ring import UNSUPPORTED, ElasticRing, elastic_ring
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..interactions import Costs, Interaction, costs, of_land
@@ -20,7 +20,7 @@ from ..parts import azimuths, drag_density
 from ..profile import pressed_load
 from ..ring import LENGTH_UNIT, InnerRing, Port
 from ..ring_shape import out_of_round
-from ..solution import CageState, Solution
+from ..solution import CageState, FailureCause, Solution
 from .equations import DryRollerSystem, LubricatedRollerSystem, RollerState
 from .forces import CageParts, friction_on_rings, rolling_alone
 from .geometry import RollerCage, RollerGeometry
@@ -176,14 +176,19 @@ def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions, ring: 
         )
     system, result = newton_solve(build_system(scene, ring), options)
     results = _dry_results(system, result) if isinstance(system, DryRollerSystem) else _lubricated(system, result)
+    causes, steps = {}, result.iterations
     if system.outer is not None:
         results = results._replace(outer_ring=system.outer.shape(system.amplitudes(result.point.globals)))
+        result, none = system.outer.judged(system.ring, result)
+        causes, steps = {UNSUPPORTED: FailureCause(none, jnp.zeros(0))}, jnp.where(none, 0, steps)
     return assemble(
         scene,
         result,
         results,
         system.ring.displacement(result.point.globals),
         _port(system, result, results.elements.load_inner),
+        failure_causes=causes,
+        iterations=steps,
         ring_freedom=scene.shown_freedoms if ring is None else IN_PLANE,
         stiffness_freedom=IN_PLANE if system.ring.asks else None,
         equation_names=system.equation_names() or NOTHING_UNKNOWN,

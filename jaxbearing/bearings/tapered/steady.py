@@ -15,6 +15,7 @@ from ...numerics.safe import safe_norm
 from ...numerics.status import Status
 from ..assemble import Results, assemble
 from ..computed import computed_results
+from ..elastic_ring import UNSUPPORTED
 from ..facts import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of, oil_of_races
 from ..interactions import costs
@@ -60,16 +61,20 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
         friction = tapered_friction(scene, state)
         result = _with_nested(result, friction, options)
     results = _results(scene, system, result, state, friction)
+    causes, steps = _reasons(scene, asked.inertia) if _bounded(scene, ring) else {}, minimum.steps + result.iterations
     if system.outer is not None:
         results = results._replace(outer_ring=system.outer.shape(system.amplitudes(result.point.globals)))
+        result, unsupported = system.outer.judged(system.ring, result)
+        causes = causes | {UNSUPPORTED: FailureCause(unsupported, jnp.zeros(0))}
+        sliding = sliding | unsupported
     return assemble(
         scene,
         result,
         results,
         system.ring.displacement(result.point.globals),
         _port(scene, system, result),
-        failure_causes=_reasons(scene, asked.inertia) if _bounded(scene, ring) else {},
-        iterations=jnp.where(sliding, 0, minimum.steps + result.iterations),
+        failure_causes=causes,
+        iterations=jnp.where(sliding, 0, steps),
         ring_freedom=scene.shown_freedoms if ring is None else RING_FREEDOMS,
         stiffness_freedom=RING_FREEDOMS,
         equation_names=system.equation_names(),

@@ -281,3 +281,20 @@ def test_scene_files(tmp_path):
     for name in ("outer_ring", "inner_roundness"):
         for here, there in zip(*map(jax.tree.leaves, (getattr(scene, name), getattr(read, name))), strict=True):
             np.testing.assert_allclose(here, there, rtol=1e-15)
+
+
+def test_supports_that_the_load_leaves():
+    """Supports push only: where none stands in the way of the load there is no equilibrium, and the reason is said."""
+    away = {"support_angle": [np.radians(150.0), np.radians(210.0)], "support_stiffness": [2e8, 2e8]}
+    ring = FlexibleRing(thickness=4e-3, width=15e-3, harmonics=4, support_gap=[0.0, 0.0], **away)
+    solution = jb.solve(dataclasses.replace(flat(), outer_ring=ring), throw=False)
+    assert int(solution.status) == Status.NO_EQUILIBRIUM
+    assert "outer_ring.support_angle" in solution.failure()
+    assert np.all(np.isnan(solution.elements.load_inner))
+
+
+def test_a_free_rim_without_loads():
+    """No force is out of balance."""
+    nothing = {"load_angle": [0.0], "load_radial": [0.0], "load_tangential": [0.0], "load_radius": [30e-3]}
+    ring = FlexibleRing(thickness=4e-3, width=15e-3, harmonics=4, **nothing)
+    dataclasses.replace(flat(radial_load="0 N"), outer_ring=ring)
