@@ -188,7 +188,7 @@ class BentRing(eqx.Module):
             return stiffness
         shapes = self.shapes(self.supports.angle)
         touching = amplitudes @ shapes > self.supports.gap
-        return stiffness + (shapes * jnp.where(touching, self.supports.stiffness, 0.0)) @ shapes.T
+        return stiffness + (shapes * jnp.where(touching, self.supports.stiffness, 0.0)[None]) @ shapes.T
 
     def energy(self, amplitudes: Float[Array, " mode"]) -> Float[Array, ""]:
         """Energy less the work of `loads`, J; `balance` with no element is its gradient."""

@@ -200,3 +200,11 @@ def test_what_supports_can_bear(supports, load, sideways, none):
     count = len(supports)
     found = Supports(jnp.radians(jnp.asarray(supports)), jnp.full(count, 1e8), jnp.zeros(count))
     assert bool(found.cannot_bear(jnp.asarray(load), sideways)) == none
+
+
+def test_tangent_is_the_derivative_of_the_balance():
+    supports = Supports(jnp.asarray([0.1, 2.0, 4.0]), jnp.asarray([1e8, 2e8, 3e8]), jnp.asarray([0.0, 1e-6, -1e-6]))
+    ring = BentRing(rectangular_section(210e9, 0.02, 8e-3, 0.081), (0, 1, 2, 3), None, supports)
+    at = 1e-6 * jnp.asarray([0.3, 1.0, -0.5, 0.2, 0.7, -0.4, 0.1])
+    slope = jax.jacfwd(lambda x: ring.balance(x, jnp.zeros(ring.modes)))(at)
+    np.testing.assert_allclose(ring.tangent(at), slope, rtol=1e-12, atol=1e-6)

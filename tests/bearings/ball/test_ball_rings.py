@@ -283,11 +283,26 @@ def test_scene_files(tmp_path):
             np.testing.assert_allclose(here, there, rtol=1e-15)
 
 
+def on_supports(*degrees: float) -> BallBearing:
+    count = len(degrees)
+    supports = {"support_angle": np.radians(degrees), "support_stiffness": [2e8] * count, "support_gap": [0.0] * count}
+    ring = FlexibleRing(thickness=4e-3, width=15e-3, harmonics=4, **supports)
+    return dataclasses.replace(flat(), outer_ring=ring)
+
+
+def test_supports_bear_the_load():
+    solution = jb.solve(on_supports(-30.0, 30.0))
+    forces, elements = np.asarray(solution.outer_ring.support_forces), solution.elements
+    outward = np.asarray(elements.load_outer) * np.cos(np.asarray(elements.contact_angle_outer))
+    # the load, and the centrifugal forces of balls that orbit at different speeds
+    along = np.sum(outward * np.cos(np.asarray(elements.azimuth)))
+    np.testing.assert_allclose(along, 3e3, rtol=1e-3)
+    np.testing.assert_allclose(forces, along / (2.0 * np.cos(np.radians(30.0))), rtol=1e-8)
+
+
 def test_supports_that_the_load_leaves():
     """Supports push only: where none stands in the way of the load there is no equilibrium, and the reason is said."""
-    away = {"support_angle": [np.radians(150.0), np.radians(210.0)], "support_stiffness": [2e8, 2e8]}
-    ring = FlexibleRing(thickness=4e-3, width=15e-3, harmonics=4, support_gap=[0.0, 0.0], **away)
-    solution = jb.solve(dataclasses.replace(flat(), outer_ring=ring), throw=False)
+    solution = jb.solve(on_supports(150.0, 210.0), throw=False)
     assert int(solution.status) == Status.NO_EQUILIBRIUM
     assert "outer_ring.support_angle" in solution.failure()
     assert np.all(np.isnan(solution.elements.load_inner))
