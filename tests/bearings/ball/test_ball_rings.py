@@ -8,6 +8,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from rings_that_bend import lobes, unbalance
 
 import jaxbearing as jb
 from jaxbearing.bearings.ball.build import build_core
@@ -58,10 +59,6 @@ def on_housing(scene: BallBearing, **changes) -> BallBearing:
     return dataclasses.replace(scene, outer_ring=FlexibleRing(**(HOUSING | changes)))
 
 
-def lobes(kind, order, height, angle=0.0):
-    return kind(lobe_order=[float(order)], lobe_height=[height], lobe_angle=[angle])
-
-
 def test_the_ring_of_the_sheet():
     scene = sheet_bearing()
     rigid = build_core(scene, exact=True)
@@ -84,30 +81,6 @@ def test_the_ring_of_the_sheet():
         np.testing.assert_allclose(moved[0], shift, rtol=1e-6)
         np.testing.assert_allclose(found[: len(loads)], loads, rtol=1e-6, atol=1e-3)
     np.testing.assert_allclose(moved[1:4], [2.41567e-6, 2.30869e-5, 1.03692e-5], rtol=3e-6)
-
-
-def unbalance(scene: BallBearing, solution) -> float:
-    """Largest force on an amplitude of the ring that is not balanced, over the load of all balls: written again from
-    the results."""
-    part, found, elements = scene.outer_ring, solution.outer_ring, solution.elements
-    order, azimuth = np.asarray(found.order)[:, None], np.asarray(elements.azimuth)
-    radius = 0.5 * float(scene.raceway_diameters[1]) + 0.5 * part.thickness
-    modulus = float(scene.materials.rings.youngs_modulus)
-    bending, axial = modulus * part.width * part.thickness**3 / 12.0, modulus * part.width * part.thickness
-    each = bending / radius**4 / (1.0 + bending / (axial * radius**2)) * (order**2 - 1.0) ** 2
-    each = np.where(order == 0, axial / radius**2, each) + part.housing_stiffness
-    stiffness = (np.pi * radius * each * np.where(order == 0, 2.0, 1.0))[:, 0]
-    names = ["", *(["_second"] if elements.load_outer_second is not None else [])]
-    outward = sum(
-        np.asarray(getattr(elements, f"load_outer{name}"))
-        * np.cos(np.asarray(getattr(elements, f"contact_angle_outer{name}")))
-        for name in names
-    )
-    rows = [
-        stiffness * np.asarray(amplitude) - shape(order * azimuth) @ outward
-        for amplitude, shape in ((found.cosines, np.cos), (found.sines, np.sin))
-    ]
-    return float(np.max(np.abs(rows)) / np.sum(outward))
 
 
 def four_point():

@@ -7,6 +7,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from rings_that_bend import lobes, unbalance
 
 import jaxbearing as jb
 from jaxbearing.bearings.ring_shape import FlexibleRing, InnerRoundness, OuterRoundness
@@ -25,29 +26,6 @@ def dry(**changes: str) -> TaperedRollerBearing:
 
 def on_housing(scene: TaperedRollerBearing, **changes) -> TaperedRollerBearing:
     return dataclasses.replace(scene, outer_ring=FlexibleRing(**(HOUSING | changes)))
-
-
-def lobes(kind, order, height, angle=0.0):
-    return kind(lobe_order=[float(order)], lobe_height=[height], lobe_angle=[angle])
-
-
-def unbalance(scene: TaperedRollerBearing, solution) -> float:
-    """Largest force on an amplitude of the cup that is not balanced, over the load of all rollers: written again from
-    the results."""
-    part, found, elements = scene.outer_ring, solution.outer_ring, solution.elements
-    order, azimuth = np.asarray(found.order)[:, None], np.asarray(elements.azimuth)
-    radius = 0.5 * float(scene.raceway_diameters[1]) + 0.5 * part.thickness
-    modulus = float(scene.materials.rings.youngs_modulus)
-    bending, axial = modulus * part.width * part.thickness**3 / 12.0, modulus * part.width * part.thickness
-    each = bending / radius**4 / (1.0 + bending / (axial * radius**2)) * (order**2 - 1.0) ** 2
-    each = np.where(order == 0, axial / radius**2, each) + part.housing_stiffness
-    stiffness = (np.pi * radius * each * np.where(order == 0, 2.0, 1.0))[:, 0]
-    outward = np.asarray(elements.load_outer) * np.cos(np.asarray(elements.contact_angle_outer))
-    rows = [
-        stiffness * np.asarray(amplitude) - shape(order * azimuth) @ outward
-        for amplitude, shape in ((found.cosines, np.cos), (found.sines, np.sin))
-    ]
-    return float(np.max(np.abs(rows)) / np.sum(outward))
 
 
 @pytest.mark.parametrize(
