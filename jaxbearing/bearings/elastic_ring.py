@@ -48,15 +48,15 @@ class ElasticRing(eqx.Module):
         return self.shapes @ load
 
     def balance(
-        self, amplitudes: Float[Array, " mode"], pressed: Float[Array, " mode"], held: bool
+        self, amplitudes: Float[Array, " mode"], pressed: Float[Array, " mode"], floats: bool
     ) -> Float[Array, " mode"]:
         """Forces on the amplitudes that do not balance, N.
 
-        **Arguments:** `held`: whether displacements of the inner ring are given. Nothing touches an outer ring that
-        floats between held elements and its supports: it is anchored.
+        **Arguments:** `floats`: whether the ring may stand where neither elements nor supports touch it: it is anchored
+        then.
         """
         balance = self.ring.balance(LENGTH_UNIT * amplitudes, pressed)
-        return balance + anchored(amplitudes, ANCHOR * LENGTH_UNIT) if held else balance
+        return balance + anchored(amplitudes, ANCHOR * LENGTH_UNIT) if floats else balance
 
     def under(self, factor: Float[Array, ""]) -> "ElasticRing":
         """The same ring under multiples of its given loads, which balance those on the inner ring where nothing else

@@ -19,7 +19,7 @@ from ..elastic_ring import ElasticRing, elastic_ring
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..parts import azimuths, drag_density
 from ..ring import LENGTH_UNIT, InnerRing, inner_ring
-from ..ring_shape import out_of_round
+from ..ring_shape import out_of_round, shaped_parts
 from .arched import ArchedBallSystem
 from .core import FORCE_FLOOR, BallCore
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
@@ -67,7 +67,7 @@ def ring_directions(azimuth: Float[Array, " ball"], turning: Array | None = None
 def ball_row(scene: BallBearing, ring: InnerRing | None = None) -> Row:
     """All balls, or one for all where they are alike; with the ring of the scene, or with another one."""
     operation, geometry = scene.operation, scene.geometry
-    azimuth = azimuths(geometry, geometry.n_balls, operation.symmetric and not scene.shaped_parts and ring is None)
+    azimuth = azimuths(geometry, geometry.n_balls, operation.symmetric and not shaped_parts(scene) and ring is None)
     if ring is None:
         ring = inner_ring(scene, geometry.groove_circle_radius)
     apart = geometry.arcs.inner

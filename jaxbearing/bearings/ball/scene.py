@@ -245,17 +245,12 @@ class BallBearing(AbstractMovingBearing):
     def _shape_problems(self) -> Iterator[str | ValueError]:
         """Refusals of rings that bend or are not round."""
         if isinstance(self.simulation, Simulation) and self.thermal is None:
-            for name in self.shaped_parts:
+            for name in shaped_parts(self):
                 yield f"{name}: balls in motion have rigid, round rings in this version; leave out the simulation"
         ring = self.outer_ring
         if ring is not None and ring.harmonics and ring.width is None and self.geometry.width is None:
             yield "outer_ring.width: a ring that bends needs a width, here or as geometry.width"
         yield from unheld_problems(ring, self.operation)
-
-    @property
-    def shaped_parts(self) -> tuple[str, ...]:
-        """Names of the parts that make a ring not rigid or not round."""
-        return shaped_parts(self)
 
     def _attitude_problems(self) -> Iterator[str]:
         found = self.kinematics.attitude

@@ -139,7 +139,7 @@ def _elastic_ring(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"])
 
 
 def _out_of_round(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"]) -> Float[Array, "2 roller"] | None:
-    """What raceways that are not round add to the approaches of inner and outer race, m; `None` if they are round."""
+    """Returns what lobes of the raceways add to the approaches of inner and outer race, m; `None` if both are round."""
     inner, outer = scene.inner_roundness, scene.outer_roundness
     if inner is None and outer is None:
         return None

@@ -114,7 +114,7 @@ class TaperedSystem(AbstractBetweenRings, AbstractConvexArrow):
     outer: ElasticRing | None
     """The cup if it bends; `None`: it is rigid."""
     out_of_round: Float[Array, "2 roller"] | None
-    """What raceways that are not round add to the approaches of inner and outer race, m; `None`: they are round."""
+    """Lobes of the raceways add these lengths to the approaches of inner and outer race, m; `None`: both are round."""
     guess: ArrowPoint | None
     seated: ArrowPoint | None
     """First guess at parameter 1 of the homotopy."""
