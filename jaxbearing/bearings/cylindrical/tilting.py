@@ -83,21 +83,27 @@ class TiltingRollers(AbstractConvexArrow):
         return ArrowPoint(-high.elements, -high.globals), high
 
     def initial(self) -> ArrowPoint:
-        """The ring pressed in by the clearance and what one roller under the whole load needs; rollers half-way."""
+        """The ring pressed in by the clearance and what one roller under the whole load needs; rollers half-way, but
+        at least where the outer race bears their centrifugal forces."""
         if self.guess is not None:
             return self.guess
         if self.ring.asks:
             # where it is held, what else moves at 0
-            half = 0.5 * (self.held[0] - self.radial_clearance) / LENGTH_UNIT
-            return ArrowPoint(jnp.stack([half, jnp.zeros_like(half)]), jnp.zeros(len(self.freedoms)))
+            return ArrowPoint(self._between(self.held[0]), jnp.zeros(len(self.freedoms)))
         load = self.load_scale() + self.centrifugal
         depth = jnp.maximum(
             self.radial_clearance + 2.0 * (load / (self.line.stiffness * self.line.length)) ** 0.9, 1e-6
         )
         ring = depth * self.ring.across() / LENGTH_UNIT
         inward = LENGTH_UNIT * jnp.einsum("f,fn->n", ring, self.columns[:, 0])
-        half = 0.5 * (inward - self.radial_clearance) / LENGTH_UNIT
-        return ArrowPoint(jnp.stack([half, jnp.zeros_like(half)]), ring)
+        return ArrowPoint(self._between(inward), ring)
+
+    def _between(self, inward: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
+        """First guess of the rollers where the inner race has come nearer by `inward`, m."""
+        half = 0.5 * (inward - self.radial_clearance)
+        seat = (self.centrifugal / (self.line.stiffness * self.line.length)) ** 0.9
+        out = jnp.maximum(half, seat) / LENGTH_UNIT
+        return jnp.stack([out, jnp.zeros_like(out)])
 
     def without_guess(self) -> "TiltingRollers":
         return dataclasses.replace(self, guess=None)
