@@ -21,6 +21,7 @@ from ..numerics.safe import smooth_abs
 from .bearing import AbstractBearing
 from .cage import AbstractCage
 from .facts import BUSY, Contacts, Excess, Facts, SolvedBearing
+from .ring_shape import FlexibleRing
 from .solution import CageState, RingDisplacement
 
 SKIDDING = 0.1
@@ -34,6 +35,9 @@ ROUGH, HEAVY = 0.01, 0.5e9
 10."""
 STARVED = 0.5
 """Film over flooded film below which a contact is strongly starved."""
+THICK_RIM = 0.2
+"""Thickness over the radius of the centroid circle from which on an outer ring is no thin ring: the curvature of its
+neutral fibre changes the stiffness by about the square of this, 4 %."""
 SLOWEST = 99.9 * 2.0 * np.pi / 60.0
 """Speed of the rings against each other below which the lubricated models have no meaning, rad/s (100 rpm)."""
 
@@ -263,9 +267,22 @@ def _wide_land(scene: AbstractBearing) -> Excess:
     return {text: jnp.asarray(cage.land_width - diameter / 6.0)}
 
 
+def _thick_rim(scene: AbstractBearing) -> Excess:
+    ring: FlexibleRing | None = getattr(scene, "outer_ring", None)
+    if ring is None or not ring.harmonics:
+        return {}
+    text = (
+        "the outer ring is thicker than a fifth of its radius: the bending of a thin ring is wrong by about the square "
+        "of this ratio, 4 % and more"
+    )
+    thickness = jnp.asarray(ring.thickness)
+    return {text: thickness / (0.5 * scene.raceway_diameters[1] + 0.5 * thickness) - THICK_RIM}
+
+
 INPUT_CHECKS: tuple[Callable[[AbstractBearing], Excess], ...] = (
     _inlet,
     _slow,
     _wide_land,
+    _thick_rim,
 )
 """The checks of scenes that all bearings have."""

@@ -15,6 +15,7 @@ from jaxbearing.bearings.facts import (
     Contacts,
     Facts,
 )
+from jaxbearing.bearings.ring_shape import FlexibleRing
 from jaxbearing.bearings.solution import CageState, RingDisplacement
 from jaxbearing.lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from jaxbearing.materials import BALL_PRESSURE, ROLLER_PRESSURE
@@ -49,6 +50,7 @@ KINDS = {
     "standing cage": "hold the cage still",
     "wide land": "land wider than a third",
     "apex": "load_position is 0",
+    "thick rim": "thicker than a fifth of its radius",
 }
 """Kind of check -> words of its text, which no other one has."""
 OF_RACES = {"yield", "skid", "behind", "other shoulder", "cut off", "edge", "hot", "sheared", "thermal loading"}
@@ -56,6 +58,13 @@ OF_RACES |= {"slide ratio", "rough"}
 
 FAMILIES = {
     "dry balls": ("deep_groove_6205", {}, "yield behind", "", "tilt unstable"),
+    "balls in a ring that bends": (
+        "deep_groove_6205",
+        {"outer_ring": FlexibleRing(thickness=3e-3, width=15e-3, housing_stiffness=5e9)},
+        "yield behind",
+        "",
+        "tilt unstable thick_rim",
+    ),
     "balls": (
         "turbine_ball",
         SHOULDERS,
@@ -237,6 +246,7 @@ INPUTS = {
     "slow": ("operation.inner_speed", 10.0, ("balls", "rollers", "tilting rollers", "tapered rollers")),
     "wide land": ("cage.land_width", 0.05, ("balls", "rollers")),
     "apex": ("operation.load_position", 0.0, ("tapered rollers",)),
+    "thick rim": ("outer_ring.thickness", 8e-3, ("balls in a ring that bends",)),
 }
 
 
