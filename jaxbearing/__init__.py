@@ -1,6 +1,7 @@
 """jaxbearing: lubricated rolling bearings in JAX, exact, fast, differentiable.
 
-Importing the package switches JAX to 64-bit floats: the tolerances of its solves mean nothing in 32-bit.
+Importing the package switches JAX to 64-bit floats: the tolerances of its solves mean nothing in 32-bit. The command
+imports JAX only if its verb needs it.
 
     import jaxbearing as jb
 
@@ -11,6 +12,7 @@ Importing the package switches JAX to 64-bit floats: the tolerances of its solve
 
 import importlib
 import os
+import sys
 from typing import TYPE_CHECKING, Any
 
 from .numerics.garbage import rare_garbage_collection
@@ -22,11 +24,13 @@ silence_compiler()
 if is_the_command():
     # statuses say what went wrong: a program that calls Python to raise an error of its own could not be kept
     os.environ.setdefault("EQX_ON_ERROR", "nan")
+    # 64-bit floats for a command that imports JAX later, if at all
+    os.environ["JAX_ENABLE_X64"] = "1"
+if not is_the_command() or "jax" in sys.modules:
+    with rare_garbage_collection():
+        import jax
 
-with rare_garbage_collection():
-    import jax
-
-    jax.config.update("jax_enable_x64", True)
+        jax.config.update("jax_enable_x64", True)
 
 
 def load_verbs() -> None:
@@ -90,7 +94,6 @@ if TYPE_CHECKING:
     from .calibration.verb import calibrate as calibrate
     from .comparison import compare as compare
     from .distribution import Distribution as Distribution
-    from .distribution import MeanUsedWarning as MeanUsedWarning
     from .ehl import EHLLineContact as EHLLineContact
     from .joint import JointDistribution as JointDistribution
     from .machines import TwoDisk as TwoDisk
@@ -105,6 +108,7 @@ if TYPE_CHECKING:
     from .program_size import compile_report as compile_report
     from .program_size import quick_compile_options as quick_compile_options
     from .report.last_state import read_last_state as read_last_state
+    from .scenes.errors import MeanUsedWarning as MeanUsedWarning
     from .scenes.errors import PresetUsedWarning as PresetUsedWarning
     from .scenes.errors import SceneError as SceneError
     from .scenes.errors import StatesUnusedWarning as StatesUnusedWarning
@@ -146,7 +150,7 @@ _LAZY = {
     "JointDistribution": ".joint",
     "Material": ".materials",
     "Materials": ".bearings.parts",
-    "MeanUsedWarning": ".distribution",
+    "MeanUsedWarning": ".scenes.errors",
     "NewtonOptions": ".numerics.newton",
     "Operation": ".bearings.operation",
     "PartTemperatures": ".mounting",

@@ -17,10 +17,6 @@ _LEAST = 2.0**-53
 """Smallest probability that is asked of the normal distribution, whose quantile of 0 is infinite."""
 
 
-class MeanUsedWarning(UserWarning):
-    """A scene was read with the mean, or the median, of a field that is given as a distribution."""
-
-
 @dataclass(frozen=True)
 class Distribution:
     """Distribution of one number of a scene, in SI units.

@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from ._scene import AbstractScene
-from .numerics.arguments import require_choice, require_outside
+from .numerics.arguments import require_choice
+from .numerics.compiling import require_outside
 from .numerics.garbage import rare_garbage_collection
 from .numerics.precision import require_x64
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ._scene import AbstractScene
-from .numerics.arguments import require_outside
+from .numerics.compiling import require_outside
 from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import require_x64

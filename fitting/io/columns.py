@@ -7,7 +7,8 @@ import numpy as np
 from jaxtyping import Float64
 from pydantic_core import PydanticCustomError
 
-from jaxbearing.scenes.units import FORCE, PRESSURE, SURFACE_SPEED, TEMPERATURE, Dimension, describe, parse, registry
+from jaxbearing.scenes.units import FORCE, PRESSURE, SURFACE_SPEED, TEMPERATURE, Dimension, parse, registry
+from jaxbearing.scenes.words import describe
 
 from .errors import CurveError
 

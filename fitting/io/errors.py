@@ -4,7 +4,7 @@ from typing import NoReturn
 
 from jaxbearing.scenes.csv_files import Refuse
 from jaxbearing.scenes.errors import printable
-from jaxbearing.scenes.units import shortened
+from jaxbearing.scenes.words import shortened
 
 
 class CurveError(ValueError):

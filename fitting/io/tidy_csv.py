@@ -10,7 +10,7 @@ from jaxtyping import Int64
 
 from jaxbearing.scenes.csv_files import SEPARATORS, Line, NumberReader, cells_of, name_and_unit, telling_lines
 from jaxbearing.scenes.errors import nearest
-from jaxbearing.scenes.units import shortened
+from jaxbearing.scenes.words import shortened
 
 from .checks import check_count, check_sliding, remarks
 from .columns import CURVE, DIMENSIONS, EXAMPLES, KNOWN, REQUIRED, Column, check_unit, to_si

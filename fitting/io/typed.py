@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 from pydantic_core import PydanticCustomError
 
 from jaxbearing.scenes.errors import SceneError, nearest, one_of
-from jaxbearing.scenes.units import INVERSE_PRESSURE, PRESSURE, TEMPERATURE_DIFFERENCE, Dimension, describe, quantity
+from jaxbearing.scenes.units import INVERSE_PRESSURE, PRESSURE, TEMPERATURE_DIFFERENCE, Dimension, quantity
+from jaxbearing.scenes.words import describe
 
 from ..parameters import NAMES, POSITIVE, SYMBOLS, UNITS
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from jaxbearing.scenes.errors import nearest
-from jaxbearing.scenes.units import describe, shortened
+from jaxbearing.scenes.words import describe, shortened
 
 from .errors import CurveError
 from .text import decode, read_bytes

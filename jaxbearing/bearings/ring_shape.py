@@ -15,8 +15,9 @@ from .._types import Scalar
 from ..materials import Material
 from ..mounting.bending import Foundation, rectangular_section
 from ..mounting.bent_ring import BentRing, RimLoads, Supports
-from ..numerics.checks import RANGES, Checked, array_module, demand
+from ..numerics.checks import Checked, array_module, demand
 from ..numerics.precision import as_float
+from ..numerics.ranges import RANGES
 from ..numerics.refusals import refusals_of, refuse_all
 from ..numerics.safe import safe_norm
 from ..numerics.structure import count, switch

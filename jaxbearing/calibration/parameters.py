@@ -12,7 +12,7 @@ from jaxtyping import Array
 
 from .._scene import AbstractScene
 from ..distribution import Distribution
-from ..numerics.checks import RANGES
+from ..numerics.ranges import RANGES
 from ..report.labels import label_unit
 from ..scenes.inputs import owner_of
 from ..sweeps.cases import listed

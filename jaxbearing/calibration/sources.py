@@ -12,7 +12,7 @@ from ..bearings.priors import DRAG_FIELD, SUPPLY_FIELD, drag_prior, supply_prior
 from ..distribution import Distribution
 from ..scenes.errors import SceneError
 from ..scenes.reader import distributions_in, scene_from_tables
-from ..scenes.units import describe
+from ..scenes.words import describe
 from ..sweeps.fields import SceneSource
 from .data import Data
 from .table import read_data, require_plain

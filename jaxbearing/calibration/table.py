@@ -12,7 +12,8 @@ from ..numerics.newton import NewtonOptions
 from ..scenes.csv_files import CsvTable, NumberReader, name_and_unit
 from ..scenes.errors import SceneError, nearest
 from ..scenes.fields import is_known
-from ..scenes.units import describe, registry
+from ..scenes.units import registry
+from ..scenes.words import describe
 from ..sweeps.cases import listed
 from ..sweeps.fields import Field, SceneSource
 from ..sweeps.recipe import Direct

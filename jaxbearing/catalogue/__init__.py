@@ -5,5 +5,5 @@ from .bearing import find as find
 from .designation import Designation as Designation
 from .designation import known_designations as known_designations
 from .designation import parse as parse
-from .estimate import Estimate as Estimate
-from .estimate import Geometry as Geometry
+from .geometry import Estimate as Estimate
+from .geometry import Geometry as Geometry

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ..numerics.arguments import require_count, require_numbers
 from .designation import Designation, parse
 from .duty import Duty
-from .estimate import Estimate, Geometry, estimate, is_usual
+from .geometry import Estimate, Geometry
+from .kept import kept_geometry
 from .proportions import Normal, proportions_of
 from .scene_text import scene_text
+from .terms import angle_of, is_usual
 
 if TYPE_CHECKING:
     from .._scene import AbstractScene
 
-USUAL_ANGLES = {"angular_contact": Normal(30.0, 5.0), "spindle": Normal(15.0, 3.0)}
-"""Contact angle where the designation states none, degrees: the designs without a suffix differ between makers."""
 FAR = 4.0
 """Deviations between a given rating and the computed one from which on it is doubted."""
 ROLLERS = ("cylindrical", "tapered")
@@ -57,7 +57,7 @@ class Bearing(NamedTuple):
         operation = (duty.radial_load, duty.axial_load, duty.inner_speed)
         if any(value is not None and value <= 0.0 for value in operation):
             return False
-        return is_usual(self.designation, self.geometry, _angle(self.designation, None), FAR)
+        return is_usual(self.designation, self.geometry, angle_of(self.designation, None), FAR)
 
     def scene(self) -> "AbstractScene":
         """The scene: with the laws of `laws = "best"` where an oil is given, dry otherwise; loads and a speed that are
@@ -123,9 +123,20 @@ def find(
     _check(bearing, known)
     duty = Duty(radial_load, axial_load, inner_speed, oil, base, oil_temperature, oil_flow)
     duty.check()
-    geometry = estimate(bearing, known, _angle(bearing, contact_angle))
+    geometry = _estimated(bearing, known, angle_of(bearing, contact_angle))
     notes = (*bearing.notes, *_doubts(bearing, geometry, known))
     return Bearing(bearing._replace(notes=notes), geometry, known, duty)
+
+
+def _estimated(bearing: Designation, given: Mapping[str, float], angle: Normal) -> Geometry:
+    """The geometry: a kept one if nothing is given, otherwise computed."""
+    kept = None if given else kept_geometry(bearing, angle)
+    if kept is not None:
+        return kept
+    # JAX takes a second to import, which a kept estimate does not need
+    from .estimate import estimate
+
+    return estimate(bearing, given, angle)
 
 
 def _doubts(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> Iterator[str]:
@@ -135,18 +146,6 @@ def _doubts(bearing: Designation, geometry: Geometry, given: Mapping[str, float]
         ratio = given.get(name, math.nan) / getattr(geometry, name)
         if abs(math.log(ratio) - law.mean) > FAR * law.deviation:
             yield f"the given {name} is {ratio:.2f} times that of a usual geometry of this size: is it this bearing's?"
-
-
-def _angle(bearing: Designation, given: float | None) -> Normal:
-    """Contact angle, rad; without deviation where it is given or stated by the designation."""
-    if given is not None:
-        return Normal(given, 0.0)
-    if bearing.contact_angle is not None:
-        return Normal(math.radians(bearing.contact_angle), 0.0)
-    if bearing.usual_angle is not None and bearing.tightness is not None:
-        return Normal(math.radians(bearing.usual_angle), math.radians(bearing.tightness))
-    usual = USUAL_ANGLES.get(bearing.kind, Normal(0.0, 0.0))
-    return Normal(math.radians(usual.mean), math.radians(usual.deviation))
 
 
 def _check(bearing: Designation, given: Mapping[str, Any]) -> None:

@@ -76,6 +76,11 @@ class Designation(NamedTuple):
         return re.sub(r"[^A-Za-z0-9]+", "_", self.text).strip("_")
 
     @property
+    def race_width(self) -> float:
+        """Width beside which rollers are as long: C of a tapered roller bearing, otherwise the width, mm."""
+        return self.width if self.cup_width is None else self.cup_width
+
+    @property
     def in_words(self) -> str:
         """Kind of bearing in words."""
         return _KIND_IN_WORDS[self.kind]

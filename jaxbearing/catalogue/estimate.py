@@ -14,7 +14,7 @@ also makes the intervals.
 import math
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -26,13 +26,10 @@ from ..life.static import ball_static_capacity, roller_static_capacity
 from ..numerics.small_linear import cholesky, cholesky_solve
 from ..programs import KeptProgram
 from .designation import Designation
-from .proportions import FILL_ANGLE, GAP, Normal, proportions_of, usual_sizes
+from .geometry import Estimate, Geometry
+from .proportions import FILL_ANGLE, GAP, Normal, usual_sizes
+from .terms import GIVEN, UNKNOWNS, terms_of
 
-UNKNOWNS = ("diameter", "pitch", "length", "inner_groove", "outer_groove", "angle")
-"""ln of the element's diameter (mm; of tapered rollers, at mid length), of the pitch diameter (mm) and of the effective
-roller length (mm), ln of both conformities less 0.5, contact angle (rad)."""
-GIVEN = 1e-5
-"""Standard deviation of what is given: of a logarithm, or rad."""
 STEPS = 12
 """Gauss-Newton steps. The problems are nearly linear in these unknowns: the last step is below 1e-9."""
 LONGEST_STEP = 0.3
@@ -42,35 +39,6 @@ QUANTILE = 1.645
 """Half width of an interval of 90 % in standard deviations."""
 FILLS = (0.5, 0.985)
 """Z D/(pi d_m) of candidates."""
-
-
-class Estimate(NamedTuple):
-    """A number of the geometry: SI value, least and greatest value of its 90 % interval, and whether it was given."""
-
-    value: float
-    least: float
-    greatest: float
-    given: bool = False
-
-
-class Geometry(NamedTuple):
-    """The most probable geometry, and its ratings by the package's formulas.
-
-    **Arguments:** `n_elements`: number of balls or rollers; `diameter`, `pitch_diameter`, `length` (of rollers), m;
-    `conformity_inner`, `conformity_outer`: those of the ratings; `contact_angle`, rad; `dynamic_capacity`,
-    `static_capacity`: computed, N; `standard_size`: whether the diameter is one of the usual sizes.
-    """
-
-    n_elements: Estimate
-    diameter: Estimate
-    pitch_diameter: Estimate
-    length: Estimate
-    conformity_inner: Estimate
-    conformity_outer: Estimate
-    contact_angle: Estimate
-    dynamic_capacity: float
-    static_capacity: float
-    standard_size: bool
 
 
 def estimate(bearing: Designation, given: Mapping[str, float], angle: Normal) -> Geometry:
@@ -85,7 +53,7 @@ def estimate(bearing: Designation, given: Mapping[str, float], angle: Normal) ->
     **Raises:** `ValueError` for numbers that no geometry of this size has.
     """
     rollers = bearing.kind in ("cylindrical", "tapered")
-    terms = _terms(bearing, given, angle)
+    terms = {name: np.array(values) for name, values in terms_of(bearing, given, angle).items()}
     counts, sizes, standard = _candidates(bearing, given, terms)
     mask = np.arange(LANES) < len(counts)
     padded = [np.resize(column, LANES).astype(float) for column in (counts, sizes)]
@@ -94,57 +62,6 @@ def estimate(bearing: Designation, given: Mapping[str, float], angle: Normal) ->
     # without usual sizes the column is NaN, and its weight is 0: the number in its place counts for nothing
     out = program(padded[0], np.nan_to_num(np.log(padded[1])), size_weight, terms)
     return _chosen({name: np.asarray(value) for name, value in out.items()}, mask, counts, given, angle, standard)
-
-
-def is_usual(bearing: Designation, geometry: Geometry, angle: Normal, reach: float) -> bool:
-    """True if each number of a geometry is as usual proportions have it, within so many of their deviations.
-
-    **Arguments:** as those of `estimate`; `geometry`: its answer; `reach`: number of deviations.
-    """
-    terms = _terms(bearing, {}, angle)
-    size = lambda one: math.log(1e3 * one.value)
-    groove = lambda one: math.log(one.value - 0.5)
-    unknowns = [size(geometry.diameter), size(geometry.pitch_diameter), size(geometry.length)]
-    unknowns += [groove(geometry.conformity_inner), groove(geometry.conformity_outer), geometry.contact_angle.value]
-    far = np.abs(np.array(unknowns) - terms["mean"]) * terms["weight"]
-    return bool(np.all(far <= reach))
-
-
-def _terms(bearing: Designation, given: Mapping[str, float], angle: Normal) -> dict[str, Any]:
-    """Numbers of the least-squares problem: means and weights (1/deviation) of its terms, and the boundary sizes."""
-    usual = proportions_of(bearing.kind, bearing.series)
-    half, mean = 0.5 * (bearing.outside - bearing.bore), 0.5 * (bearing.outside + bearing.bore)
-    width = bearing.width if bearing.cup_width is None else bearing.cup_width
-    shifted = lambda law, scale: Normal(law.mean + math.log(scale), law.deviation)
-    priors = {
-        "diameter": shifted(usual.diameter, half),
-        "pitch": shifted(usual.pitch, mean),
-        "length": shifted(usual.length, width) if math.isfinite(usual.length.deviation) else Normal(0.0, GIVEN),
-        "inner_groove": usual.inner_groove,
-        "outer_groove": usual.outer_groove,
-        "angle": angle,
-    }
-    for name, field in (("diameter", "diameter"), ("pitch", "pitch_diameter"), ("length", "length")):
-        if field in given:
-            priors[name] = Normal(math.log(1e3 * given[field]), GIVEN)
-    ratings = [
-        _rating(given.get(name), law)
-        for name, law in (("dynamic_capacity", usual.dynamic), ("static_capacity", usual.static))
-    ]
-    weight = lambda law: 1.0 / max(law.deviation, GIVEN)
-    return {
-        "mean": np.array([priors[name].mean for name in UNKNOWNS]),
-        "weight": np.array([weight(priors[name]) for name in UNKNOWNS]),
-        "rating": np.array([law.mean for law in ratings]),
-        "rating_weight": np.array([weight(law) for law in ratings]),
-        "fill": np.array([usual.fill.mean, usual.gap_fill.mean, usual.angle_fill.mean]),
-        "fill_weight": np.array([weight(law) for law in (usual.fill, usual.gap_fill, usual.angle_fill)]),
-    }
-
-
-def _rating(value: float | None, law: Normal) -> Normal:
-    """ln of the computed rating, N, that a printed one stands for."""
-    return Normal(0.0, math.inf) if value is None else Normal(math.log(value) - law.mean, law.deviation)
 
 
 def _candidates(
@@ -284,7 +201,7 @@ def _chosen(
         index = UNKNOWNS.index(name)
         values = out["x"][:, index]
         least, greatest = spread(values, out["variance"][:, index])
-        known = field in given or (name == "angle" and angle.deviation == 0.0)
+        known = field in given or (name == "angle" and angle.is_known)
         return Estimate(law(float(values[best])), law(least), law(greatest), known)
 
     length = lambda value: 1e-3 * math.exp(value)

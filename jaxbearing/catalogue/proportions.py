@@ -36,6 +36,11 @@ class Normal(NamedTuple):
     mean: float
     deviation: float
 
+    @property
+    def is_known(self) -> bool:
+        """True for a quantity that does not scatter."""
+        return self.deviation == 0.0
+
 
 NOTHING = Normal(0.0, math.inf)
 

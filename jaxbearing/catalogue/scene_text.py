@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from .designation import Designation
 from .dimensions import clearance_limits
 from .duty import Duty, Line, oil_lines, operation_lines, quoted
-from .estimate import Estimate, Geometry
+from .geometry import Estimate, Geometry
 from .tapered import TaperedShape, tapered_shape
 
 KINDS = {"cylindrical": "cylindrical_roller_bearing", "tapered": "tapered_roller_bearing"}

@@ -3,6 +3,10 @@
 import math
 from typing import NamedTuple
 
+import numpy as np
+
+from ..bearings.tapered.usual_ends import usual_end_radius, usual_flange_angle
+
 TURNS = 60
 """Steps of the fixed-point search, each of which takes about the fifth part of the error."""
 
@@ -26,14 +30,11 @@ def tapered_shape(mean_diameter: float, pitch_diameter: float, length: float, cu
 
     **Arguments:** lengths, m; `cup_angle`: half angle of the cup, rad.
     """
-    # of tapered rollers only: the rest of the catalogue does without the bearings' classes
-    from ..bearings.tapered.geometry import usual_end_radius, usual_flange_angle
-
     half = 0.0
     for _ in range(TURNS):
         tilt = math.sin(cup_angle - half)
         big = mean_diameter + length * math.sin(half)
         half = math.atan(big * tilt / (pitch_diameter + length * tilt))
     big = mean_diameter + length * math.sin(half)
-    radius = float(usual_end_radius(big, half))
-    return TaperedShape(big, half, float(usual_flange_angle(big, cup_angle, half, radius)), radius)
+    radius = float(usual_end_radius(big, half, np))
+    return TaperedShape(big, half, float(usual_flange_angle(big, cup_angle, half, radius, np)), radius)

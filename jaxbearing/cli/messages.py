@@ -27,8 +27,7 @@ def bad_input(notes: list[str] | None = None) -> Iterator[None]:
 
     **Arguments:** `notes`: list that gets notes on the input; left out: they are printed on stderr.
     """
-    from ..distribution import MeanUsedWarning
-    from ..scenes.errors import PresetUsedWarning, SceneError, StatesUnusedWarning
+    from ..scenes.errors import MeanUsedWarning, PresetUsedWarning, SceneError, StatesUnusedWarning
 
     notable = (MeanUsedWarning, PresetUsedWarning, StatesUnusedWarning)
     said: list[str] = []

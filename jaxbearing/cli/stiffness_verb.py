@@ -93,7 +93,8 @@ def stiffness(
 def _speeds(text: str) -> list[float]:
     """FIRST:LAST:NUMBER as speeds in rad/s. **Raises:** `SceneError`."""
     from ..scenes.errors import SceneError
-    from ..scenes.units import SPEED, describe
+    from ..scenes.units import SPEED
+    from ..scenes.words import describe
 
     parts = [part.strip() for part in text.split(":")]
     if len(parts) != 3:

@@ -32,9 +32,10 @@ from ..contacts.heated_film import heated_film
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import Material, reduced_modulus
-from ..numerics.checks import RANGES, Checked, array_module, demand
+from ..numerics.checks import Checked, array_module, demand
 from ..numerics.newton import NewtonOptions
 from ..numerics.precision import as_float
+from ..numerics.ranges import RANGES
 from ..numerics.refusals import refuse_all
 from ..numerics.status import Status
 from ..numerics.structure import switch

@@ -1,30 +1,41 @@
-"""Checks of arguments of public functions: choices, numbers, angles, temperatures, counts. Traced values pass, except
-where a function must stand outside of a program (`require_outside`)."""
+"""Checks of arguments of public functions: choices, numbers, angles, temperatures, counts. Traced values pass."""
 
 import difflib
 from collections.abc import Iterable
 from typing import Any
 
-import jax
 import numpy as np
-from jax.core import Tracer
 
-from .checks import RANGES
-from .compiling import inside_a_program
+from .ranges import RANGES
 
 COLDEST = 150.0
 """Lowest temperature that is accepted, K. Every lubricant is solid there, so a lower number is in another unit. There
 is no upper limit, because each law of an oil says how it goes on above the range that it was fitted in."""
 
 
-_ARRAYS = np.generic | np.ndarray | jax.Array
+def _is_traced(value: object) -> bool:
+    """True for a traced value of JAX."""
+    if isinstance(value, int | float):
+        return False
+    # plain numbers do not wait for the import of JAX
+    from jax.core import Tracer
+
+    return isinstance(value, Tracer)
+
+
+def _is_array(value: object) -> bool:
+    """True for an array of NumPy or JAX, and for a scalar of NumPy; traced values are arrays too."""
+    # plain numbers do not wait for the import of JAX
+    from jax import Array
+
+    return isinstance(value, np.generic | np.ndarray | Array)
 
 
 def _numbers(value: object) -> np.ndarray | None:
     """The numbers of an argument; `None` if they are traced, or if it holds no numbers."""
-    if isinstance(value, Tracer) or not isinstance(value, int | float | _ARRAYS):
-        return None
-    return np.asarray(value)
+    if isinstance(value, int | float) or (_is_array(value) and not _is_traced(value)):
+        return np.asarray(value)
+    return None
 
 
 def _judged(name: str, value: object) -> np.ndarray:
@@ -32,10 +43,10 @@ def _judged(name: str, value: object) -> np.ndarray:
 
     **Raises:** `ValueError` for anything but a number or an array of numbers.
     """
-    if isinstance(value, Tracer) or (hasattr(value, "dtype") and not isinstance(value, _ARRAYS)):
+    numbers = _numbers(value)
+    if numbers is None and (_is_traced(value) or hasattr(value, "dtype")):
         # an object with a dtype that is no array is a placeholder (`jax.ShapeDtypeStruct`)
         return np.empty(0)
-    numbers = _numbers(value)
     if numbers is None or numbers.dtype.kind not in "iuf":
         raise ValueError(f"{name} must be a number or an array of numbers, got {value!r}")
     return numbers
@@ -45,7 +56,7 @@ def require_numbers(bound: str, **values: Any) -> None:
     """Checks that each value is a number, or an array of numbers, within a bound. NaN passes, because a failed solve
     returns it, and so do traced values.
 
-    **Arguments:** `bound`: a key of `checks.RANGES`, such as "> 0"; `values`: name of the argument = its value.
+    **Arguments:** `bound`: a key of `ranges.RANGES`, such as "> 0"; `values`: name of the argument = its value.
 
     **Raises:** `ValueError` that names the first argument that is wrong.
     """
@@ -54,17 +65,6 @@ def require_numbers(bound: str, **values: Any) -> None:
         wrong = numbers[~(RANGES[bound].holds(numbers) | np.isnan(numbers))].ravel()
         if len(wrong):
             raise ValueError(f"{name} must be {bound}, got {float(wrong[0]):g}")
-
-
-def require_outside(verb: str, instead: str, *values: Any) -> None:
-    """Refuses the call of a function that cannot be part of a JAX program.
-
-    **Arguments:** `verb`: name of the function; `instead`: what to use there; `values`: its arguments.
-
-    **Raises:** `ValueError` while JAX traces (inside `jax.jit`), and if one of `values` is traced.
-    """
-    if inside_a_program(values):
-        raise ValueError(f"{verb} was called inside of jit, vmap or grad, which it cannot be part of: {instead}")
 
 
 def require_choice(name: str, value: object, choices: Iterable[str]) -> None:
@@ -113,7 +113,7 @@ def require_count(name: str, value: object, least: int = 1) -> None:
     **Raises:** `ValueError`.
     """
     number = _numbers(value)
-    if isinstance(value, Tracer):
+    if _is_traced(value):
         return
     whole = number is not None and number.ndim == 0 and number.dtype.kind in "iu" and number >= least
     if not whole:

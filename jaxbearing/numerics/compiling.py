@@ -65,6 +65,17 @@ def inside_a_program(arguments: Any) -> bool:
     return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(arguments)) or is_tracing()
 
 
+def require_outside(verb: str, instead: str, *values: Any) -> None:
+    """Refuses the call of a function that cannot be part of a JAX program.
+
+    **Arguments:** `verb`: name of the function; `instead`: what to use there; `values`: its arguments.
+
+    **Raises:** `ValueError` while JAX traces (inside `jax.jit`), and if one of `values` is traced.
+    """
+    if inside_a_program(values):
+        raise ValueError(f"{verb} was called inside of jit, vmap or grad, which it cannot be part of: {instead}")
+
+
 def compiled_by_hand(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compiles a law that has a loop inside, once for each shape of its arguments.
 

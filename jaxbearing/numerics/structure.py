@@ -14,7 +14,7 @@ import numpy as np
 from jax.core import Tracer
 
 from .arguments import require_choice
-from .checks import RANGES
+from .ranges import RANGES
 
 _WORDS = {int: "a whole number", float: "one finite number", bool: "True or False"}
 
@@ -47,7 +47,7 @@ def constant(
     among: Iterable[float] | None = None,
     **kwargs: Any,
 ) -> Any:
-    """Static field that holds one finite number without a unit, within `bound` (a key of `checks.RANGES`). If `among`
+    """Static field that holds one finite number without a unit, within `bound` (a key of `ranges.RANGES`). If `among`
     is given, it is also one of these numbers. Messages call the field `name`. `None` passes if it is the default."""
     numbers = None if among is None else tuple(among)
 

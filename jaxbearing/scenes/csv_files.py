@@ -12,7 +12,7 @@ from typing import NamedTuple, NoReturn
 from .errors import SceneError
 from .input_files import LARGEST_TABLE
 from .toml_files import read_text
-from .units import describe
+from .words import describe
 
 SEPARATORS = {",": "','", ";": "';'", "\t": "a tab"}
 """Separators of columns, with their names in messages. A decimal comma needs one of the latter two."""

@@ -16,7 +16,8 @@ from ..distribution import SHAPES, Distribution
 from ..report.display import with_unit
 from .errors import SceneError, nearest, one_of
 from .fields import dimension_of, is_known, parts_of, tables_at, type_at
-from .units import Dimension, describe, dimension_of_unit, number, quantity
+from .units import Dimension, dimension_of_unit, number, quantity
+from .words import describe
 
 _NAMES = ("mean", "deviation", "median", "log_deviation", "low", "high", "shape")
 _FORMS = "'mean' and 'deviation', or 'low' and 'high', or 'median' and 'log_deviation'"

@@ -9,8 +9,9 @@ from typing import Any, TypeVar
 from pydantic import TypeAdapter, ValidationError
 
 from ..numerics.checks import STAND_IN
-from .errors import SceneError, from_validation, in_words, nearest
+from .errors import SceneError, nearest
 from .fields import plain_table_at, type_at
+from .problems import from_validation, in_words
 from .table import Table
 
 AnyTable = TypeVar("AnyTable", bound=Table)

@@ -1,27 +1,17 @@
 """`SceneError`, the error for scenes that cannot be read: file, field, what was found, what is expected, nearest name.
 
-A *law* is a formula that a scene chooses by its name. In some tables of a file the field `law` holds that name, and it
-decides which other fields the table has. One error reports all problems of a file. This module makes it from the errors
-of pydantic (`from_validation`) and from those of the classes that a scene is built of (`from_class`).
+One error reports all problems of a file. The module `problems` makes it from errors of pydantic and of classes. Every
+command imports this module, so it must be quick to import.
 """
 
 import difflib
-import re
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Sequence
 
-from pydantic import BaseModel, TypeAdapter, ValidationError
+from .words import shortened
 
-from ..numerics.refusals import Refusals
-from .engineers_words import usual_word
-from .fields import is_optional, names_at, parts_of, path_of, required_names, type_at
-from .units import describe, shortened
 
-LAW_ERROR = "law_name"
-"""Type of the validation error for a name that is not the name of a law."""
-_CLASS_MESSAGE = re.compile(r"([a-z_0-9]+(?:\.[a-z_0-9]+)*)(:| must)")
-_MUST_BE = re.compile(r"be (?P<expected>.*?)(?:, got [^:]*(?:: (?P<reason>.*))?)?")
-_FOUND_EXPECTED = re.compile(r"(?:found (?P<found>.*?), )?expected (?P<expected>.*)")
+class MeanUsedWarning(UserWarning):
+    """A scene was read with the mean, or the median, of a field that is given as a distribution."""
 
 
 class PresetUsedWarning(UserWarning):
@@ -112,143 +102,6 @@ def nearest(name: str, valid: Iterable[str]) -> str:
     by_lower = {candidate.lower(): candidate for candidate in valid}
     close = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.6)
     return by_lower[close[0]] if close else ""
-
-
-def from_validation(error: ValidationError, model: type[BaseModel], file: str) -> SceneError:
-    """The error for all problems that pydantic found.
-
-    Unknown names come first and missing fields last. A missing field is left out if another problem suggests it as the
-    name that was meant.
-
-    **Arguments:** `error`: of pydantic; `model`: schema of the scene; `file`: its name for messages.
-    """
-    details = sorted(_causes(error.errors(include_url=False)), key=_rank)
-    problems = [in_words(file, *_path_and_words(one, model)) for one in details]
-    meant = {".".join([*one.path.split(".")[:-1], one.suggestion]) for one in problems if one.suggestion}
-    missing = [detail["type"] == "missing" for detail in details]
-    kept = [one for one, absent in zip(problems, missing, strict=True) if not (absent and one.path in meant)]
-    return SceneError.of_all(kept)
-
-
-def in_words(file: str, path: str, words: Mapping[str, str]) -> SceneError:
-    """One problem. `words` holds `found` and `expected`, and may hold `suggestion`."""
-    return SceneError(file, path, words["found"], words["expected"], words.get("suggestion", ""))
-
-
-def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneError:
-    """The error for refusals by classes of the library.
-
-    Their messages read "table.field must be ..., got ...: reason", "table.field: found ..., expected ...",
-    "table.field: expected ..." or "table.field: reason".
-
-    **Arguments:** `error`: of the class; `raw`: tables of the scene; `file`: its name for messages.
-    """
-    if isinstance(error, SceneError):
-        # a file that the scene names was refused: its error is complete
-        return error
-    if isinstance(error, Refusals):
-        return SceneError.of_all([from_class(one, raw, file) for one in error.refusals])
-    text = str(error)
-    match = _CLASS_MESSAGE.match(text)
-    if match is None:
-        return SceneError(file, "", "values that do not fit together", "a scene that can be built", reason=text)
-    path, said = match[1], text[match.end() :].strip()
-    found = describe_at(raw, path)
-    expectation = (_MUST_BE if match[2] == " must" else _FOUND_EXPECTED).fullmatch(said)
-    if expectation is None:
-        return SceneError(file, path, found, "values that fit together", reason=text.removeprefix(f"{path}: "))
-    words = expectation.groupdict()
-    return SceneError(file, path, words.get("found") or found, words["expected"], reason=words.get("reason") or "")
-
-
-def describe_at(raw: Mapping[str, Any], path: str) -> str:
-    """The value of a scene at a dotted path, in words; "nothing" if there is none."""
-    value: Any = raw
-    for name in path.split("."):
-        if not isinstance(value, Mapping) or name not in value:
-            return "nothing"
-        value = value[name]
-    return describe(value)
-
-
-def _causes(details: Sequence[Any]) -> list[Any]:
-    """Leaves out the problems that follow from a wrong `law`, such as parameters which another law has or lacks."""
-    wrong = {tuple(one["loc"][:-1]) for one in details if one["type"] == "literal_error" and one["loc"][-1] == "law"}
-    return [one for one in details if one["loc"][-1:] == ("law",) or tuple(one["loc"][:-1]) not in wrong]
-
-
-def _rank(detail: Any) -> int:
-    """Place of a problem among others: unknown names first, missing fields last."""
-    return {"extra_forbidden": 0, "missing": 2}.get(detail["type"], 1)
-
-
-def _path_and_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]:
-    """Dotted path of one problem of pydantic, and the words for `in_words`. A validator of a schema raises a problem of
-    the type "scene", whose context holds the field and the words."""
-    kind, location, context = detail["type"], detail["loc"], detail.get("ctx", {})
-    path = path_of(location)
-    if kind == "extra_forbidden":
-        return path, unknown_name(location, model)
-    if kind == "missing":
-        wanted = _expected_at(model, location)
-        return path, {"found": "nothing", "expected": f"a value for '{location[-1]}', which is required{wanted}"}
-    if kind == "scene":
-        # a check of several fields names the field to look at
-        path = ".".join(part for part in (path, context.get("field", "")) if part)
-        return path, {name: context.get(name, "") for name in ("found", "expected", "suggestion")}
-    if kind in ("literal_error", LAW_ERROR):
-        valid = re.findall(r"'([^']*)'", context["expected"])
-        given = detail["input"]
-        near = nearest(given, valid) if isinstance(given, str) else ""
-        expected = one_of(valid)
-        further = next((one for one in parts_of(type_at(model, location)) if isinstance(one, str)), "")
-        expected += f", {further}" if further else ""
-        if is_optional(model, location):
-            expected += f", or leave it out (--set {path}=none)"
-        return path, {"found": describe(given), "expected": expected, "suggestion": near}
-    if kind in ("model_type", "model_attributes_type", "dict_type"):
-        return path, {"found": describe(detail["input"]), "expected": "a table"}
-    if kind == "string_type":
-        return path, {"found": describe(detail["input"]), "expected": "a text in quotes"}
-    return path, {"found": describe(detail["input"]), "expected": detail["msg"]}
-
-
-def _expected_at(model: type[BaseModel], location: Sequence[int | str]) -> str:
-    """The values that the field at a location takes, in the words of its messages, after ": "; empty if unknown."""
-    wanted = type_at(model, location)
-    if wanted is None:
-        return ""
-    if isinstance(wanted, type) and issubclass(wanted, BaseModel):
-        return f": a table with {', '.join(repr(name) for name in required_names(wanted))}"
-    try:
-        TypeAdapter(wanted).validate_python(object())
-    except ValidationError as error:
-        refused = error.errors(include_url=False)[0]
-        _, words = _path_and_words({**refused, "loc": tuple(location)}, model)
-        return f": {words['expected']}"
-    return ""
-
-
-def unknown_name(location: Sequence[int | str], model: type[BaseModel]) -> dict[str, str]:
-    """Words for `in_words` if the schema has no such name: found, expected, and the nearest name as a suggestion."""
-    name, parents = str(location[-1]), location[:-1]
-    owner = names_at(model, parents)
-    later = owner.not_yet.get(name)
-    if later:
-        return {"found": f"'{name}', which is not available in this version", "expected": later}
-    if name in owner.elsewhere:
-        return {"found": shortened(repr(name)), "expected": owner.elsewhere[name]}
-    return {
-        "found": f"the unknown name {shortened(repr(name))}",
-        "expected": one_of(owner.names) if owner.names else "a value, not a table",
-        "suggestion": _inside(name, model, owner.names) or usual_word(name, owner.names) or nearest(name, owner.names),
-    }
-
-
-def _inside(name: str, model: type[BaseModel], tables: Iterable[str]) -> str:
-    """The dotted path of a field of this name in one of the tables of a scene; empty if there is not just one."""
-    found = [f"{table}.{name}" for table in tables if name in names_at(model, (table,)).names]
-    return found[0] if len(found) == 1 else ""
 
 
 _MOST_NAMES, _MOST_LETTERS = 24, 340

@@ -48,7 +48,7 @@ from ..contacts.viscous import VISCOUS_LAWS
 from ..gaps import AbstractTurbulence, BlendedTurbulence, FullTurbulence, Laminar
 from ..lubricants import Lubricant
 from . import units
-from .errors import LAW_ERROR
+from .problems import LAW_ERROR
 
 ENTRY_POINTS = "jaxbearing.laws"
 """Group of the entry points by which other packages name their laws."""

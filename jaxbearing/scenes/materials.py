@@ -9,6 +9,7 @@ from ..materials import CATALOGUE, THERMAL_FIELDS, Material, catalogue_material,
 from . import units
 from .errors import nearest, one_of
 from .table_of import table_of
+from .words import describe
 
 
 class MaterialTable(table_of(Material)):
@@ -39,7 +40,7 @@ def _material_name(value: Any) -> str:
         near = (nearest(name, CATALOGUE) or nearest(name.split(" ")[-1], CATALOGUE)) if isinstance(name, str) else ""
         fields = ", ".join(MaterialTable.model_fields)
         expected = f"a material of the catalogue ({one_of(CATALOGUE)}) or a table with {fields}"
-        raise units.refusal(expected, units.describe(value), near)
+        raise units.refusal(expected, describe(value), near)
     return known
 
 

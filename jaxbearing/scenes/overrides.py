@@ -12,13 +12,14 @@ from pydantic import BaseModel
 
 from ..materials import material_named
 from ..numerics.structure import plain
-from .errors import SceneError, describe_at, in_words, unknown_name
+from .errors import SceneError
 from .fields import is_known, names_at
 from .materials import MaterialTable, catalogue_table
 from .oil.files import base_of
 from .presets import Filling, filling
+from .problems import describe_at, in_words, unknown_name
 from .table import Table
-from .units import describe
+from .words import describe
 
 Overrides = Mapping[str, str | float | np.generic | np.ndarray | jax.Array]
 """Dotted path of a field -> value as it would be typed, or a number or truth value of Python, numpy or JAX."""

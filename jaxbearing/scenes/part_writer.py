@@ -19,6 +19,7 @@ from .laws import ENTRY_POINTS, Laws
 from .materials import MaterialTable
 from .quantity_texts import quantity_text
 from .table import Table
+from .words import shortened
 
 Rows = dict[str, Any]
 """A table: texts with units, numbers, words, lists and further tables by name."""
@@ -124,7 +125,7 @@ def optional_law(laws: Laws[Any], law: Any, absent: Any, path: str) -> str | Non
 
 def shown(value: object) -> str:
     """A value of a scene, for messages: a part on one line."""
-    return units.shortened(" ".join(repr(value).split()))
+    return shortened(" ".join(repr(value).split()))
 
 
 def same(one: object, other: object) -> bool:

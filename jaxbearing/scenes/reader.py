@@ -11,21 +11,22 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel
 
 from .._scene import AbstractScene
-from ..distribution import Distribution, MeanUsedWarning
+from ..distribution import Distribution
 from .data_files import builtin_names, builtin_summary, builtin_text
 from .distributions import means_of, said_of
 from .drafts import Unreadable, draft
-from .errors import PresetUsedWarning, SceneError, StatesUnusedWarning, from_class, nearest, one_of
+from .errors import MeanUsedWarning, PresetUsedWarning, SceneError, StatesUnusedWarning, nearest, one_of
 from .kinds import kind_named
 from .oil.catalogue import with_catalogue
 from .oil.files import Origin, origins, prior_ranges
 from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value, preset
 from .presets import names_a_preset
 from .presets import said_of as said_of_preset
+from .problems import from_class
 from .shaft.members import at, each_bearing, put
 from .table import Table
 from .toml_files import parse_toml, read_text
-from .units import describe, shortened
+from .words import describe, shortened
 
 __all__ = ["builtin_names", "builtin_summary", "builtin_text", "load_scene", "scene_from_tables"]
 

@@ -21,7 +21,8 @@ from .reader import (
     warn_of_preset,
     without_states,
 )
-from .units import describe, number
+from .units import number
+from .words import describe
 
 NAME, SHARE = "name", "share"
 EXAMPLE = '[[state]] tables, each with name = "cruise", share = 0.6 and changes such as operation.radial_load = "3 kN"'

@@ -10,7 +10,8 @@ from pydantic_core import PydanticCustomError
 from .csv_files import CsvTable, name_and_unit
 from .errors import SceneError, nearest
 from .table import Problems, refusal_at
-from .units import FLOW, FORCE, SPEED, TEMPERATURE, TIME, Dimension, describe, parse, shortened
+from .units import FLOW, FORCE, SPEED, TEMPERATURE, TIME, Dimension, parse
+from .words import describe, shortened
 
 _QUANTITIES = {
     "speed": (SPEED, "speed [rpm]"),

@@ -9,7 +9,7 @@ from typing import Any
 
 from .errors import SceneError, nearest
 from .input_files import LARGEST_TEXT, UnfitFileError, read_bytes
-from .units import describe, shortened
+from .words import describe, shortened
 
 
 def read_text(path: str | Path, expected: str, near: Iterable[str] = (), largest: int = LARGEST_TEXT) -> str:

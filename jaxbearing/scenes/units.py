@@ -16,8 +16,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import BeforeValidator
 from pydantic_core import PydanticCustomError
 
-from ..numerics.checks import RANGES
+from ..numerics.ranges import RANGES
 from .usual_units import USUAL
+from .words import describe, is_finite, short, shortened
 
 if TYPE_CHECKING:
     import pint
@@ -34,7 +35,6 @@ _WORDS = re.compile(r"\b(?:square|sq|squared|cubic|cubed|per)\b", re.IGNORECASE)
 """Words that pint replaces by powers, which the pattern cannot see."""
 _LONGEST_UNIT = 40
 _NON_FINITE = re.compile(r"\s*[+-]?(nan|inf|infinity)\b", re.IGNORECASE)
-_LONGEST = 60
 _SI_NUMBERS: ContextVar[bool] = ContextVar("bare numbers are SI values", default=False)
 _REMEMBERED = 1024
 """Units that are remembered: pint takes a millisecond to read one, which was most of what a scene took."""
@@ -50,7 +50,7 @@ class Dimension:
     offset_allowed: bool = False
 
     def expected(self, bound: str = "finite") -> str:
-        """Expected content of a field of this kind within a bound of `numerics.checks.RANGES`."""
+        """Expected content of a field of this kind within a bound of `numerics.ranges.RANGES`."""
         bound = "" if bound == "finite" else bound
         if bound == "> 0" and self.offset_allowed:
             bound = "above absolute zero"
@@ -120,37 +120,6 @@ def registry() -> Any:
     return pint.UnitRegistry()
 
 
-def describe(value: object) -> str:
-    """A value of a scene file in words, for "found ..."."""
-    if isinstance(value, bool):
-        return f"the boolean {str(value).lower()}"
-    if isinstance(value, int | float):
-        return f"the number {_short(value)}" if _is_finite(value) else f"{_short(value)}, which is not finite"
-    if isinstance(value, str):
-        return f"the text {_short(value)}"
-    if isinstance(value, dict):
-        return "a table"
-    if isinstance(value, list):
-        return "an array"
-    return f"{value!s} ({type(value).__name__})"
-
-
-def _short(value: Any) -> str:
-    return shortened(repr(value))
-
-
-def shortened(text: str) -> str:
-    """A text that may be long, for a message."""
-    return text if len(text) <= _LONGEST else text[:_LONGEST] + "..."
-
-
-def _is_finite(value: int | float) -> bool:
-    try:
-        return math.isfinite(value)
-    except OverflowError:  # TOML has integers beyond the largest float
-        return False
-
-
 def refusal(expected: str, found: str, suggestion: str = "") -> PydanticCustomError:
     """The error of a field, in the parts that `SceneError` shows. The texts may hold braces: they travel as context."""
     return PydanticCustomError(
@@ -175,9 +144,9 @@ def parse(value: Any, dimension: Dimension) -> float:
     an unknown unit, a unit of another dimension, or a number that is not finite.
     """
     if isinstance(value, int | float) and not isinstance(value, bool):
-        if _SI_NUMBERS.get() and _is_finite(value):
+        if _SI_NUMBERS.get() and is_finite(value):
             return float(value)
-        bare = f"the bare number {_short(value)}" if _is_finite(value) else describe(value)
+        bare = f"the bare number {short(value)}" if is_finite(value) else describe(value)
         raise refusal(dimension.expected(), bare)
     if not isinstance(value, str):
         raise refusal(dimension.expected(), describe(value))
@@ -259,7 +228,7 @@ def _is_proportional(unit: "pint.Unit") -> bool:
 
 
 def quantity(given: Any, dimension: Dimension, bound: str = "finite") -> float:
-    """SI value of a text with a unit that is within a bound of `numerics.checks.RANGES`; refuses as `parse` does."""
+    """SI value of a text with a unit that is within a bound of `numerics.ranges.RANGES`; refuses as `parse` does."""
     value = parse(given, dimension)
     if not RANGES[bound].holds(value):
         raise refusal(dimension.expected(bound), describe(given))
@@ -314,8 +283,8 @@ def _switch(value: Any) -> bool:
 
 
 def number(given: Any, bound: str = "finite") -> float:
-    """A finite number without a unit, within a bound of `numerics.checks.RANGES`."""
-    good = isinstance(given, int | float) and not isinstance(given, bool) and _is_finite(given)
+    """A finite number without a unit, within a bound of `numerics.ranges.RANGES`."""
+    good = isinstance(given, int | float) and not isinstance(given, bool) and is_finite(given)
     if not good or not RANGES[bound].holds(float(given)):
         said = "" if bound == "finite" else f" {bound}"
         raise refusal(f"a number{said} without a unit and without quotes", describe(given))
@@ -346,7 +315,7 @@ def number_note(bound: str, unit: str = "1", difference: bool = False) -> Before
     """Reads one number.
 
     **Arguments:**
-    - `bound`: one of `numerics.checks.RANGES`.
+    - `bound`: one of `numerics.ranges.RANGES`.
     - `unit`: as classes of the library have it; "1" for a number without a unit.
     - `difference`: whether a number in K is a difference of temperatures.
     """

@@ -16,8 +16,9 @@ from jaxtyping import Array, Float
 from .._scene import label, number, optional_number
 from .._types import Scalar
 from ..bearings.bearing import AbstractBearing
-from ..numerics.checks import RANGES, Checked, array_module, demand
+from ..numerics.checks import Checked, array_module, demand
 from ..numerics.precision import as_float
+from ..numerics.ranges import RANGES
 from ..numerics.structure import choice
 
 SENSES = {"+x": 1.0, "-x": -1.0, "<": 1.0, ">": -1.0}

@@ -12,12 +12,14 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from .._scene import AbstractScene
 from ..report.labels import udunits
 from ..scenes.distributions import no_number
-from ..scenes.errors import SceneError, in_words, unknown_name
+from ..scenes.errors import SceneError
 from ..scenes.fields import dimension_of, is_known, type_at
 from ..scenes.inputs import owner_of
 from ..scenes.overrides import REMOVE, parse_value
+from ..scenes.problems import in_words, unknown_name
 from ..scenes.reader import read_base, scene_from_tables, scene_model, warn_of_means, warn_of_preset
-from ..scenes.units import Dimension, describe
+from ..scenes.units import Dimension
+from ..scenes.words import describe
 from .cases import MOST_CASES, Cases, between, grid, latin_hypercube, random
 from .recipe import Direct, Read, from_reader, structural
 

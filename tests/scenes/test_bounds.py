@@ -18,8 +18,9 @@ from jaxbearing.bearings.parts import Drag
 from jaxbearing.bearings.rating import CLEANLINESS_CLASSES, RELIABILITIES, Rating
 from jaxbearing.life.basic import RELIABILITY_FACTORS
 from jaxbearing.life.modification import CLEANLINESS
-from jaxbearing.numerics.checks import RANGES, check_inputs
+from jaxbearing.numerics.checks import check_inputs
 from jaxbearing.numerics.precision import as_float
+from jaxbearing.numerics.ranges import RANGES
 from jaxbearing.numerics.status import Status
 from jaxbearing.scenes.fields import type_at
 from jaxbearing.scenes.reader import builtin_names, load_scene

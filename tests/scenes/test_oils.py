@@ -15,10 +15,11 @@ from jaxbearing.lubricants import (
     Roelands,
     WaltherRoelands,
 )
-from jaxbearing.scenes.errors import SceneError, from_validation
+from jaxbearing.scenes.errors import SceneError
 from jaxbearing.scenes.oil import catalogue as oils
 from jaxbearing.scenes.oil import writer as oil_writer
 from jaxbearing.scenes.oil.schema import OilTable
+from jaxbearing.scenes.problems import from_validation
 from jaxbearing.scenes.reader import load_scene
 
 TWO_VISCOSITIES = {

@@ -21,13 +21,8 @@ from ...numerics.checks import Checked, array_module, demand, numbers_or_none
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import count
 from ..parts import FIRST_ELEMENT
+from .usual_ends import USUAL_END_RADIUS, USUAL_RIB_HEIGHT, usual_end_radius, usual_flange_angle
 
-USUAL_END_RADIUS = 0.95
-"""Radius of the roller's end sphere over the length of the roller's cone where a scene does not give it; 0.85 to 0.99
-are usual."""
-USUAL_RIB_HEIGHT = 0.8
-"""Distance of the rib contact from the roller's axis over the radius of the big end where a scene does not give the
-angle of the rib: low on the rib."""
 LEAST_HALF_ANGLE = math.radians(0.3)
 """Least half angle of the rollers: below, the apex goes to infinity and the bearing is a cylindrical one."""
 
@@ -79,8 +74,11 @@ class TaperedGeometry(Checked):
         )
         if sizes is not None:
             diameter, _, cup, half = sizes[:4]
-            end = usual_end_radius(diameter, half) if self.end_radius is None else sizes[-1]
-            rib = usual_flange_angle(diameter, cup, half, end) if self.flange_angle is None else sizes[4]
+            end, rib = self.end_radius, self.flange_angle
+            if end is None:
+                end = usual_end_radius(diameter, half, array_module(diameter, half))
+            if rib is None:
+                rib = usual_flange_angle(diameter, cup, half, end, array_module(diameter, cup, half, end))
             yield from refusals_of(_check, self.n_rollers, *sizes[:4], rib, end)
 
     @property
@@ -175,19 +173,6 @@ class TaperedGeometry(Checked):
         roller = reach * jnp.tan(self.roller_half_angle)
         inner, outer = reach * jnp.tan(self.cone_angle), reach * jnp.tan(self.contact_angle)
         return jnp.stack([1.0 / (1.0 / roller + 1.0 / inner), 1.0 / (1.0 / roller - 1.0 / outer)])
-
-
-def usual_end_radius(diameter: Any, half: Any, xp: Any = None) -> Any:
-    """The estimate of R_s, m. **Arguments:** of the big end, m; epsilon, rad; `xp`: module of the sine."""
-    xp = array_module(diameter, half) if xp is None else xp
-    return USUAL_END_RADIUS * 0.5 * diameter / xp.sin(half)
-
-
-def usual_flange_angle(diameter: Any, cup: Any, half: Any, end_radius: Any, xp: Any = None) -> Any:
-    """The estimate of alpha_f, rad. **Arguments:** as of `TaperedGeometry`; `xp`: module of the arc sine."""
-    xp = array_module(diameter, cup, half, end_radius) if xp is None else xp
-    # a sphere smaller than the end face is refused whatever the angle
-    return cup - half - xp.arcsin(xp.minimum(USUAL_RIB_HEIGHT * 0.5 * diameter / end_radius, 1.0))
 
 
 def _check(n_rollers: int, diameter: Any, length: Any, cup: Any, half: Any, flange: Any, end_radius: Any) -> None:

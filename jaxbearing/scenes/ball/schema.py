@@ -36,6 +36,7 @@ from ..oil.schema import OilTable
 from ..presets import Preset
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
+from ..words import describe
 
 
 class BallGeometryTable(table_of(BallGeometry)):
@@ -87,9 +88,7 @@ class BallContactTable(table_of(PointLaws)):
 
 def _sign(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) != 1:
-        raise units.refusal(
-            "1 (Euler's equation) or -1 (as the source prints it), without quotes", units.describe(value)
-        )
+        raise units.refusal("1 (Euler's equation) or -1 (as the source prints it), without quotes", describe(value))
     return float(value)
 
 

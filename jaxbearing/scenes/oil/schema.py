@@ -35,6 +35,7 @@ from ..data_files import oil_named, oil_names
 from ..errors import nearest, one_of
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import number_of, table_of
+from ..words import describe
 from . import grades
 
 DOCUMENTATION = ("name", "grade", "base", "file", "description", "law", "sources", "note", "ranges")
@@ -136,7 +137,7 @@ LinearHeatCapacityTable = law_table("linear", LinearHeatCapacity, "<table>")
 
 
 def _no_text(value: object) -> Never:
-    raise units.refusal("a table with a 'law'", units.describe(value))
+    raise units.refusal("a table with a 'law'", describe(value))
 
 
 def _law_field(title: str, laws: Mapping[str, type[Law]], text: Any) -> Any:
@@ -193,7 +194,7 @@ def _oil_name(value: object) -> str:
     name = oil_named(value)
     if name is None:
         near = nearest(value, oil_names()) if isinstance(value, str) else ""
-        raise units.refusal(f"an oil of the catalogue: {one_of(oil_names())}", units.describe(value), near)
+        raise units.refusal(f"an oil of the catalogue: {one_of(oil_names())}", describe(value), near)
     return name
 
 
@@ -201,7 +202,7 @@ def _grade(value: object) -> str:
     known, grade = grades.grades(), grades.grade_named(value)
     if grade not in known:
         near = grades.nearest_grade(value, known)
-        raise units.refusal(f"an ISO viscosity grade: {one_of(known)}", units.describe(value), near)
+        raise units.refusal(f"an ISO viscosity grade: {one_of(known)}", describe(value), near)
     return grade
 
 
@@ -209,7 +210,7 @@ def _base(value: object) -> str:
     base = grades.base_named(value)
     if base is None:
         near = nearest(value, grades.bases()) if isinstance(value, str) else ""
-        raise units.refusal(f"a base stock: {one_of(grades.bases())}", units.describe(value), near)
+        raise units.refusal(f"a base stock: {one_of(grades.bases())}", describe(value), near)
     return base
 
 
@@ -268,16 +269,16 @@ class OilTable(Table):
     @check
     def _one_origin(self) -> Problems:
         if self.base is not None and self.grade is None:
-            yield refusal_at("base", "none without 'grade', e.g. 'ISO VG 68'", units.describe(self.base))
+            yield refusal_at("base", "none without 'grade', e.g. 'ISO VG 68'", describe(self.base))
 
     @check
     def _complete(self) -> Problems:
         if self.name is not None and self.file is not None:
-            yield refusal_at("file", "none beside 'name': one of the two", units.describe(self.file))
+            yield refusal_at("file", "none beside 'name': one of the two", describe(self.file))
             return
         if self.grade is not None and (self.name is not None or self.file is not None):
             other = "name" if self.name is not None else "file"
-            yield refusal_at("grade", f"none beside '{other}': one of the two", units.describe(self.grade))
+            yield refusal_at("grade", f"none beside '{other}': one of the two", describe(self.grade))
             return
         if self.grade is not None:
             base = self.base or grades.DEFAULT_BASE

@@ -17,7 +17,7 @@ from ..errors import SceneError, nearest, one_of
 from ..fields import plain_table_at
 from ..kinds import kind_named
 from ..table import Table
-from ..units import describe
+from ..words import describe
 from .members import MEMBERS, at, changed, numbered, put
 
 LISTS = {"bearing": "rear", "set": "front", "force": "pinion"}

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from ..errors import SceneError
-from ..units import describe
+from ..words import describe
 
 MEMBERS = "bearing"
 """Table of a set that holds its bearings by number."""

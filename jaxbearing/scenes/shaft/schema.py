@@ -12,11 +12,11 @@ from typing import Annotated, Any, Literal
 from pydantic import create_model
 
 from ...shafts.forces import FORCES
-from .. import units
 from ..drafts import Unreadable
 from ..errors import SceneError, nearest, one_of
 from ..kinds import KIND, kind_named
 from ..table import Table
+from ..words import describe
 from .files import (
     BEARINGS,
     LINEAR,
@@ -56,7 +56,7 @@ def _kind_of_force(entry: Mapping[str, Any], path: str, file: str) -> str:
     if isinstance(kind, str) and kind in FORCES:
         return kind
     near = nearest(kind, FORCES) if isinstance(kind, str) else ""
-    raise SceneError(file, f"{path}.kind", "nothing" if kind is None else units.describe(kind), one_of(FORCES), near)
+    raise SceneError(file, f"{path}.kind", "nothing" if kind is None else describe(kind), one_of(FORCES), near)
 
 
 def with_kind(entry: object, kind: str | None) -> dict[str, Any]:
@@ -73,7 +73,7 @@ def _with_scene(entry: Any, keys: tuple[str, ...], file: str) -> Any:
     kind = kind_named(scene.get("kind"))
     if "kind" in own and kind_named(own["kind"]) != kind:
         expected = f"none beside the scene, whose kind is '{kind}'"
-        raise SceneError(file, ".".join((*keys, "kind")), units.describe(own["kind"]), expected)
+        raise SceneError(file, ".".join((*keys, "kind")), describe(own["kind"]), expected)
     scene = without_loads({**scene, "kind": kind})
     if kind not in FAMILIES:
         return merged(scene, own, None)

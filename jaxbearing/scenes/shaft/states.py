@@ -10,7 +10,7 @@ from ...shafts.paths import part_at
 from ...shafts.scene import ShaftState, ShaftSystem
 from ..errors import SceneError
 from ..states import EXAMPLE, NAME, require_names_and_shares, state_of
-from ..units import describe
+from ..words import describe
 
 SET = "set"
 """Field of a state with its changes, by dotted paths in quotes."""

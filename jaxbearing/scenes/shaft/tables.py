@@ -24,6 +24,7 @@ from ..materials import MaterialField
 from ..table import Table
 from ..table_of import fields_of_class, table_of
 from ..tapered.schema import TaperedRollerTable
+from ..words import describe
 from .files import LINEAR, OF_SHAFT
 
 FOLLOWS = "nothing: loads and speeds of a bearing on a shaft follow from [shaft] and [[force]]"
@@ -51,7 +52,7 @@ def _square(value: Any, wanted: str, fits: Callable[[int], bool]) -> tuple[tuple
     """A square matrix of stiffnesses. **Arguments:** `fits`: whether it may have so many rows."""
     square = isinstance(value, list) and all(isinstance(row, list) and len(row) == len(value) for row in value)
     if not square or not fits(len(value)):
-        raise units.refusal(wanted, units.describe(value))
+        raise units.refusal(wanted, describe(value))
     return tuple(
         tuple(_entry(one, row % 5, column % 5) for column, one in enumerate(values)) for row, values in enumerate(value)
     )
@@ -83,14 +84,14 @@ MatrixOfAll = Annotated[tuple[tuple[float, ...], ...], BeforeValidator(_matrix_o
 
 def _picture(value: Any) -> str:
     if not isinstance(value, str) or len(value) < 2 or set(value) - {"<", ">"}:
-        raise units.refusal(_PICTURE, units.describe(value))
+        raise units.refusal(_PICTURE, describe(value))
     return value
 
 
 def _scenes(value: Any) -> tuple[str, ...]:
     names = value if isinstance(value, list) else [value]
     if not names or not all(isinstance(name, str) for name in names):
-        raise units.refusal("a text, e.g. '7207.toml', or a list of such texts", units.describe(value))
+        raise units.refusal("a text, e.g. '7207.toml', or a list of such texts", describe(value))
     return tuple(names)
 
 

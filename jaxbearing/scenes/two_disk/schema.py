@@ -18,6 +18,7 @@ from ..oil.needs import require_laws, require_piezoviscous
 from ..oil.schema import OilTable
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
+from ..words import describe
 
 HALF_SPACE = "half_space"
 _SLIDE = "a number (a ratio, 0.05) or a text in per cent ('5 %')"
@@ -29,14 +30,14 @@ def _slide(value: Any) -> float:
         try:
             return units.number(value)
         except PydanticCustomError:
-            raise units.refusal(_SLIDE, units.describe(value)) from None
+            raise units.refusal(_SLIDE, describe(value)) from None
     given, sign, rest = value.partition("%")
     try:
         ratio = float(given) / 100.0
     except ValueError:
         ratio = np.nan
     if not sign or rest.strip() or not np.isfinite(ratio):
-        raise units.refusal(_SLIDE, units.describe(value))
+        raise units.refusal(_SLIDE, describe(value))
     return ratio
 
 

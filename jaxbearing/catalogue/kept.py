@@ -1,0 +1,73 @@
+"""Kept estimates: the geometries of standard bearings of which only the designation is known.
+
+They follow from the dimensions and the usual proportions, so `docs/generate/kept_estimates.py` computes them once.
+Where one of them is enough, nothing needs JAX, whose import takes a second. Tests compare `data/estimates.csv` with
+computed estimates.
+"""
+
+import functools
+import math
+from collections.abc import Iterator
+from importlib import resources
+from importlib.resources.abc import Traversable
+
+from .designation import Designation, known_designations, parse
+from .geometry import Estimate, Geometry
+from .proportions import Normal
+
+_KEY = ("kind", "series", "bore", "outside", "width", "angle", "deviation")
+"""What an estimate follows from: type, boundary dimensions, mm, contact angle and its standard deviation, degrees.
+After a change of dimensions no row is found, and the estimate is computed."""
+_INTERVALS, _RATINGS = Geometry._fields[:7], Geometry._fields[7:9]
+"""Fields of `Geometry` with an interval, three columns each, and fields with one column."""
+_COLUMNS = (*(f"{name}{end}" for name in _INTERVALS for end in ("", "_least", "_greatest")), *_RATINGS)
+HEADING = ",".join((*_KEY, *_COLUMNS, "standard_size"))
+_ANGLES = {"angular_contact": ("B", "AC", "C"), "spindle": ("B", "AC", "C"), "tapered": ("B",)}
+"""Suffixes with a contact angle of their own, by kind."""
+
+
+def kept_file() -> Traversable:
+    """The file with the kept estimates."""
+    return resources.files("jaxbearing.catalogue") / "data" / "estimates.csv"
+
+
+def kept_designations() -> Iterator[str]:
+    """The known designations, also with every suffix that states a contact angle: their estimates are kept."""
+    for text in known_designations():
+        yield text
+        yield from (f"{text} {suffix}" for suffix in _ANGLES.get(parse(text).kind, ()))
+
+
+def kept_geometry(bearing: Designation, angle: Normal) -> Geometry | None:
+    """The kept estimate, or `None` if there is none; arguments as those of `estimate.estimate`."""
+    row = _rows().get(key_of(bearing, angle))
+    if row is None:
+        return None
+    *numbers, standard = row.split(",")
+    counts, values = map(int, numbers[:3]), map(float, numbers[3:])
+    intervals = [Estimate(*(next(counts) for _ in range(3)))]
+    intervals += [Estimate(*(next(values) for _ in range(3))) for _ in _INTERVALS[1:]]
+    found = Geometry(*intervals, *values, standard_size=standard == "True")
+    return found._replace(contact_angle=found.contact_angle._replace(given=angle.is_known))
+
+
+def row_of(bearing: Designation, angle: Normal, geometry: Geometry) -> str:
+    """The row of the file that keeps an estimate, every number in full; arguments as those of `estimate.estimate`."""
+    numbers = [repr(number) for name in _INTERVALS for number in getattr(geometry, name)[:3]]
+    numbers += [repr(getattr(geometry, name)) for name in _RATINGS]
+    return ",".join((key_of(bearing, angle), *numbers, str(geometry.standard_size)))
+
+
+def key_of(bearing: Designation, angle: Normal) -> str:
+    """The beginning of the row of an estimate; arguments as those of `estimate.estimate`."""
+    sizes = (bearing.bore, bearing.outside, bearing.race_width)
+    numbers = (*sizes, math.degrees(angle.mean), math.degrees(angle.deviation))
+    return ",".join((bearing.kind, bearing.series, *(f"{number:.9g}" for number in numbers)))
+
+
+@functools.cache
+def _rows() -> dict[str, str]:
+    """Estimates of the file by their keys."""
+    lines = kept_file().read_text(encoding="utf-8").splitlines()[1:]
+    cells = (line.split(",", len(_KEY)) for line in lines)
+    return {",".join(key): row for *key, row in cells}
