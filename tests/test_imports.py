@@ -60,6 +60,7 @@ def test_a_new_scene_needs_neither_jax_nor_a_bearing(words, tmp_path):
     assert (tmp_path / "new.toml").is_file()
     large = {"jax", "jaxlib", "equinox", "jaxtyping", "scipy", "pint", *LARGE}
     assert not large & {name.split(".")[0] for name in found}
+    assert "numpy" not in found or "--radial-load" in words
     assert "jaxbearing.catalogue.kept" in found
     # the ends of tapered rollers are the bearings' own
     own = ["jaxbearing.bearings", "jaxbearing.bearings.tapered", "jaxbearing.bearings.tapered.usual_ends"]

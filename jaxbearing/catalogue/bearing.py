@@ -5,7 +5,6 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..numerics.arguments import require_count, require_numbers
 from .designation import Designation, parse
 from .duty import Duty
 from .geometry import Estimate, Geometry
@@ -120,7 +119,8 @@ def find(
         "contact_angle": contact_angle,
     }
     known = {name: value for name, value in given.items() if value is not None}
-    _check(bearing, known)
+    if known:
+        _check(bearing, known)
     duty = Duty(radial_load, axial_load, inner_speed, oil, base, oil_temperature, oil_flow)
     duty.check()
     geometry = _estimated(bearing, known, angle_of(bearing, contact_angle))
@@ -150,6 +150,9 @@ def _doubts(bearing: Designation, geometry: Geometry, given: Mapping[str, float]
 
 def _check(bearing: Designation, given: Mapping[str, Any]) -> None:
     """**Raises:** `ValueError`."""
+    # a command that checks nothing does not wait for the import of NumPy
+    from ..numerics.arguments import require_count, require_numbers
+
     names = {"diameter": "element_diameter", "length": "roller_length"}
     require_numbers("> 0", **{names.get(name, name): value for name, value in given.items()})
     if "n_elements" in given:

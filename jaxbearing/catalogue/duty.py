@@ -5,7 +5,6 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ..numerics.arguments import require_numbers
 from ..scenes.oil.grades import DEFAULT_BASE, grade_named
 from ..scenes.toml_writer import one_line
 
@@ -51,6 +50,9 @@ class Duty(NamedTuple):
         for name, bound in bounds.items():
             value = getattr(self, name)
             if value is not None:
+                # a command that checks nothing does not wait for the import of NumPy
+                from ..numerics.arguments import require_numbers
+
                 require_numbers(bound, **{name: value})
         for name in ("base", "oil_temperature", "oil_flow"):
             if self.oil is None and getattr(self, name) is not None:

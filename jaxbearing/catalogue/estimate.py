@@ -27,7 +27,7 @@ from ..numerics.small_linear import cholesky, cholesky_solve
 from ..programs import KeptProgram
 from .designation import Designation
 from .geometry import Estimate, Geometry
-from .proportions import FILL_ANGLE, GAP, Normal, usual_sizes
+from .proportions import BALL_SIZES, FILL_ANGLE, GAP, ROLLER_SIZES, Normal
 from .terms import GIVEN, UNKNOWNS, terms_of
 
 STEPS = 12
@@ -75,7 +75,7 @@ def _candidates(
     if "diameter" in given:
         sizes = np.array([1e3 * given["diameter"]])
     else:
-        sizes = usual_sizes(bearing.kind, middle, spread)
+        sizes = _usual_sizes(bearing.kind, middle, spread)
         standard = len(sizes) > 0
     trial = sizes if len(sizes) else np.array([middle * math.exp(-2.0 * spread), middle * math.exp(2.0 * spread)])
     numbers = np.arange(3, 200)
@@ -92,6 +92,17 @@ def _candidates(
     count, size = count[kept], size[kept]
     order = np.argsort(np.abs(np.log(size / middle)) / spread + np.abs(np.log(count * size / (2.7 * pitch))) / 0.1)
     return count[order][:LANES], size[order][:LANES], standard
+
+
+def _usual_sizes(kind: str, middle: float, spread: float) -> np.ndarray:
+    """Usual diameters of balls or cylindrical rollers within four deviations around `middle`, mm; `spread`: deviation
+    of their logarithm. Tapered rollers, and sizes beyond the list, have no usual ones: an empty array."""
+    if kind == "tapered":
+        return np.empty(0)
+    sizes = np.unique(np.round(ROLLER_SIZES if kind == "cylindrical" else BALL_SIZES, 6))
+    if not sizes[0] < middle < sizes[-1]:
+        return np.empty(0)
+    return sizes[np.abs(np.log(sizes / middle)) < 4.0 * spread]
 
 
 def _fills(count: Any, size: np.ndarray, pitch: float) -> Any:

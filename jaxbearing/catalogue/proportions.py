@@ -8,8 +8,6 @@ ratings give the roller lengths. A maker may build differently: every estimate h
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 INCH = 25.4
 _SIXTY_FOURTHS = (2, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 22, 24, 26, 28, 30, 32)
 BALL_SIZES = (
@@ -121,14 +119,3 @@ def proportions_of(kind: str, series: str) -> Proportions:
         dynamic=Normal(0.07, 0.08),
         static=Normal(0.0, 0.05),
     )
-
-
-def usual_sizes(kind: str, middle: float, spread: float) -> np.ndarray:
-    """Usual diameters of balls or cylindrical rollers within four deviations around `middle`, mm; `spread`: deviation
-    of their logarithm. Tapered rollers, and sizes beyond the list, have no usual ones: an empty array."""
-    if kind == "tapered":
-        return np.empty(0)
-    sizes = np.unique(np.round(ROLLER_SIZES if kind == "cylindrical" else BALL_SIZES, 6))
-    if not sizes[0] < middle < sizes[-1]:
-        return np.empty(0)
-    return sizes[np.abs(np.log(sizes / middle)) < 4.0 * spread]

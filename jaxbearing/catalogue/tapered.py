@@ -1,14 +1,16 @@
 """Angles and end spheres of tapered rollers from pitch diameter, mean roller diameter, length and cup angle."""
 
 import math
+from types import SimpleNamespace
 from typing import NamedTuple
-
-import numpy as np
 
 from ..bearings.tapered.usual_ends import usual_end_radius, usual_flange_angle
 
 TURNS = 60
 """Steps of the fixed-point search, each of which takes about the fifth part of the error."""
+
+_FUNCTIONS = SimpleNamespace(sin=math.sin, arcsin=math.asin, minimum=min)
+"""Functions of plain numbers under NumPy's names. The import of NumPy would take a third of the time of a command."""
 
 
 class TaperedShape(NamedTuple):
@@ -36,5 +38,5 @@ def tapered_shape(mean_diameter: float, pitch_diameter: float, length: float, cu
         big = mean_diameter + length * math.sin(half)
         half = math.atan(big * tilt / (pitch_diameter + length * tilt))
     big = mean_diameter + length * math.sin(half)
-    radius = float(usual_end_radius(big, half, np))
-    return TaperedShape(big, half, float(usual_flange_angle(big, cup_angle, half, radius, np)), radius)
+    radius = float(usual_end_radius(big, half, _FUNCTIONS))
+    return TaperedShape(big, half, float(usual_flange_angle(big, cup_angle, half, radius, _FUNCTIONS)), radius)
