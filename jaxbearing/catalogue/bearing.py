@@ -46,15 +46,12 @@ class Bearing(NamedTuple):
 
     @property
     def is_usual(self) -> bool:
-        """True if the scene can be built for sure: no number of its inside is given, loads and speed are positive, and
+        """True if the scene can be built for sure: no number of its inside is given, operation and oil are usual, and
         the estimate has usual proportions. Other scenes may be refused when they are built."""
-        duty, ratings = self.duty, {"dynamic_capacity", "static_capacity"}
-        if set(self.given) - ratings or duty.oil is not None:
+        ratings = {"dynamic_capacity", "static_capacity"}
+        if set(self.given) - ratings or not self.duty.is_usual:
             return False
-        if duty.axial_load is not None and self.designation.kind == "cylindrical":
-            return False
-        operation = (duty.radial_load, duty.axial_load, duty.inner_speed)
-        if any(value is not None and value <= 0.0 for value in operation):
+        if self.duty.axial_load is not None and self.designation.kind == "cylindrical":
             return False
         return is_usual(self.designation, self.geometry, angle_of(self.designation, None), FAR)
 

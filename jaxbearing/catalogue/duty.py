@@ -5,7 +5,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ..scenes.oil.grades import DEFAULT_BASE, grade_named
+from ..scenes.oil.grades import DEFAULT_BASE, grade_named, grade_of
 from ..scenes.toml_writer import one_line
 
 LOAD_SHARE = {"deep_groove": (0.1, 0.0), "cylindrical": (0.1, None), "tapered": (0.1, 0.1)}
@@ -15,6 +15,8 @@ SPEED = 150_000.0
 """Speed of the example times mean diameter, mm/min: moderate."""
 OIL_TEMPERATURE = 60.0
 """Temperature of the oil in the example, degrees Celsius."""
+USUAL_TEMPERATURES = 233.15, 453.15
+"""Temperatures of standard oils for which scenes can be built for sure, K."""
 EXAMPLE = "an example"
 
 
@@ -37,6 +39,20 @@ class Duty(NamedTuple):
     base: str | None = None
     oil_temperature: float | None = None
     oil_flow: float | None = None
+
+    @property
+    def is_usual(self) -> bool:
+        """True for positive loads and speed, and for a standard oil at a usual temperature or none. Other oils may lack
+        laws that the best laws need."""
+        operation = (self.radial_load, self.axial_load, self.inner_speed)
+        if any(value is not None and value <= 0.0 for value in operation):
+            return False
+        if self.oil is None:
+            return True
+        table = {"grade": self.oil} if self.base is None else {"grade": self.oil, "base": self.base}
+        low, high = USUAL_TEMPERATURES
+        usual = self.oil_temperature is None or low <= self.oil_temperature <= high
+        return usual and grade_of(table) is not None
 
     def check(self) -> None:
         """**Raises:** `ValueError` for numbers out of their ranges, and for what only an oil has."""

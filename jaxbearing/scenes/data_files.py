@@ -50,7 +50,7 @@ def oil_text(name: str) -> str:
 
 def grades_text() -> str:
     """Text of the data file of the standard oils."""
-    return (resources.files("jaxbearing.lubricants") / "grades.toml").read_text(encoding="utf-8")
+    return (_lubricants() / "grades.toml").read_text(encoding="utf-8")
 
 
 def _scenes() -> Traversable:
@@ -58,7 +58,12 @@ def _scenes() -> Traversable:
 
 
 def _oils() -> Traversable:
-    return resources.files("jaxbearing.lubricants") / "oils"
+    return _lubricants() / "oils"
+
+
+def _lubricants() -> Traversable:
+    # the name of the package of the laws would import it, and JAX
+    return resources.files("jaxbearing") / "lubricants"
 
 
 def _names(folder: Traversable) -> tuple[str, ...]:

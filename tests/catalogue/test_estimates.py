@@ -9,12 +9,14 @@ from makers_tables import NOT_IN_THE_TABLES, rated_bearings, spindle_bearings
 
 import jaxbearing as jb
 from jaxbearing.catalogue import Designation, find
+from jaxbearing.catalogue.duty import USUAL_TEMPERATURES
 from jaxbearing.catalogue.estimate import estimate
 from jaxbearing.catalogue.proportions import Normal
 from jaxbearing.catalogue.scene_text import shape_of
 from jaxbearing.life.capacity import ball_capacity, roller_capacity
 from jaxbearing.life.static import ball_static_capacity, roller_static_capacity
 from jaxbearing.numerics.status import Status
+from jaxbearing.scenes.oil.grades import bases, grades
 
 
 def estimated(row):
@@ -215,6 +217,32 @@ def test_usual_scenes_can_be_built(name):
     assert len(usual) > 2
     for one in usual:
         one.scene()
+
+
+@pytest.mark.parametrize("name", ["618/5", "6207", "7208", "7014-C", "NU 2210", "30206"])
+@pytest.mark.parametrize("base", bases())
+def test_scenes_with_standard_oils_can_be_built(name, base):
+    """The thinnest and the thickest grade of a base stock, at the ends of the usual temperatures."""
+    for grade in (grades(base)[0], grades(base)[-1]):
+        for temperature in USUAL_TEMPERATURES:
+            found = find(name, oil=grade, base=base, oil_temperature=temperature, oil_flow=1e-6)
+            assert found.is_usual
+            found.scene()
+
+
+@pytest.mark.parametrize(
+    "duty",
+    [
+        {"oil": "fva3"},
+        {"oil": "ISO VG 70"},
+        {"oil": "ISO VG 68", "base": "lard"},
+        {"oil": "ISO VG 68", "oil_temperature": 60.0},
+        {"oil": "ISO VG 68", "inner_speed": -1.0},
+    ],
+)
+def test_scenes_with_other_oils_are_not_usual(duty):
+    """They are built as a check, which refuses all but the first and the last."""
+    assert not find("6207", **duty).is_usual
 
 
 @pytest.mark.parametrize(
