@@ -44,10 +44,10 @@ def kept_geometry(bearing: Designation, angle: Normal) -> Geometry | None:
     if row is None:
         return None
     *numbers, standard = row.split(",")
-    counts, values = map(int, numbers[:3]), map(float, numbers[3:])
-    intervals = [Estimate(*(next(counts) for _ in range(3)))]
-    intervals += [Estimate(*(next(values) for _ in range(3))) for _ in _INTERVALS[1:]]
-    found = Geometry(*intervals, *values, standard_size=standard == "True")
+    values = [*map(int, numbers[:3]), *map(float, numbers[3:])]
+    starts = range(0, 3 * len(_INTERVALS), 3)
+    intervals = [Estimate(values[i], values[i + 1], values[i + 2]) for i in starts]
+    found = Geometry._make((*intervals, *values[starts.stop :], standard == "True"))
     return found._replace(contact_angle=found.contact_angle._replace(given=angle.is_known))
 
 

@@ -2,8 +2,8 @@
 
     python tests/benchmarks/new_scenes.py
 
-The first process of balls and that of rollers compile a program and are left out. On a busy machine the processor
-seconds hold better than the wall seconds.
+The estimates are kept ones, so that no process imports JAX. The first processes read the files of the package from the
+disk and are left out. On a busy machine the processor seconds hold better than the wall seconds.
 """
 
 import resource

@@ -69,6 +69,7 @@ def test_all_kept_estimates_are_those_that_are_computed():
 def test_rows_hold_every_number_in_full(text):
     bearing, angle = inputs(text)
     kept = kept_geometry(bearing, angle)
+    assert kept is not None
     assert row_of(bearing, angle, kept) in kept_file().read_text(encoding="utf-8").splitlines()
     assert type(kept.n_elements.value) is int
     assert kept.contact_angle.given == (text != "30206")
