@@ -58,6 +58,14 @@ class ElasticRing(eqx.Module):
         balance = self.ring.balance(LENGTH_UNIT * amplitudes, pressed)
         return balance + anchored(amplitudes, ANCHOR * LENGTH_UNIT) if floats else balance
 
+    def given_load(self) -> Float[Array, ""]:
+        """Size of what acts on the round ring from outside, N: supports that press it already, and given loads."""
+        supports, loads = self.ring.supports, self.ring.loads
+        size = jnp.zeros(())
+        if supports is not None:
+            size = size + jnp.sum(supports.forces(jnp.zeros_like(supports.gap)))
+        return size if loads is None else size + jnp.sum(jnp.abs(loads.radial) + jnp.abs(loads.tangential))
+
     def under(self, factor: Float[Array, ""]) -> "ElasticRing":
         """The same ring under multiples of its given loads, which balance those on the inner ring where nothing else
         holds the ring."""

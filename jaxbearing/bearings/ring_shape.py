@@ -244,13 +244,6 @@ def shaped_parts(scene: _Shaped) -> tuple[str, ...]:
     return tuple(name for name, part in parts.items() if part is not None)
 
 
-def refuse_shapes_in_rows(scene: _Shaped) -> None:
-    """**Raises:** `ValueError` for a scene of a set or of a shaft whose rings bend or are not round."""
-    shaped = shaped_parts(scene)
-    if shaped:
-        raise ValueError(f"{shaped[0]}: a row of a set or of a shaft has rigid, round rings in this version")
-
-
 def unheld_problems(ring: FlexibleRing | None, operation: AbstractOperation) -> Iterator[str | ValueError]:
     """Refusals of an outer ring that nothing holds under loads that do not balance."""
     load = operation.radial_load

@@ -1,22 +1,45 @@
-"""A bearing without friction whose ring is held: one convex energy, whose gradient is the force on the ring.
+r"""A bearing without friction whose ring is held: one convex energy, whose gradient is the force on the ring.
 
 Centrifugal forces are those of the unloaded bearing's contact angle, so that force and stiffness come of an energy.
 Shafts on bearings begin their search with it, and find the preload of bearings at rest, where it is exact.
+
+An outer ring that bends is in equilibrium too: the energy is the minimum over its amplitudes $a$ as well. Near the
+minimum one Newton step leads there: with the derivatives $r$ of the energy by the amplitudes, and its second
+derivatives $K$, the force is $F_q - K_{qa}K_{aa}^{-1}r$, the energy lower by $\frac12r^TK_{aa}^{-1}r$ and the
+stiffness $K_{qq} - K_{qa}K_{aa}^{-1}K_{aq}$. An error of the amplitudes therefore shows in its square only.
 """
 
 import abc
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ..numerics.arrow import ArrowPoint, linearize
-from ..numerics.convex import settled
-from ..numerics.small_linear import solve_blocks
+from ..numerics.arrow import ArrowJacobian, ArrowPoint, condensed, linearize, schur_complement, seen_by_elements
+from ..numerics.convex import AbstractConvexArrow, descend_settled, settled
+from ..numerics.small_linear import solve_blocks, solve_dense
 from .ring import LENGTH_UNIT, InnerRing, levers, shift_matrix
+from .rings import AbstractBetweenRings
 from .solution import RING_FREEDOMS
+
+BENDING_TOLERANCE = 1e-8
+"""Scaled residual of the amplitudes of an outer ring at which the search for them ends; the force is then exact to
+round-off, see the module."""
+BENDING_TRIALS = 80
+"""Most trials of that search."""
+
+
+class RowState(NamedTuple):
+    """State of a row, to begin the next search with, in units of the family.
+
+    - `elements`: of the rolling elements.
+    - `amplitudes`: of an outer ring that bends; `None` of a rigid one.
+    """
+
+    elements: Float[Array, "m element"]
+    amplitudes: Float[Array, " mode"] | None = None
 
 
 class HeldRow(NamedTuple):
@@ -24,32 +47,48 @@ class HeldRow(NamedTuple):
 
     - `energy`: J, up to a constant.
     - `force`, `stiffness`: as `ring.Port`; the stiffness is symmetric.
-    - `elements`: state of the rolling elements, to begin the next search with.
+    - `state`: of the rolling elements and of an outer ring that bends.
     """
 
     energy: Float[Array, ""]
     force: Float[Array, "5"]
     stiffness: Float[Array, "5 5"]
-    elements: Float[Array, "m element"]
+    state: RowState
 
 
 class AbstractRow(eqx.Module):
     """A row of rolling elements between two rings, at its speed."""
 
     @abc.abstractmethod
-    def initial(self, displacement: Float[Array, "5"]) -> Float[Array, "m element"]:
-        """First guess of `hold` for the elements."""
+    def initial(self, displacement: Float[Array, "5"]) -> RowState:
+        """First guess of `hold`."""
 
     @abc.abstractmethod
-    def hold(self, displacement: Float[Array, "5"], elements: Float[Array, "m element"]) -> HeldRow:
+    def hold(self, displacement: Float[Array, "5"], state: RowState) -> HeldRow:
         """The row with its ring held at a displacement of the port, closure included, m and rad; not differentiated.
 
-        **Arguments:** `elements`: of a displacement nearby, or `initial`.
+        **Arguments:** `state`: of a displacement nearby, or `initial`.
         """
 
     @abc.abstractmethod
-    def force_at(self, displacement: Float[Array, "5"], elements: Float[Array, "m element"]) -> Float[Array, "5"]:
-        """The force of `hold`, with its first derivatives by all numbers; `elements`: those that `hold` found there."""
+    def force_at(self, displacement: Float[Array, "5"], state: RowState) -> Float[Array, "5"]:
+        """The force of `hold`, with its first derivatives by all numbers; `state`: the one that `hold` found there."""
+
+
+class AbstractRowSystem(AbstractBetweenRings, AbstractConvexArrow):
+    """Equations of a row of rollers that are the gradient of one potential.
+
+    Its globals are the freedoms of the inner ring and the amplitudes of the outer one, and nothing else.
+    """
+
+    @abc.abstractmethod
+    def load_scale(self) -> Array:
+        """Force by which the residuals of the rings are divided, N."""
+
+    def work(self, globals_):
+        """Work of the loads on the rings less the energy of an outer ring that bends, J."""
+        work = LENGTH_UNIT * jnp.sum(self.ring.load * self.of_freedoms(globals_))
+        return work if self.outer is None else work - self.outer.ring.energy(LENGTH_UNIT * self.amplitudes(globals_))
 
 
 def free_ring(lever: Array, distance: Array, expansion: Array | None) -> InnerRing:
@@ -57,34 +96,73 @@ def free_ring(lever: Array, distance: Array, expansion: Array | None) -> InnerRi
     return InnerRing(jnp.zeros(5), jnp.zeros(5), jnp.asarray(lever), RING_FREEDOMS, expansion, distance)
 
 
-def settled_row(full: Any, ring: InnerRing, elements: Float[Array, "m element"]) -> HeldRow:
-    """A row of rollers whose equations are the gradient of one potential.
+def initial_state(held: AbstractRowSystem) -> RowState:
+    """First guess of `settled_row`. **Arguments:** `held`: the equations with the ring held."""
+    first = held.initial()
+    return RowState(first.elements, None if held.outer is None else first.globals)
+
+
+def settled_row(held: AbstractRowSystem, full: AbstractRowSystem, state: RowState) -> HeldRow:
+    """A row of rollers in equilibrium under a held ring.
 
     **Arguments:**
-    - `full`: the convex system with all five freedoms of the ring, which scales its residuals by `load_scale`.
-    - `ring`: held at the displacement.
-    - `elements`: first guess.
+    - `held`: the equations with the ring held at the displacement.
+    - `full`: with all five freedoms of the ring, which begin the globals.
+    - `state`: first guess.
     """
-    found = settled(full, ArrowPoint(elements, ring.held / LENGTH_UNIT))
+    if state.amplitudes is not None:
+        guess = ArrowPoint(state.elements, state.amplitudes)
+        bent = descend_settled(held, guess, tolerance=BENDING_TOLERANCE, trials=BENDING_TRIALS).point
+        state = RowState(bent.elements, bent.globals)
+    ring = held.ring
+    found = settled(full, ArrowPoint(state.elements, _coordinates(ring, state)))
     scale, arm = full.load_scale(), levers(ring.lever)
-    stiffness = found.stiffness * (scale / LENGTH_UNIT) * arm[:, None] * arm[None, :]
+    energy, residual, stiffness = found.energy, found.residual, found.stiffness
+    if state.amplitudes is not None and full.outer is not None:
+        follow = solve_dense(stiffness[5:, 5:], residual[5:])
+        energy = energy + full.outer.ring.energy(LENGTH_UNIT * state.amplitudes)
+        energy = energy - 0.5 * LENGTH_UNIT * scale * jnp.sum(residual[5:] * follow)
+        residual, stiffness = residual[:5] - stiffness[:5, 5:] @ follow, condensed(stiffness, 5)
+    stiffness = stiffness * (scale / LENGTH_UNIT) * arm[:, None] * arm[None, :]
     shift = jnp.eye(5) if ring.distance is None else shift_matrix(ring.distance)
-    force = _at_port(full, ring, found.residual)
-    return HeldRow(found.energy, force, shift.T @ stiffness @ shift, found.point.elements)
+    force = _at_port(full, ring, residual)
+    return HeldRow(energy, force, shift.T @ stiffness @ shift, state._replace(elements=found.point.elements))
 
 
-def settled_force(full: Any, ring: InnerRing, elements: Float[Array, "m element"]) -> Float[Array, "5"]:
-    """The force of `settled_row` with its first derivatives: one Newton step of the elements, which does not move
-    them. **Arguments:** as `settled_row`; `elements`: those that it found."""
-    elements, globals_ = jax.lax.stop_gradient(elements), ring.held / LENGTH_UNIT
-    equations, jacobian = linearize(full, ArrowPoint(elements, globals_))
+def settled_force(ring: InnerRing, full: AbstractRowSystem, state: RowState) -> Float[Array, "5"]:
+    """The force of `settled_row` with its first derivatives: one Newton step of the elements, and of the amplitudes of
+    an outer ring that bends, which does not move them.
+
+    **Arguments:** `ring`: held at the displacement; `full`: as in `settled_row`; `state`: the one that it found.
+    """
+    state = jax.lax.stop_gradient(state)
+    globals_ = _coordinates(ring, state)
+    residual, jacobian = _in_equilibrium(full, state.elements, globals_)
+    if state.amplitudes is not None:
+        stiffness = jax.lax.stop_gradient(schur_complement(jacobian))[5:, 5:]
+        globals_ = globals_.at[5:].add(-solve_dense(stiffness, residual[5:]))
+        residual, _ = _in_equilibrium(full, state.elements, globals_)
+    return _at_port(full, ring, residual[:5])
+
+
+def _coordinates(ring: InnerRing, state: RowState) -> Float[Array, " g"]:
+    """The globals of the equations with all five freedoms of a ring that is held."""
+    at = ring.held / LENGTH_UNIT
+    return at if state.amplitudes is None else jnp.concatenate([at, state.amplitudes])
+
+
+def _in_equilibrium(
+    full: AbstractRowSystem, elements: Float[Array, "m element"], globals_: Float[Array, " g"]
+) -> tuple[Float[Array, " g"], ArrowJacobian]:
+    """Residuals of the globals after one Newton step of the elements, and the Jacobian before it."""
+    point = ArrowPoint(elements, globals_)
+    equations, jacobian = linearize(full, point)
     local = jax.lax.stop_gradient(jacobian.local)
     step = solve_blocks(local, equations.residual.elements[:, None, :])[:, 0]
-    shared = jnp.broadcast_to(globals_[:, None], (5, elements.shape[1]))
-    totals = jnp.sum(full.element(elements - step, shared)[1], axis=1)
-    return _at_port(full, ring, full.global_residual(globals_, totals)[0])
+    acting = full.element(elements - step, seen_by_elements(full, point))[1]
+    return full.global_residual(globals_, full.gathered(globals_, acting))[0], jacobian
 
 
-def _at_port(full: Any, ring: InnerRing, residual: Float[Array, "5"]) -> Float[Array, "5"]:
+def _at_port(full: AbstractRowSystem, ring: InnerRing, residual: Float[Array, "5"]) -> Float[Array, "5"]:
     force = (residual * full.load_scale() + full.ring.load) * levers(ring.lever)
     return force if ring.distance is None else shift_matrix(ring.distance).T @ force

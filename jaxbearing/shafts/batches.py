@@ -20,7 +20,7 @@ from ..bearings.flanks import on_heavier_flanks
 from ..bearings.mounted import running_scene
 from ..bearings.operation import HeldDisplacement
 from ..bearings.ring import held_ring
-from ..bearings.row import AbstractRow, HeldRow
+from ..bearings.row import AbstractRow, HeldRow, RowState
 from ..bearings.solution import RING_FREEDOMS, Solution
 from ..numerics.newton import NewtonOptions
 from ..numerics.once import once
@@ -63,16 +63,16 @@ class AbstractBatch(eqx.Module):
         """
 
     @abc.abstractmethod
-    def initial(self, rows: Any, displacement: Float[Array, "own 5"]) -> Any:
-        """First guess of the elements."""
+    def initial(self, rows: Any, displacement: Float[Array, "own 5"]) -> RowState:
+        """First guess of the states of the rows."""
 
     @abc.abstractmethod
-    def hold(self, rows: Any, displacement: Float[Array, "own 5"], elements: Any) -> HeldRow:
+    def hold(self, rows: Any, displacement: Float[Array, "own 5"], state: RowState) -> HeldRow:
         """Energy, force and stiffness of each bearing."""
 
     @abc.abstractmethod
-    def force_at(self, rows: Any, displacement: Float[Array, "own 5"], elements: Any) -> Float[Array, "own 5"]:
-        """The forces of `hold`, with first derivatives."""
+    def force_at(self, rows: Any, displacement: Float[Array, "own 5"], state: RowState | None) -> Float[Array, "own 5"]:
+        """The forces of `hold`, with first derivatives. **Arguments:** `state`: none of bearings without elements."""
 
 
 class RollingBatch(AbstractBatch):
@@ -106,11 +106,11 @@ class RollingBatch(AbstractBatch):
     def initial(self, rows, displacement):
         return jax.vmap(lambda row, q: row.initial(q))(rows, displacement)
 
-    def hold(self, rows, displacement, elements):
-        return jax.vmap(lambda row, q, own: row.hold(q, own))(rows, displacement, elements)
+    def hold(self, rows, displacement, state):
+        return jax.vmap(lambda row, q, own: row.hold(q, own))(rows, displacement, state)
 
-    def force_at(self, rows, displacement, elements):
-        return jax.vmap(lambda row, q, own: row.force_at(q, own))(rows, displacement, elements)
+    def force_at(self, rows, displacement, state):
+        return jax.vmap(lambda row, q, own: row.force_at(q, own))(rows, displacement, state)
 
 
 class LinearBatch(AbstractBatch):
@@ -123,15 +123,15 @@ class LinearBatch(AbstractBatch):
         return None
 
     def initial(self, rows, displacement):
-        return jnp.zeros((len(self.places), 0, 0))
+        return RowState(jnp.zeros((len(self.places), 0, 0)))
 
-    def hold(self, rows, displacement, elements):
+    def hold(self, rows, displacement, state):
         """The symmetric part alone has an energy."""
         even = 0.5 * (self.stiffness + jnp.swapaxes(self.stiffness, 1, 2))
         force = jnp.einsum("bij,bj->bi", even, displacement)
-        return HeldRow(0.5 * jnp.sum(force * displacement, axis=1), force, even, elements)
+        return HeldRow(0.5 * jnp.sum(force * displacement, axis=1), force, even, state)
 
-    def force_at(self, rows, displacement, elements):
+    def force_at(self, rows, displacement, state):
         return jnp.einsum("bij,bj->bi", self.stiffness, displacement)
 
 

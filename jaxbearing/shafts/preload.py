@@ -11,6 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from ..bearings.row import RowState
 from ..numerics.once import once
 from .balance import Spring
 from .batches import AbstractBatch
@@ -48,11 +49,11 @@ def _displacements(axial: Float[Array, " bearing"]) -> Float[Array, "bearing 5"]
 
 
 class _Held(NamedTuple):
-    """Axial forces, N, axial stiffness, N/m, and elements by batch."""
+    """Axial forces, N, axial stiffness, N/m, and the states of the rows by batch."""
 
     force: Float[Array, " bearing"]
     slope: Float[Array, " bearing"]
-    elements: list[Any]
+    states: list[RowState]
 
 
 @once
@@ -64,17 +65,20 @@ def _held(rest: Rest, axial: Float[Array, " bearing"]) -> _Held:
         own = displacement[batch.index]
         found.append(batch.hold(rows, own, batch.initial(rows, own)))
     of = lambda get: _spread(rest.batches, [get(one) for one in found])
-    elements = [one.elements for one in found]
-    return _Held(of(lambda one: one.force[:, 0]), of(lambda one: one.stiffness[:, 0, 0]), elements)
+    states = [one.state for one in found]
+    return _Held(of(lambda one: one.force[:, 0]), of(lambda one: one.stiffness[:, 0, 0]), states)
 
 
 @once
-def axial_forces(rest: Rest, axial: Float[Array, " bearing"], elements: list[Any]) -> Float[Array, " bearing"]:
-    """Axial forces, N, with first derivatives. **Arguments:** displacements, closures included, m; elements there."""
+def axial_forces(rest: Rest, axial: Float[Array, " bearing"], states: list[RowState]) -> Float[Array, " bearing"]:
+    """Axial forces, N, with first derivatives.
+
+    **Arguments:** displacements, closures included, m; states of the rows there.
+    """
     displacement = _displacements(axial)
     parts = [
         batch.force_at(rows, displacement[batch.index], own)[:, 0]
-        for batch, rows, own in zip(rest.batches, rest.rows, elements, strict=True)
+        for batch, rows, own in zip(rest.batches, rest.rows, states, strict=True)
     ]
     return _spread(rest.batches, parts)
 
@@ -131,7 +135,7 @@ def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearin
     end = jax.lax.while_loop(going, look, first)
     place, held = end.place, end.held
     slope = jnp.maximum(members @ held.slope, 1.0)
-    force = members @ axial_forces(rest, members.T @ place + additional, held.elements)
+    force = members @ axial_forces(rest, members.T @ place + additional, held.states)
     # one step of Newton's has the derivatives of the root
     carried = place - (force - target) / slope
     return jnp.where(forces > 0, carried, carried - target / (EXPONENT * slope))
@@ -236,13 +240,13 @@ def _mounted(
     begin = (none, jnp.asarray(jnp.inf), jnp.asarray(0), _nothing(fixed[0]))
     place, _, _, held = jax.lax.while_loop(going, look, begin)
     slope = jnp.maximum((first + second) @ held.slope, 1.0)
-    place = place - signs @ axial_forces(rest, closure + signs.T @ place, held.elements) / slope
-    mounted = first @ axial_forces(rest, closure + signs.T @ place, held.elements)
+    place = place - signs @ axial_forces(rest, closure + signs.T @ place, held.states) / slope
+    mounted = first @ axial_forces(rest, closure + signs.T @ place, held.states)
     # the last bearing of the other group that carries is lost where its closure is used up
     largest = jnp.max(jnp.where(second > 0, closure[None], -jnp.inf), axis=1)
     lost = closure + signs.T @ largest
     held = _held(fixed[0], jax.lax.stop_gradient(lost), when=jnp.all(jnp.isfinite(lost)))
-    loss = first @ axial_forces(rest, lost, held.elements)
+    loss = first @ axial_forces(rest, lost, held.states)
     return dict(zip(sets, mounted, strict=True)), dict(zip(sets, loss, strict=True))
 
 

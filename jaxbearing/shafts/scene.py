@@ -10,7 +10,6 @@ from jaxtyping import Array, Float
 from .._scene import AbstractScene, label, number, optional_number
 from .._types import Scalar
 from ..bearings.bearing import AbstractBearing
-from ..bearings.ring_shape import shaped_parts
 from ..life.duty import SUM_TOLERANCE
 from ..numerics.checks import Checked, known
 from ..numerics.newton import NewtonOptions
@@ -82,7 +81,7 @@ class ShaftSystem(AbstractScene):
     - `thermal`: joins the thermal networks of the bearings along shaft and housing; `None`: each has its own.
 
     **Raises:** `ValueError` for names that are given twice, for no bearing, for positions beyond the ends of the shaft,
-    for rings that bend or are not round, and for shares that do not add up to 1.
+    for outer rings that bend and that nothing holds, and for shares that do not add up to 1.
     """
 
     kind: ClassVar[str] = "shaft"
@@ -143,12 +142,26 @@ class ShaftSystem(AbstractScene):
                 yield f"{said}{at[0] * 1e3:g} mm lies beyond the shaft ({end * 1e3:g} mm)"
 
     def _shapes(self) -> Iterator[str]:
-        """Problems of bearings whose rings bend or are not round."""
-        scenes = [(self._table_of(place), place.scene) for place in self.places]
-        shaped = [(path, shaped_parts(scene)) for path, scene in scenes if isinstance(scene, AbstractBearing)]
+        """Problems of outer rings that bend: something must hold each of them in its place, and loads from outside must
+        not act on what holds it."""
+        found = []
+        for place in self.places:
+            ring = place.scene.outer_ring if isinstance(place.scene, AbstractBearing) else None
+            if ring is None or not ring.harmonics:
+                continue
+            table = f"{self._table_of(place)}.outer_ring"
+            if not ring.held:
+                found.append(
+                    f"{table}: nothing holds the ring; expected housing_stiffness or support_angle, because a bearing "
+                    "on a shaft carries no more than what holds its outer ring"
+                )
+            elif ring.load_angle is not None and (place.support is not None or self.housing is not None):
+                found.append(
+                    f"{table}.load_angle: expected none beside an elastic support or housing of the shaft, on which "
+                    "loads from outside would act too"
+                )
         # a set has the same parts in each of its bearings
-        for path in dict.fromkeys(f"{path}.{name}" for path, names in shaped for name in names):
-            yield f"{path}: expected none, a bearing on a shaft has rigid, round rings in this version"
+        yield from dict.fromkeys(found)
 
     def _table_of(self, place: Place) -> str:
         """Path of the table of a bearing, or of its set."""

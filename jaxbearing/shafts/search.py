@@ -22,6 +22,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from ..bearings.row import RowState
 from ..numerics.newton import NewtonOptions
 from ..numerics.once import once
 from ..numerics.status import Status
@@ -84,23 +85,23 @@ def _spread(batches: tuple[AbstractBatch, ...], parts: list[Array]) -> Array:
 
 
 class _Ports(NamedTuple):
-    """Energies, forces and stiffnesses of all bearings under held rings, each in the frame of its bearing. `elements`:
-    unknowns of the rolling elements, with which the next trial starts."""
+    """Energies, forces and stiffnesses of all bearings under held rings, each in the frame of its bearing. `states`: of
+    the rows, with which the next trial starts."""
 
     energy: Float[Array, " bearing"]
     force: Float[Array, "bearing 5"]
     stiffness: Float[Array, "bearing 5 5"]
-    elements: Any
+    states: list[RowState]
 
 
 @once
-def _held(problem: Problem, rows: list[Any], displacement: Float[Array, "bearing 5"], elements: list[Any]) -> _Ports:
+def _held(problem: Problem, rows: list[Any], displacement: Float[Array, "bearing 5"], states: list[RowState]) -> _Ports:
     found = [
         batch.hold(row, displacement[batch.index], own)
-        for batch, row, own in zip(problem.batches, rows, elements, strict=True)
+        for batch, row, own in zip(problem.batches, rows, states, strict=True)
     ]
     of = lambda name: _spread(problem.batches, [getattr(one, name) for one in found])
-    return _Ports(of("energy"), of("force"), of("stiffness"), [one.elements for one in found])
+    return _Ports(of("energy"), of("force"), of("stiffness"), [one.state for one in found])
 
 
 def ports(
@@ -141,7 +142,7 @@ class Start(NamedTuple):
 
 class _Descent(NamedTuple):
     unknowns: Array
-    elements: Any
+    states: list[RowState]
     step: Array
     energy: Array
     slope: Array
@@ -177,13 +178,13 @@ def minimise(problem: Problem) -> Start:
     most = jnp.where(jnp.arange(5) < 3, FARTHEST, MOST_TILT)
     first = _first_place(balance, most)
     at_first = balance.displacements(first)
-    elements = [batch.initial(row, at_first[batch.index]) for batch, row in zip(problem.batches, rows, strict=True)]
+    states = [batch.initial(row, at_first[batch.index]) for batch, row in zip(problem.batches, rows, strict=True)]
     units, lengths = balance.row_units(), balance.lengths()
 
     def look(state: _Descent) -> _Descent:
         trial = state.unknowns + state.fraction * state.step
         displacement = balance.displacements(trial)
-        held = _held(problem, rows, displacement, state.elements)
+        held = _held(problem, rows, displacement, state.states)
         residual = balance.residual(trial, held.force)
         energy = balance.potential(trial, held.energy)
         enough = energy <= state.energy + ARMIJO * state.fraction * state.slope
@@ -208,7 +209,7 @@ def minimise(problem: Problem) -> Start:
         done = (accept & ((size <= START_TOLERANCE) | (jnp.max(far) > 1.0))) | hopeless
         return _Descent(
             unknowns=pick(trial, state.unknowns),
-            elements=pick(held.elements, state.elements),
+            states=pick(held.states, state.states),
             step=pick(step, state.step),
             energy=pick(energy, state.energy),
             slope=pick(balance.slope(step, residual), state.slope),
@@ -225,7 +226,7 @@ def minimise(problem: Problem) -> Start:
     one, none = jnp.ones(()), jnp.asarray(0)
     begin = _Descent(
         unknowns=first,
-        elements=elements,
+        states=states,
         step=jnp.zeros_like(first),
         energy=jnp.inf * one,
         slope=0.0 * one,

@@ -101,6 +101,8 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
     """
     geometry, operation, row = scene.geometry, scene.operation, ball_row(scene, ring)
     grooves = ball_grooves(scene, row.ring.expansion)
+    outer = _elastic_ring(scene, row.azimuth)
+    form = out_of_round(scene.inner_roundness, scene.outer_roundness, row.azimuth)
     density = jnp.asarray(scene.materials.balls.density)
     attitude, gyroscopic = scene.kinematics.attitude, scene.kinematics.gyroscopic
     slipping = attitude == "linear_slip" or geometry.has_arcs
@@ -114,10 +116,10 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
         grooves=grooves,
         directions=row.directions,
         azimuth=row.azimuth,
-        ring=row.ring.asking(_held_load(grooves, row)) if row.ring.asks else row.ring,
+        ring=row.ring.asking(_held_load(grooves, row, form, outer)) if row.ring.asks else row.ring,
         held_shift=row.held_shift,
-        out_of_round=out_of_round(scene.inner_roundness, scene.outer_roundness, row.azimuth),
-        outer=_elastic_ring(scene, row.azimuth),
+        out_of_round=form,
+        outer=outer,
         mass=geometry.mass(density),
         inertia=geometry.inertia(density),
         gyroscopic=gyroscopic if isinstance(gyroscopic, AbstractGyroscopic) else None,
@@ -145,12 +147,19 @@ def _spread(scene: BallBearing) -> Float[Array, "2"]:
     return (jnp.square(ellipse.rolling) + jnp.square(ellipse.transverse)) / SPREAD_LOAD ** (2.0 / 3.0)
 
 
-def _held_load(grooves: Grooves, row: Row) -> Float[Array, ""]:
-    """Estimates the load that the given displacements of the ring ask for, N."""
-    rest, _ = grooves.arcs.facing(grooves.of_ring + row.held_shift)
+def _held_load(
+    grooves: Grooves, row: Row, form: Float[Array, " ball"] | None, outer: ElasticRing | None
+) -> Float[Array, ""]:
+    """Estimates the load that the given displacements of the ring ask for, N.
+
+    **Arguments:** `form`: see `out_of_round`; `outer`: the outer ring, if it bends.
+    """
+    places = grooves.of_ring + row.held_shift
+    rest, _ = grooves.arcs.facing(places if form is None else places.at[1].add(form))
     approach = jnp.maximum(safe_norm(rest[0], rest[1]) - jnp.sum(grooves.offset), 0.0)
     load = together(grooves.stiffness) * approach**1.5 + FORCE_FLOOR
-    return row.multiplicity * jnp.sum(load)
+    load = row.multiplicity * jnp.sum(load)
+    return load if outer is None else load + outer.given_load()
 
 
 def with_films(scene: BallBearing, core: BallCore) -> BallCore:

@@ -4,7 +4,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..ring import levers, shift_matrix
-from ..row import AbstractRow, HeldRow, free_ring
+from ..row import AbstractRow, HeldRow, RowState, free_ring
 from .build import build_core
 from .scene import BallBearing
 from .springs import CentrifugalProblem
@@ -22,18 +22,21 @@ class BallRow(AbstractRow):
     lever: Float[Array, ""]
     distance: Float[Array, ""]
 
-    def initial(self, displacement: Float[Array, "5"]) -> Float[Array, "m element"]:
-        return jnp.zeros((2, self.problem.groove.shape[1]))
+    def initial(self, displacement: Float[Array, "5"]) -> RowState:
+        outer = self.problem.outer
+        return RowState(jnp.zeros((2, self.problem.groove.shape[1])), None if outer is None else jnp.zeros(outer.modes))
 
-    def hold(self, displacement: Float[Array, "5"], elements: Float[Array, "m element"]) -> HeldRow:
+    def hold(self, displacement: Float[Array, "5"], state: RowState) -> HeldRow:
         arm, shift = levers(self.lever), shift_matrix(self.distance)
-        held = hold(self.problem, (shift @ displacement) * arm)
+        held = hold(self.problem, (shift @ displacement) * arm, state.amplitudes)
         stiffness = held.stiffness * arm[:, None] * arm[None, :]
-        return HeldRow(held.energy, shift.T @ (held.force * arm), shift.T @ stiffness @ shift, held.centre)
+        state = RowState(held.centre, held.amplitudes)
+        return HeldRow(held.energy, shift.T @ (held.force * arm), shift.T @ stiffness @ shift, state)
 
-    def force_at(self, displacement: Float[Array, "5"], elements: Float[Array, "m element"]) -> Float[Array, "5"]:
+    def force_at(self, displacement: Float[Array, "5"], state: RowState) -> Float[Array, "5"]:
         arm, shift = levers(self.lever), shift_matrix(self.distance)
-        return shift.T @ (force_at(self.problem, (shift @ displacement) * arm, elements) * arm)
+        force = force_at(self.problem, (shift @ displacement) * arm, state.elements, state.amplitudes)
+        return shift.T @ (force * arm)
 
 
 def ball_row_of(scene: BallBearing, expansion: Array) -> BallRow:

@@ -47,7 +47,6 @@ from ..ring_shape import (
     FlexibleRing,
     InnerRoundness,
     OuterRoundness,
-    refuse_shapes_in_rows,
     said_of_bending,
     shaped_parts,
     unheld_problems,
@@ -314,7 +313,6 @@ class BallBearing(AbstractMovingBearing):
     def row(self, expansion: Array) -> AbstractRow:
         from .row import ball_row_of
 
-        refuse_shapes_in_rows(self)
         return ball_row_of(self, expansion)
 
     @property

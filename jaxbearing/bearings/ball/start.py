@@ -2,19 +2,23 @@ r"""First guess of a ball bearing's equilibrium: without friction, at frozen cen
 
 $\Pi = \sum_j[\sum\frac25K_o\delta_{o+}^{5/2} + \sum\frac25K_i\delta_{i+}^{5/2} - F_CW] - F\cdot q$, with sums over the
 arcs of each ring (`arcs`): each $\delta$ is the norm of an affine map minus a constant, and the power is convex and
-increasing. Two nested damped Newton iterations, on each ball for a given ring and on the ring with every ball in
+increasing. Two nested damped Newton iterations, on each ball for given rings and on the rings with every ball in
 equilibrium, both accepting a step only where the potential falls. Only `force_at` is differentiated: the rest is the
 start of an iteration.
 """
 
+import dataclasses
 import functools
 import operator
+from collections.abc import Callable
 from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from ...numerics.arrow import condensed
 from ...numerics.safe import safe_norm
 from ...numerics.small_linear import solve_blocks, solve_dense
 from ..ring import LENGTH_UNIT
@@ -23,6 +27,8 @@ from .springs import CentrifugalProblem, Forces, forces_at, inner_springs, toget
 
 RING_TOLERANCE = 2e-2
 """Tolerance of the ring's balance, relative to the load: sufficient for a start of the full equations."""
+BENDING_TOLERANCE = 1e-8
+"""The same of an outer ring that bends, where the inner one is held: `hold` takes one Newton step from there."""
 BALL_TOLERANCE = 1e-9
 """Tolerance of a ball's balance, relative to its load scale."""
 RING_STEPS, BALL_STEPS = 40, 60
@@ -151,36 +157,104 @@ def _on_ring(problem: CentrifugalProblem, forces: Forces) -> tuple[Float[Array, 
 
 
 class HeldBalls(NamedTuple):
-    """Balls in equilibrium under a ring that is held: energy, J, forces on the ring's freedoms, N, and their
-    derivatives, N/m, and the ball centres, m."""
+    """Balls in equilibrium under an inner ring that is held: energy, J, forces on the ring's freedoms, N, and their
+    derivatives, N/m, the ball centres, m, and the amplitudes of an outer ring that bends, m."""
 
     energy: Float[Array, ""]
     force: Float[Array, " freedom"]
     stiffness: Float[Array, "freedom freedom"]
     centre: Float[Array, "2 ball"]
+    amplitudes: Float[Array, " mode"] | None
 
 
-def hold(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> HeldBalls:
-    """The balls for a given displacement of the ring, m; not differentiated."""
+def hold(
+    problem: CentrifugalProblem, ring: Float[Array, " freedom"], guess: Float[Array, " mode"] | None = None
+) -> HeldBalls:
+    """The balls for a given displacement of the inner ring, m; not differentiated.
+
+    **Arguments:** `guess`: amplitudes of an outer ring that bends, near those that are sought, m; see `row` on how
+    exactly they are found.
+    """
     problem, ring = jax.lax.stop_gradient((problem, ring))
-    groove = problem.groove_at(ring)
+    cap = 0.5 * problem.centre_distance
+    if problem.outer is None or guess is None:
+        groove = problem.groove_at(ring)
+        centre = _equilibrium(problem, groove, _pressed_scale(problem, groove), cap)
+        forces = forces_at(problem, centre, groove)
+        force, matrix = _on_ring(problem, forces)
+        return HeldBalls(problem.multiplicity * jnp.sum(forces.energy), force, matrix, centre, None)
+    count = len(problem.freedoms)
+    bending = dataclasses.replace(
+        problem,
+        groove=problem.groove_at(jnp.concatenate([ring, jnp.zeros_like(guess)])),
+        directions=problem.directions[count:],
+        ring_load=jnp.zeros(0),
+        freedoms=(),
+    )
+
+    def scale_at(groove: Array) -> tuple[Array, Array]:
+        scale = _pressed_scale(problem, groove)
+        return scale, problem.multiplicity * jnp.sum(scale) + problem.outer.given_load()
+
+    found = _descend(bending, guess, scale_at, cap, BENDING_TOLERANCE)
+    rings = jnp.concatenate([ring, found.ring])
+    forces = forces_at(problem, found.centre, problem.groove_at(rings))
+    force, matrix = _on_ring(problem, forces)
+    balance, matrix = problem.ring_balance(rings, force), _anchored(problem.ring_stiffness(rings, matrix), count)
+    follow = solve_dense(matrix[count:, count:], balance[count:])
+    energy = problem.multiplicity * jnp.sum(forces.energy) - bending.ring_work(found.ring)
+    return HeldBalls(
+        energy - 0.5 * jnp.sum(balance[count:] * follow),
+        force[:count] - matrix[:count, count:] @ follow,
+        condensed(matrix, count),
+        found.centre,
+        found.ring,
+    )
+
+
+def _pressed_scale(problem: CentrifugalProblem, groove: Float[Array, "p ball"]) -> Float[Array, " ball"]:
+    """Scale of the balances of the balls between grooves that are held, N."""
     pair, _ = problem.arcs.facing(groove)
     depth = jnp.maximum(safe_norm(pair[0], pair[1], 1e-30) - jnp.sum(problem.offset), 0.0)
-    scale = together(problem.stiffness) * jnp.max(depth) ** 1.5 + problem.centrifugal
-    centre = _equilibrium(problem, groove, scale, 0.5 * problem.centre_distance)
-    forces = forces_at(problem, centre, groove)
-    force, matrix = _on_ring(problem, forces)
-    return HeldBalls(problem.multiplicity * jnp.sum(forces.energy), force, matrix, centre)
+    return together(problem.stiffness) * jnp.max(depth) ** 1.5 + problem.centrifugal
+
+
+def _anchored(matrix: Float[Array, "coordinate coordinate"], count: int) -> Float[Array, "coordinate coordinate"]:
+    """The stiffness of both rings with a little on the amplitudes, which come after `count` freedoms: nothing holds an
+    outer ring that leans on no support and that no ball touches."""
+    anchor = np.where(np.arange(matrix.shape[0]) < count, 0.0, 1e-3 * SOFTEST)
+    return matrix + jnp.diag(jnp.asarray(anchor))
 
 
 def force_at(
-    problem: CentrifugalProblem, ring: Float[Array, " freedom"], centre: Float[Array, "2 ball"]
+    problem: CentrifugalProblem,
+    ring: Float[Array, " freedom"],
+    centre: Float[Array, "2 ball"],
+    amplitudes: Float[Array, " mode"] | None = None,
 ) -> Float[Array, " freedom"]:
-    """The forces of `hold` with their first derivatives: one Newton step of the balls, which does not move them.
+    """The forces of `hold` with their first derivatives: one Newton step of the balls and of the amplitudes, which does
+    not move them.
 
-    **Arguments:** `centre`: that `hold` found.
+    **Arguments:** `centre`, `amplitudes`: those that `hold` found.
     """
-    centre, groove = jax.lax.stop_gradient(centre), problem.groove_at(ring)
+    centre = jax.lax.stop_gradient(centre)
+    if amplitudes is None:
+        return _forces(problem, ring, centre)
+    count = len(problem.freedoms)
+    rings = jnp.concatenate([ring, jax.lax.stop_gradient(amplitudes)])
+    held, at = jax.lax.stop_gradient((problem, rings))
+    matrix = _on_ring(held, forces_at(held, centre, held.groove_at(at)))[1]
+    matrix = _anchored(held.ring_stiffness(at, matrix), count)
+    balance = problem.ring_balance(rings, _forces(problem, rings, centre))
+    rings = rings.at[count:].add(-solve_dense(matrix[count:, count:], balance[count:]))
+    return _forces(problem, rings, centre)[:count]
+
+
+def _forces(
+    problem: CentrifugalProblem, ring: Float[Array, " coordinate"], centre: Float[Array, "2 ball"]
+) -> Float[Array, " coordinate"]:
+    """Forces that hold the grooves, N, with first derivatives: the balls take one Newton step from `centre`."""
+    groove = problem.groove_at(ring)
     forces = forces_at(problem, centre, groove)
     matrix = jax.lax.stop_gradient(forces.stiffness) + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
     step = solve_blocks(matrix, forces.balance[:, None, :])[:, 0]
@@ -208,9 +282,26 @@ def start(problem: CentrifugalProblem, ring: Float[Array, " coordinate"]) -> Sta
     cap = 0.5 * problem.centre_distance
     if not ring.size:
         return Start(_equilibrium(problem, problem.groove, scale, cap), ring, jnp.asarray(0))
+    return _descend(problem, ring, lambda groove: (scale, total), cap, RING_TOLERANCE)
+
+
+def _descend(
+    problem: CentrifugalProblem,
+    ring: Float[Array, " coordinate"],
+    scales: Callable[[Array], tuple[Array, Array]],
+    cap: Array,
+    tolerance: float,
+) -> Start:
+    """The minimum of the potential over the rings, with every ball in equilibrium.
+
+    **Arguments:** `ring`: first guess, m; `scales`: from the coordinates of the grooves to the scales of the balances
+    of the balls and of the rings, N; `cap`: largest change of a displacement in one step, m; `tolerance`: of the rings'
+    balances over their scale.
+    """
 
     def evaluate(ring: Array):
         groove = problem.groove_at(ring)
+        scale, total = scales(groove)
         centre = _equilibrium(problem, groove, scale, cap)
         forces = forces_at(problem, centre, groove)
         force, matrix = _on_ring(problem, forces)
@@ -218,7 +309,7 @@ def start(problem: CentrifugalProblem, ring: Float[Array, " coordinate"]) -> Sta
         step = -solve_dense(matrix + SOFTEST * jnp.eye(matrix.shape[0]), balance)
         step = step * jnp.minimum(1.0, cap / jnp.maximum(jnp.max(jnp.abs(step)), 1e-30))
         energy = problem.multiplicity * jnp.sum(forces.energy) - problem.ring_work(ring)
-        small = jnp.max(jnp.abs(balance)) <= RING_TOLERANCE * total
+        small = jnp.max(jnp.abs(balance)) <= tolerance * total
         return centre, step, energy, jnp.sum(balance * step), small
 
     def advance(state: _Ring) -> _Ring:

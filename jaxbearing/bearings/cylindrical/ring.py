@@ -1,8 +1,9 @@
-"""The inner ring of a cylindrical roller bearing, from its operating point."""
+"""The rings of a cylindrical roller bearing: the inner one from its operating point, the outer one if it bends."""
 
 import jax.numpy as jnp
-from jaxtyping import Array
+from jaxtyping import Array, Float
 
+from ..elastic_ring import ElasticRing, elastic_ring
 from ..ring import InnerRing, inner_ring
 from .scene import CylindricalRollerBearing
 
@@ -14,3 +15,12 @@ def roller_ring(scene: CylindricalRollerBearing, lever: Array) -> InnerRing:
     if radial is None:
         return ring
     return ring.under(jnp.where(jnp.asarray(radial) > 0, ring.load, jnp.nan))
+
+
+def bending_ring(scene: CylindricalRollerBearing, azimuth: Float[Array, " roller"]) -> ElasticRing | None:
+    """The outer ring of a scene, if it bends. **Arguments:** `azimuth`: of the rollers, rad."""
+    geometry = scene.geometry
+    if scene.outer_ring is None:
+        return None
+    width = geometry.roller_length if geometry.width is None else geometry.width
+    return elastic_ring(scene.outer_ring, scene.materials.rings, geometry.outer_radius, width, azimuth)

@@ -5,7 +5,7 @@ from jaxtyping import Array, Float
 
 from ...numerics.safe import positive_power
 from ..ring import held_ring
-from ..row import AbstractRow, HeldRow, settled_force, settled_row
+from ..row import AbstractRow, HeldRow, RowState, initial_state, settled_force, settled_row
 from .scene import CylindricalRollerBearing
 from .thrust import EXPONENT, ThrustFlanges
 from .tilting import TiltingRollers
@@ -25,21 +25,20 @@ class TiltingRow(AbstractRow):
         ring = held_ring(displacement, scene.ring_lever, scene.port_distance, jnp.zeros(()), self.expansion)
         return build_tilting(scene, ring)
 
-    def initial(self, displacement: Float[Array, "5"]) -> Float[Array, "m element"]:
-        return self._held(displacement).initial().elements
+    def initial(self, displacement: Float[Array, "5"]) -> RowState:
+        return initial_state(self._held(displacement))
 
-    def hold(self, displacement: Float[Array, "5"], elements: Float[Array, "m element"]) -> HeldRow:
-        held, full = self._both(displacement)
-        row = settled_row(full, held.ring, elements)
+    def hold(self, displacement: Float[Array, "5"], state: RowState) -> HeldRow:
+        row = settled_row(*self._both(displacement), state)
         # the springs that anchor the unknowns do not hold the ring along its axis
         across = jnp.asarray(_ACROSS)
         row = row._replace(force=row.force * across, stiffness=row.stiffness * across[:, None] * across[None, :])
         flanges = self.scene.geometry.thrust_flanges
         return row if flanges is None else _with_flanges(row, flanges, displacement[0])
 
-    def force_at(self, displacement: Float[Array, "5"], elements: Float[Array, "m element"]) -> Float[Array, "5"]:
+    def force_at(self, displacement: Float[Array, "5"], state: RowState) -> Float[Array, "5"]:
         held, full = self._both(displacement)
-        force = settled_force(full, held.ring, elements) * jnp.asarray(_ACROSS)
+        force = settled_force(held.ring, full, state) * jnp.asarray(_ACROSS)
         flanges = self.scene.geometry.thrust_flanges
         return force if flanges is None else force.at[0].set(flanges.force(displacement[0]))
 

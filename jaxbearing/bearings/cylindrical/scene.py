@@ -40,7 +40,6 @@ from ..ring_shape import (
     FlexibleRing,
     InnerRoundness,
     OuterRoundness,
-    refuse_shapes_in_rows,
     said_of_bending,
     shaped_parts,
     unheld_problems,
@@ -160,8 +159,6 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     def _shape_problems(self, moves: bool) -> Iterator[str | ValueError]:
         """Refusals of parts that cannot be combined with rings that bend or are not round."""
         for name in shaped_parts(self):
-            if self.tilts:
-                yield f"{name}: rollers that tilt or have a profile run between rigid, round rings in this version"
             if moves and name == "outer_ring":
                 yield f"{name}: a run in time has rigid rings in this version; leave out the simulation"
         yield from unheld_problems(self.outer_ring, self.operation)
@@ -178,11 +175,8 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         evenly = self.slips or not self.tilts
         if ring is not None:
             evenly = self.slips
-        elif self.contact is None and not self.unknown_freedoms:
+        elif self.contact is None and not self.unknown_freedoms and not shaped_parts(self):
             evenly = False
-        if shaped_parts(self):
-            # rings that bend or are not round are modelled for rollers that carry evenly only
-            evenly = True
         if evenly:
             from .steady import solve_steady
 
@@ -212,7 +206,6 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     def row(self, expansion: Array) -> AbstractRow:
         from .row import TiltingRow
 
-        refuse_shapes_in_rows(self)
         return TiltingRow(self, expansion)
 
     def range_checks(self) -> RangeChecks:
@@ -252,8 +245,8 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
     @property
     def may_tilt(self) -> bool:
-        """False where rollers slide or a ring is not rigid or round: they carry evenly along their length."""
-        return not (self.slips or shaped_parts(self))
+        """False where rollers slide: they carry evenly along their length."""
+        return not self.slips
 
     @property
     def skewed(self) -> bool:

@@ -10,7 +10,7 @@ from ...numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results, assemble
 from ..computed import computed_results
-from ..elastic_ring import UNSUPPORTED, ElasticRing, elastic_ring
+from ..elastic_ring import UNSUPPORTED
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..interactions import Costs, Interaction, costs, of_land
@@ -27,7 +27,7 @@ from .geometry import RollerCage, RollerGeometry
 from .in_plane import IN_PLANE, outward
 from .kinematics import RollerKinematics, roller_kinematics
 from .loads import LEAST_LOAD
-from .ring import roller_ring
+from .ring import bending_ring, roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults, SolvedRollers
 
@@ -58,7 +58,7 @@ def build_system(
         reduced_modulus=jnp.asarray(reduced_modulus(scene.materials.rings, scene.materials.rollers)),
     )
     clearance, held = jnp.asarray(geometry.diametral_clearance) / 2.0, None
-    form = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth)
+    form, outer = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth), bending_ring(scene, azimuth)
     if ring.asks:
         held = jnp.einsum("f,fn->n", ring.held[1:3], cosines)
         if ring.expansion is not None:
@@ -66,7 +66,8 @@ def build_system(
         stiffness = palmgren_stiffness(contact.length, contact.reduced_modulus)
         pressed = held - clearance if form is None else held + form - clearance
         asked = pressed_load(stiffness, contact.length, pressed, jnp.zeros(()))
-        ring = ring.asking(jnp.sum(asked) + LEAST_LOAD)
+        asked = jnp.sum(asked) + LEAST_LOAD
+        ring = ring.asking(asked if outer is None else asked + outer.given_load())
     common = {
         "kinematics": motion,
         "contact": contact,
@@ -75,7 +76,7 @@ def build_system(
         "ring": ring,
         "held": held,
         "out_of_round": form,
-        "outer": _elastic_ring(scene, azimuth),
+        "outer": outer,
         "radial_clearance": clearance,
         "roller_mass": scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length,
     }
@@ -90,15 +91,6 @@ def build_system(
         elsewhere=oil_elsewhere(scene),
         cage=_cage_parts(scene, motion) if scene.slips else None,
     )
-
-
-def _elastic_ring(scene: CylindricalRollerBearing, azimuth: Float[Array, " roller"]) -> ElasticRing | None:
-    """The outer ring of a scene, if it bends."""
-    geometry = scene.geometry
-    if scene.outer_ring is None:
-        return None
-    width = geometry.roller_length if geometry.width is None else geometry.width
-    return elastic_ring(scene.outer_ring, scene.materials.rings, geometry.outer_radius, width, azimuth)
 
 
 def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> CageParts:

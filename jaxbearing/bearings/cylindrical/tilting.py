@@ -9,6 +9,10 @@ $\delta_o = x + \phi s - h$, $\delta_i = d\cdot n - J_d/2 - \tau\cos\psi(s - \el
 
 roller: $Q_o - Q_i = F_c$, $M_o - M_i = F_c\ell/2$; ring: $\sum Q_in = F$, $-\sum(M_i - Q_i\ell/2)\cos\psi = M$. The
 gradient of one convex potential, with the springs of `ring.ANCHOR`.
+
+An outer ring that bends moves outwards by w at a roller, along the whole of its length: w is taken from
+$\delta_o$, and the roller presses the ring by $Q_o$. What races that are not round add to $\delta_i$ is alike along
+the roller too.
 """
 
 import dataclasses
@@ -19,10 +23,12 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ...contacts import AbstractTiltedLine
-from ...numerics.arrow import ArrowPoint
+from ...numerics.arrow import ArrowPoint, seen_by_elements
 from ...numerics.batching import in_turn
-from ...numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
+from ...numerics.convex import Minimum, anchored, find_minimum
+from ..elastic_ring import ElasticRing
 from ..ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
+from ..row import AbstractRowSystem
 from ..tapered.system import FARTHEST, LOAD_FLOOR, LONGEST_STEP, MOST_TILT, START_TOLERANCE
 
 SLOW = 1e-2
@@ -40,9 +46,9 @@ class TiltingState(NamedTuple):
     moment: Float[Array, "2 roller"]
 
 
-class TiltingRollers(AbstractConvexArrow):
+class TiltingRollers(AbstractRowSystem):
     """See the module. `columns[f]` are (towards the roller, slope of the inner race) for a unit of each freedom of the
-    ring, `held` those of what the ring is held at."""
+    ring, `held` those of what the ring is held at and of races that are not round."""
 
     line: AbstractTiltedLine
     azimuth: Float[Array, " roller"]
@@ -52,11 +58,8 @@ class TiltingRollers(AbstractConvexArrow):
     radial_clearance: Float[Array, ""]
     centrifugal: Float[Array, ""]
     guess: ArrowPoint | None
-
-    @property
-    def freedoms(self) -> tuple[str, ...]:
-        """Freedoms of the ring that are unknown."""
-        return self.ring.freedoms
+    outer: ElasticRing | None = None
+    """The outer ring if it bends; `None`: it is rigid."""
 
     def load_scale(self) -> Array:
         return jnp.sqrt(jnp.square(self.ring.size()) + LOAD_FLOOR**2)
@@ -69,16 +72,18 @@ class TiltingRollers(AbstractConvexArrow):
         return LENGTH_UNIT * jnp.stack([jnp.ones(()), 1.0 / jnp.asarray(self.line.length)])[:, None]
 
     def equation_names(self) -> tuple[str, ...]:
-        return ("force balance of a roller", "moment balance of a roller", *self.ring.equation_names())
+        return ("force balance of a roller", "moment balance of a roller", *self.ring_names())
 
     def step_caps(self) -> ArrowPoint:
         cap = LONGEST_STEP / LENGTH_UNIT
-        return ArrowPoint(jnp.full((2, 1), cap), jnp.full(len(self.freedoms), cap))
+        return ArrowPoint(jnp.full((2, 1), cap), jnp.full(self.ring_unknowns, cap))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
         far = FARTHEST / LENGTH_UNIT
         tilt = MOST_TILT * jnp.asarray(self.line.length) / LENGTH_UNIT
         ring = self.ring.of_each(lambda name: tilt if name in TILTS else far)
+        if self.outer is not None:
+            ring = jnp.concatenate([ring, jnp.full(self.outer.modes, far)])
         high = ArrowPoint(jnp.full((2, 1), far), ring)
         return ArrowPoint(-high.elements, -high.globals), high
 
@@ -89,13 +94,15 @@ class TiltingRollers(AbstractConvexArrow):
             return self.guess
         if self.ring.asks:
             # where it is held, what else moves at 0
-            return ArrowPoint(self._between(self.held[0]), jnp.zeros(len(self.freedoms)))
+            return ArrowPoint(self._between(self.held[0]), jnp.zeros(self.ring_unknowns))
         load = self.load_scale() + self.centrifugal
         depth = jnp.maximum(
             self.radial_clearance + 2.0 * (load / (self.line.stiffness * self.line.length)) ** 0.9, 1e-6
         )
         ring = depth * self.ring.across() / LENGTH_UNIT
         inward = LENGTH_UNIT * jnp.einsum("f,fn->n", ring, self.columns[:, 0])
+        if self.outer is not None:
+            ring = jnp.concatenate([ring, jnp.zeros(self.outer.modes)])
         return ArrowPoint(self._between(inward), ring)
 
     def _between(self, inward: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
@@ -114,18 +121,15 @@ class TiltingRollers(AbstractConvexArrow):
         state = self.state(unknowns, shared)
         balance = self.balance(state) + anchored(unknowns, ANCHOR * LENGTH_UNIT)
         totals = jnp.einsum("fcn,cn->fn", self.columns, self.ring_force(state))
+        if self.outer is not None:
+            totals = self.on_both(totals, state.load[1])
         out, tilt = self.units() * unknowns
         energy = jnp.sum(self.line.energy(state.approach, state.slope), axis=0)
         energy = energy - self.centrifugal * (out + 0.5 * self.line.length * tilt)
         return balance / self.roller_scale(), totals, energy
 
     def global_residual(self, globals_, totals):
-        held = anchored(globals_, ANCHOR * LENGTH_UNIT)
-        return (totals - self.ring.load + held) / self.load_scale(), jnp.zeros(())
-
-    def work(self, globals_):
-        """Work of the ring's loads, J."""
-        return LENGTH_UNIT * jnp.sum(self.ring.load * globals_)
+        return self.ring_balance(globals_, totals, floats=True) / self.load_scale(), jnp.zeros(())
 
     def started(self) -> tuple["TiltingRollers", Minimum]:
         """These equations with the minimum of the potential as first guess, and how it was found.
@@ -155,15 +159,15 @@ class TiltingRollers(AbstractConvexArrow):
         return ArrowPoint(jnp.where(alone, flat, point.elements), point.globals)
 
     def at(self, point: ArrowPoint) -> TiltingState:
-        shape = (point.globals.shape[0], point.elements.shape[1])
-        return self.state(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+        return self.state(point.elements, seen_by_elements(self, point))
 
-    def state(self, unknowns: Float[Array, "2 roller"], shared: Float[Array, "freedom roller"]) -> TiltingState:
-        inward, turn = self.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shared, self.columns)
+    def state(self, unknowns: Float[Array, "2 roller"], shared: Float[Array, "p roller"]) -> TiltingState:
+        inward, turn = self.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", self.of_freedoms(shared), self.columns)
         out, tilt = self.units() * unknowns
         # `turn` is about the middle of the roller
         inner = inward - self.radial_clearance - 0.5 * self.line.length * turn - out
-        approach, slope = jnp.stack([inner, out]), jnp.stack([turn - tilt, tilt])
+        outer = out if self.outer is None else out - shared[-1]
+        approach, slope = jnp.stack([inner, outer]), jnp.stack([turn - tilt, tilt])
         return TiltingState(approach, slope, *self.line.load_and_moment(approach, slope))
 
     def balance(self, state: TiltingState) -> Float[Array, "2 roller"]:

@@ -20,16 +20,18 @@ from ...numerics.arrow import ArrowPoint, linearize
 from ...numerics.newton import NewtonOptions, newton_solve
 from ...numerics.status import Status
 from ..assemble import Results, assemble
+from ..elastic_ring import UNSUPPORTED
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..inlet import oil_of_races
 from ..parts import azimuths
 from ..profile import RollerProfile, pressed_load
 from ..rating import rated_laminae
 from ..ring import InnerRing, Port
-from ..solution import LaminaLoads, Solution
+from ..ring_shape import out_of_round
+from ..solution import FailureCause, LaminaLoads, Solution
 from .forces import rolling_alone
 from .kinematics import RollerKinematics, roller_kinematics
-from .ring import roller_ring
+from .ring import bending_ring, roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults
 from .tilting import TiltingRollers, TiltingState
@@ -48,6 +50,9 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
     mass = scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length
     profile = RollerProfile() if scene.profile is None else scene.profile
     held = jnp.einsum("f,fcn->cn", ring.held, columns)
+    form = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth)
+    if form is not None:
+        held = held.at[0].add(form)
     system = TiltingRollers(
         line=profile.line(stiffness, length),
         azimuth=azimuth,
@@ -57,13 +62,15 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
         radial_clearance=jnp.asarray(geometry.diametral_clearance) / 2.0,
         centrifugal=mass * motion.pitch_radius * jnp.square(motion.free_orbit),
         guess=None,
+        outer=bending_ring(scene, azimuth),
     )
     if not ring.asks:
         return system
     pressed = system.held[0] - system.radial_clearance
-    return dataclasses.replace(
-        system, ring=ring.asking(jnp.sum(pressed_load(stiffness, length, pressed, system.held[1])))
-    )
+    load = jnp.sum(pressed_load(stiffness, length, pressed, system.held[1]))
+    if system.outer is not None:
+        load = load + system.outer.given_load()
+    return dataclasses.replace(system, ring=ring.asking(load))
 
 
 def _columns(azimuth: Float[Array, " roller"], lever: Array) -> Float[Array, "5 2 roller"]:
@@ -81,13 +88,19 @@ def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions, ring:
     system, result = newton_solve(started, options)
     none = ~result.converged & minimum.outside
     result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
+    results, causes, steps = _results(scene, system, system.at(result.point)), {}, minimum.steps + result.iterations
+    if system.outer is not None:
+        results = results._replace(outer_ring=system.outer.shape(system.amplitudes(result.point.globals)))
+        result, none = system.outer.judged(system.ring, result)
+        causes, steps = {UNSUPPORTED: FailureCause(none, jnp.zeros(0))}, jnp.where(none, 0, steps)
     return assemble(
         scene,
         result,
-        _results(scene, system, system.at(result.point)),
+        results,
         system.ring.displacement(result.point.globals),
         _port(scene, system, result.point),
-        iterations=minimum.steps + result.iterations,
+        failure_causes=causes,
+        iterations=steps,
         ring_freedom=scene.shown_freedoms if ring is None else scene.modelled_freedoms,
         stiffness_freedom=scene.modelled_freedoms,
         equation_names=system.equation_names(),
@@ -190,7 +203,7 @@ def _port(scene: CylindricalRollerBearing, system: TiltingRollers, point: ArrowP
     full = build_tilting(scene, system.ring.released(system.load_scale()))
     place = ArrowPoint(point.elements, system.ring.released_unknowns(point.globals))
     equations, jacobian = linearize(full, place)
-    force = equations.residual.globals * full.load_scale() + full.ring.load
+    force = full.of_freedoms(equations.residual.globals) * full.load_scale() + full.ring.load
     port = full.ring.port(jacobian, force, full.load_scale(), system.freedoms)
     # nothing holds it axially: not the springs that anchor the unknowns either
     held = jnp.asarray([0.0, 1.0, 1.0, 1.0, 1.0])

@@ -154,6 +154,9 @@ def _out_of_round(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"])
 def _held_load(system: TaperedSystem, stiffness: Array) -> Float[Array, ""]:
     """Estimates the load that the given displacements of the ring ask for, N."""
     pressed = system.pressed(system.held)
-    return system.multiplicity * jnp.sum(
+    if system.out_of_round is not None:
+        pressed = pressed + jnp.sum(system.out_of_round, axis=0)
+    load = system.multiplicity * jnp.sum(
         pressed_load(stiffness, jnp.asarray(system.line.length), pressed, system.held[2])
     )
+    return load if system.outer is None else load + system.outer.given_load()

@@ -4,7 +4,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..ring import held_ring
-from ..row import AbstractRow, HeldRow, settled_force, settled_row
+from ..row import AbstractRow, HeldRow, RowState, initial_state, settled_force, settled_row
 from .build import build_tapered
 from .scene import TaperedRollerBearing
 from .system import TaperedSystem
@@ -21,16 +21,15 @@ class TaperedRow(AbstractRow):
         ring = held_ring(displacement, scene.ring_lever, scene.port_distance, jnp.zeros(()), self.expansion)
         return build_tapered(scene, ring)
 
-    def initial(self, displacement: Float[Array, "5"]) -> Float[Array, "m element"]:
-        return self._held(displacement).initial().elements
+    def initial(self, displacement: Float[Array, "5"]) -> RowState:
+        return initial_state(self._held(displacement))
 
-    def hold(self, displacement: Float[Array, "5"], elements: Float[Array, "m element"]) -> HeldRow:
-        held, full = self._both(displacement)
-        return settled_row(full, held.ring, elements)
+    def hold(self, displacement: Float[Array, "5"], state: RowState) -> HeldRow:
+        return settled_row(*self._both(displacement), state)
 
-    def force_at(self, displacement: Float[Array, "5"], elements: Float[Array, "m element"]) -> Float[Array, "5"]:
+    def force_at(self, displacement: Float[Array, "5"], state: RowState) -> Float[Array, "5"]:
         held, full = self._both(displacement)
-        return settled_force(full, held.ring, elements)
+        return settled_force(held.ring, full, state)
 
     def _both(self, displacement: Float[Array, "5"]) -> tuple[TaperedSystem, TaperedSystem]:
         """The equations with the ring held, and with the ring free, which give the force on it."""

@@ -41,7 +41,6 @@ from ..ring_shape import (
     FlexibleRing,
     InnerRoundness,
     OuterRoundness,
-    refuse_shapes_in_rows,
     said_of_bending,
     unheld_problems,
 )
@@ -170,7 +169,6 @@ class TaperedRollerBearing(AbstractBearing):
     def row(self, expansion: Array) -> AbstractRow:
         from .row import TaperedRow
 
-        refuse_shapes_in_rows(self)
         return TaperedRow(self, expansion)
 
     def range_checks(self) -> RangeChecks:

@@ -34,11 +34,11 @@ from jaxtyping import Array, Bool, Float
 from ...contacts import AbstractTiltedLine
 from ...numerics.arrow import ArrowPoint, seen_by_elements
 from ...numerics.batching import in_turn
-from ...numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
+from ...numerics.convex import Minimum, anchored, find_minimum
 from ...numerics.safe import positive_power
 from ..elastic_ring import ElasticRing
 from ..ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
-from ..rings import AbstractBetweenRings
+from ..row import AbstractRowSystem
 
 LOAD_FLOOR = 1e-3
 """Added to the scale of loads, N."""
@@ -97,7 +97,7 @@ class TaperedState(NamedTuple):
     flange_load: Float[Array, " roller"]
 
 
-class TaperedSystem(AbstractBetweenRings, AbstractConvexArrow):
+class TaperedSystem(AbstractRowSystem):
     """See the module. Unknowns are lengths in units of 10 um: phi times the roller length, ring tilts times d.
 
     `columns[f]` are (Da, Dr, t) at every roller for a unit of freedom f, `held` those of what the ring
@@ -199,11 +199,6 @@ class TaperedSystem(AbstractBetweenRings, AbstractConvexArrow):
         sine, cosine = jnp.sin(self.form.axis_angle), jnp.cos(self.form.axis_angle)
         outwards = -along * sine + (across + tilt * self.inertia.centre) * cosine
         return self.multiplicity * (line + flange - self.inertia.force * outwards + self.inertia.moment * tilt)
-
-    def work(self, globals_):
-        """Work of the loads on the rings less the energy of a cup that bends, J."""
-        work = LENGTH_UNIT * jnp.sum(self.ring.load * self.of_freedoms(globals_))
-        return work if self.outer is None else work - self.outer.ring.energy(LENGTH_UNIT * self.amplitudes(globals_))
 
     @property
     def homotopies(self) -> int:
