@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ...bearings.flanks import on_heavier_flanks
+from ...bearings.ring_deflection import RingDeflection
 from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
 from ..display import digits, with_unit
 from .fit_facts import fit_facts
@@ -40,7 +41,7 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
     yield "Inner ring", ", ".join(_ring(solution))
     ring = solution.outer_ring
     if ring is not None:
-        yield "Outer ring", f"bends outwards by {_between(np.asarray(ring.deflection))}"
+        yield "Outer ring", bending(ring)
     held = ", ".join(_held(solution))
     if held:
         yield "Held by", held
@@ -57,10 +58,11 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         yield from life_facts(solution)
 
 
-def _between(deflection: np.ndarray) -> str:
-    """The least and the largest of deflections, m, in words."""
+def bending(ring: RingDeflection) -> str:
+    """The least and the largest deflection of an outer ring in words."""
+    deflection = np.asarray(ring.deflection)
     least, most = (with_unit(float(value), "m") for value in (np.min(deflection), np.max(deflection)))
-    return f"{least} to {most}"
+    return f"bends outwards by {least} to {most}"
 
 
 def _mixed_facts(solution: Solution) -> Iterator[tuple[str, str]]:

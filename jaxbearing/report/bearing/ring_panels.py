@@ -28,7 +28,7 @@ def ring_panels(solution: Solution, rigid: Solution | None = None) -> list[Polar
     ring = solution.outer_ring
     if ring is None:
         return []
-    shapes = _shape_panels(solution, ring)
+    shapes = shape_panels(solution, ring)
     return shapes if rigid is None else [load_polygon(solution, rigid), *shapes]
 
 
@@ -60,14 +60,21 @@ def load_polygon(solution: Solution, rigid: Solution) -> Polar:
     )
 
 
-def _shape_panels(solution: Solution, ring: RingDeflection) -> list[Polar | Curves]:
+def shape_panels(
+    solution: Solution, ring: RingDeflection, name: str = "outer_ring", of: str = "", zero: str = "the load line"
+) -> list[Polar | Curves]:
+    """The deformed ring, and its deflection over the azimuth.
+
+    **Arguments:** `name`: with which the names of the charts begin; `of`: the bearing, behind the titles; `zero`: where
+    azimuth 0 is, in words.
+    """
     azimuth, deflection = np.asarray(ring.azimuth), np.asarray(ring.deflection)
     largest, radius = float(np.max(np.abs(deflection))), float(ring.radius)
     factor = exaggeration(largest, radius)
     unit, scale = axis_unit("m", radius)
     shape = Polar(
-        name="outer_ring_shape",
-        title="Deformed outer ring",
+        name=f"{name}_shape",
+        title=f"Deformed outer ring{of}",
         caption=f"Centroid circle of the outer ring with deflections {factor:g} times as large as they are, and the "
         "round one; azimuth 0 is below.",
         series=[
@@ -82,12 +89,12 @@ def _shape_panels(solution: Solution, ring: RingDeflection) -> list[Polar | Curv
     degrees = signed_degrees(azimuth[:-1])
     order = np.argsort(degrees)
     curve = Curves(
-        name="outer_ring_deflection",
-        title="Deflection of the outer ring",
+        name=f"{name}_deflection",
+        title=f"Deflection of the outer ring{of}",
         caption="Outward deflection of the centroid circle.",
         series=[Series("outer ring", degrees[order], scale * deflection[:-1][order], OUTER)],
         unit=unit,
-        x=Axis("azimuth from the load line, deg", (-188.0, 188.0), (-180, -90, 0, 90, 180)),
+        x=Axis(f"azimuth from {zero}, deg", (-188.0, 188.0), (-180, -90, 0, 90, 180)),
     )
     return [shape, curve]
 

@@ -9,11 +9,12 @@ from ...numerics.status import Status
 from ...shafts.scene import ShaftSystem
 from ...shafts.solution import BearingOnShaft, ShaftSolution
 from ..bearing.facts import facts as bearing_facts
+from ..bearing.ring_panels import shape_panels
 from ..colours import LOSS
 from ..display import axis_unit, digits, with_unit
 from ..labels import labelled
 from ..page_content import Content, Listing, Sketch
-from ..panels import Bars
+from ..panels import Bars, Curves, Polar
 from ..tables import Row, row_of
 from .bending import bending_line
 from .drawn import svg
@@ -35,7 +36,7 @@ def page_content(scene: ShaftSystem, solution: ShaftSolution) -> Content:
         sketches=[Sketch(one.title, svg(one), one.caption) for one in pictures(scene, solution)],
         facts=[*shaft_facts(solution), *((f"set {name}", text) for name, text in set_facts(solution))],
         facts_title="Shaft and sets",
-        charts=[*([_losses(losses)] if losses else []), *shaft_panels(solution)],
+        charts=[*([_losses(losses)] if losses else []), *shaft_panels(solution), *_rings(solution)],
         listings=[_table(solution), *(_of_bearing(one) for one in bearings.values())],
         convergence=[
             ("status", Status(int(solution.status)).text.replace("_", " ")),
@@ -48,6 +49,14 @@ def page_content(scene: ShaftSystem, solution: ShaftSolution) -> Content:
         notes=[text for text in shaft_warnings(solution) if text not in solution.range_checks],
         results=list(_results(solution)),
     )
+
+
+def _rings(solution: ShaftSolution) -> Iterator[Polar | Curves]:
+    """Deformed outer rings of bearings."""
+    for name, one in solution.bearings.items():
+        if one.solution is not None and one.solution.outer_ring is not None:
+            ring = one.solution.outer_ring
+            yield from shape_panels(one.solution, ring, f"outer_ring_{name}", f", {name}", "Y of the shaft")
 
 
 def _losses(losses: dict[str, float]) -> Bars:
