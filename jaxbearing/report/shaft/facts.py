@@ -8,8 +8,8 @@ import numpy as np
 from ...bearings.solution import RING_FREEDOMS
 from ...shafts.solution import BearingOnShaft, SetResult, ShaftSolution
 from ..backends.json import finite
-from ..display import ZERO_CELSIUS, digits, with_unit
 from ..bearing.facts import bending
+from ..display import ZERO_CELSIUS, digits, with_unit
 from .bending import bending_line
 
 NAMES = "bearing\n"
