@@ -175,7 +175,7 @@ def test_an_empty_bearing_has_derivatives(axial):
         (batch,) = batches_of([Place("b", scene, 0.0, 1.0, 0.0, 0.0, None, None)], jnp.asarray(0.0))
         rows, at = batch.rows(jnp.zeros(1), at_rest=True), jnp.zeros((1, 5)).at[0, 0].set(axial)
         held = batch.hold(rows, at, batch.initial(rows, at))
-        return batch.force_at(rows, at, held.elements)[0, 0]
+        return batch.force_at(rows, at, held.state)[0, 0]
 
     step = 1e-9
     difference = (force(4e-5 + step) - force(4e-5 - step)) / (2.0 * step)

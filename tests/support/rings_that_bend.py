@@ -24,7 +24,7 @@ def unbalance(scene: AbstractBearing, solution: jb.Solution) -> float:
     names = ["", *(["_second"] if getattr(elements, "load_outer_second", None) is not None else [])]
     outward = sum(
         np.asarray(getattr(elements, f"load_outer{name}"))
-        * np.cos(np.asarray(getattr(elements, f"contact_angle_outer{name}")))
+        * np.cos(np.asarray(getattr(elements, f"contact_angle_outer{name}", 0.0)))
         for name in names
     )
     rows = [

@@ -1,0 +1,185 @@
+"""Sets and shafts whose bearings have outer rings that bend and races that are not round."""
+
+import dataclasses
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from bent_shafts import BEARINGS, HOUSING, SUPPORTS, alone, bent, held, straight
+from rings_that_bend import unbalance
+from shaft_cases import DEEP_GROOVE, P, axial_forces, pair
+
+import jaxbearing as jb
+from jaxbearing.bearings.ring import shift_matrix
+from jaxbearing.bearings.ring_shape import FlexibleRing
+from jaxbearing.shafts import MountedBearing, PointLoad, Preload, Shaft, ShaftSystem, Support
+
+DISPLACED = {
+    "ball": [2e-5, 25e-6, 4e-6, 5e-4, 3e-4],
+    "four_point": [2e-5, 25e-6, 4e-6, 5e-4, 3e-4],
+    "cylindrical": [0.0, 40e-6, 5e-6, 1e-4, -1e-4],
+    "tapered": [25e-6, 15e-6, 4e-6, 2e-4, 1e-4],
+}
+"""Displacements under which some elements carry and others do not, m and rad."""
+LOADS = {"ball": (100.0, 2e3), "four_point": (1e3, 4e3), "cylindrical": (0.0, 3e3), "tapered": (4e3, 5e3)}
+"""Axial and radial load, N."""
+SLOW = {"cylindrical", "four_point", "tapered"}
+FAMILIES = [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in BEARINGS]
+
+
+@pytest.mark.parametrize("ring", [HOUSING, SUPPORTS], ids=["housing", "supports"])
+@pytest.mark.parametrize("family", FAMILIES)
+def test_force_and_stiffness_are_derivatives_of_the_energy(family, ring):
+    hold, force_at, first = held(bent(BEARINGS[family], **ring), DISPLACED[family])
+    hold, force_at = jax.jit(hold), jax.jit(lambda q, state: (force_at(q, state), jax.jacfwd(force_at)(q, state)))
+    at = np.asarray(DISPLACED[family])
+    found = hold(at, first)
+    force, stiffness = np.asarray(found.force), np.asarray(found.stiffness)
+    unit = np.sqrt(np.maximum(np.diag(stiffness), 1e-300))
+    size = np.max(np.abs(force / unit))
+    for place, step in enumerate([1e-8, 1e-8, 1e-8, 1e-6, 1e-6]):
+        moved = step * np.eye(5)[place]
+        high, low = hold(at + moved, found.state), hold(at - moved, found.state)
+        slope = (high.energy - low.energy) / (2.0 * step)
+        np.testing.assert_allclose(slope, force[place], atol=1e-6 * size * unit[place])
+        slopes = (np.asarray(high.force) - np.asarray(low.force)) / (2.0 * step)
+        np.testing.assert_allclose(slopes / unit, stiffness[place] / unit, atol=2e-6 * unit[place])
+    again, derived = force_at(at, found.state)
+    np.testing.assert_allclose(again / unit, force / unit, atol=1e-9 * size)
+    np.testing.assert_allclose(derived / unit / unit[:, None], stiffness / unit / unit[:, None], atol=1e-7)
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_a_rigid_shaft_on_one_bearing_is_that_bearing(family):
+    scene, (axial, radial) = bent(BEARINGS[family]), LOADS[family]
+    solved, single = jb.solve(straight(scene, axial, radial)), jb.solve(alone(scene, axial, radial))
+    one = solved.bearings["bearing"]
+    np.testing.assert_allclose(one.force[:3], [axial, radial, 0.0], rtol=1e-9, atol=1e-9 * radial)
+    largest = np.max(single.elements.load_outer)
+    np.testing.assert_allclose(one.solution.elements.load_outer, single.elements.load_outer, atol=1e-8 * largest)
+    bends = np.max(np.abs(single.outer_ring.deflection))
+    np.testing.assert_allclose(one.solution.outer_ring.deflection, single.outer_ring.deflection, atol=1e-8 * bends)
+    np.testing.assert_allclose(
+        [one.ring.radial, one.ring.lateral], [single.ring.radial, single.ring.lateral], rtol=1e-7
+    )
+    assert unbalance(scene, one.solution) < 1e-9
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("family", [*BEARINGS])
+def test_a_stiff_housing_is_a_rigid_ring(family):
+    scene, load = bent(BEARINGS[family]), LOADS[family]
+    stiff = dataclasses.replace(scene, outer_ring=FlexibleRing(**(HOUSING | {"housing_stiffness": 1e16})))
+    rigid = dataclasses.replace(scene, outer_ring=None)
+    first, second = (jb.solve(straight(one, *load)).bearings["bearing"] for one in (stiff, rigid))
+    largest = np.max(second.solution.elements.load_outer)
+    elements = [one.solution.elements.load_outer for one in (first, second)]
+    np.testing.assert_allclose(*elements, atol=1e-5 * largest)
+    np.testing.assert_allclose(first.ring.radial, second.ring.radial, rtol=1e-5)
+
+
+def two_grooves(housing=5e9, height=3e-6, clearance=12e-6):
+    """Two deep groove ball bearings on a rigid shaft under a load beside their middle."""
+    scene = DEEP_GROOVE.replace_geometry(diametral_clearance=clearance)
+    scene = bent(scene, height, **(HOUSING | {"housing_stiffness": housing}))
+    return ShaftSystem(
+        Shaft(600.0),
+        bearings=[MountedBearing("A", scene, 20e-3), MountedBearing("B", scene, 180e-3, "-x")],
+        forces=[PointLoad("load", 80e-3, axial=100.0, radial=2e3, azimuth=0.4)],
+    )
+
+
+def test_two_bearings_balance_the_load_and_have_derivatives():
+    """By the stiffness of the housing and the height of a lobe, in both modes, against differences."""
+
+    def solved(x):
+        return jb.solve(two_grooves(x[0], x[1]), throw=False)
+
+    def results(x):
+        found = solved(x)
+        bends = 1e9 * found.bearings["B"].solution.outer_ring.cosines[1:3]
+        return jnp.concatenate([found.bearings["A"].on_shaft[3:4], 1e8 * found.shaft.displacement[-1, :3], bends])
+
+    x = jnp.asarray([5e9, 3e-6])
+    found = jax.jit(solved)(x)
+    about = lambda at, load: np.asarray(shift_matrix(jnp.asarray(at))).T @ np.asarray(load)
+    total = sum(about(one.position, one.on_shaft) for one in found.bearings.values())
+    total = total + sum(about(*both) for both in zip(found.shaft.position, found.shaft.load, strict=True))
+    np.testing.assert_allclose(total / [2e3, 2e3, 2e3, 160.0, 160.0], 0.0, atol=1e-9)
+    for name, place in {"A": 0, "B": 1}.items():
+        assert unbalance(two_grooves().bearings[place].scene, found.bearings[name].solution) < 1e-9
+    compiled, (forward, backward) = jax.jit(results), (jax.jit(mode(results))(x) for mode in (jax.jacfwd, jax.jacrev))
+    np.testing.assert_allclose(backward, forward, rtol=1e-9, atol=1e-12 * np.max(np.abs(forward), axis=0))
+    for place, one in enumerate(np.diag(1e-4 * np.asarray(x))):
+        difference = (compiled(x + one) - compiled(x - one)) / (2.0 * one[place])
+        np.testing.assert_allclose(forward[:, place], difference, rtol=1e-6, atol=1e-6 * np.max(np.abs(difference)))
+
+
+@pytest.mark.slow
+def test_a_preloaded_pair_meets_its_preload():
+    scene = bent(P)
+    loose, loaded = (
+        jb.solve(pair(preload=Preload(force=180.0), scene=scene, **load)) for load in ({}, {"axial": 100.0})
+    )
+    np.testing.assert_allclose(loose.sets["set"].preload, 180.0, rtol=1e-11)
+    np.testing.assert_allclose(axial_forces(loose), 180.0, rtol=1e-9)
+    np.testing.assert_allclose(np.diff(axial_forces(loaded)), -100.0, rtol=1e-9)
+    # rings that yield take a larger closure
+    rigid = jb.solve(pair(preload=Preload(force=180.0)))
+    assert float(loose.sets["set"].closure) > float(rigid.sets["set"].closure)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "preload", [{"class_force": 180.0}, {"offset": 8e-6}, {"spring_force": 180.0, "spring_stiffness": 2e6}]
+)
+def test_other_ways_of_preload(preload):
+    solved = jb.solve(pair(preload=Preload(**preload), scene=bent(P), radial=150.0))
+    first, second = axial_forces(solved)
+    np.testing.assert_allclose(first, second, rtol=1e-8)
+    if "spring_force" in preload:
+        np.testing.assert_allclose(solved.sets["set"].spring_force, second, rtol=1e-8)
+
+
+@pytest.mark.slow
+def test_supports_that_all_stand_away_from_the_load():
+    """The ring leaves them, and the shaft goes with it: a result without numbers, and a reason."""
+    away = SUPPORTS | {"support_angle": [2.8, 3.1, 3.4]}
+
+    def solved(radial):
+        return jb.solve(straight(bent(DEEP_GROOVE, **away), 100.0, radial), throw=False)
+
+    found = jax.jit(jax.vmap(solved))(jnp.asarray([-2e3, 2e3]))
+    assert found.status.tolist() == [jb.Status.CONVERGED, jb.Status.NO_EQUILIBRIUM]
+    assert np.all(np.isnan(found.bearings["bearing"].force[1]))
+    np.testing.assert_allclose(found.bearings["bearing"].force[0, 1], -2e3, rtol=1e-9)
+
+
+@pytest.mark.slow
+def test_seats_of_a_bearing_whose_ring_bends():
+    """A press fit takes the same clearance on a shaft as alone."""
+    scene = bent(jb.load_scene("deep_groove_6205", {"contact": "none"}))
+    fits = {"geometry.bore": 25e-3, "geometry.outside_diameter": 52e-3, "geometry.width": 15e-3}
+    scene = scene.replace(fits).replace({"fits": jb.mounting.Fits(shaft_interference=15e-6)})
+    one, single = jb.solve(straight(scene, 100.0)).bearings["bearing"].solution, jb.solve(alone(scene, 100.0))
+    np.testing.assert_allclose(one.elements.load_outer, single.elements.load_outer, atol=1e-5)
+    np.testing.assert_allclose(one.fit.running_clearance, single.fit.running_clearance, rtol=1e-12)
+
+
+@pytest.mark.parametrize("place", ["set.front", "bearing.rear"])
+def test_a_ring_on_a_shaft_is_held(place):
+    part = {"thickness": "4 mm", "width": "15 mm"}
+    with pytest.raises(jb.SceneError, match=rf"{place}\.outer_ring: .*nothing holds the ring"):
+        jb.load_scene("gear_shaft", {f"{place}.outer_ring.{name}": value for name, value in part.items()})
+
+
+def test_loads_from_outside_need_a_rigid_support():
+    teeth = {"load_angle": [0.0], "load_radial": [10.0], "load_tangential": [0.0], "load_radius": [0.03]}
+    scene = bent(DEEP_GROOVE, **HOUSING, **teeth)
+    place = MountedBearing("A", scene, 0.0)
+    ShaftSystem(Shaft(0.0), bearings=[place])
+    with pytest.raises(
+        ValueError, match=r"bearing\.A\.outer_ring\.load_angle: expected none beside an elastic support"
+    ):
+        ShaftSystem(Shaft(0.0), bearings=[dataclasses.replace(place, support=Support(radial=1e8))])
