@@ -10,7 +10,9 @@ from shaft_cases import DEEP_GROOVE, NU
 import jaxbearing as jb
 from jaxbearing.bearings.bearing import AbstractBearing
 from jaxbearing.bearings.ring_shape import FlexibleRing, InnerRoundness, OuterRoundness
+from jaxbearing.bearings.row import AbstractRow
 from jaxbearing.shafts import LinearBearing, MountedBearing, PointLoad, Shaft, ShaftSystem
+from jaxbearing.shafts.batches import on_shaft
 
 SPEED = 300.0
 """Of all shafts here, rad/s."""
@@ -49,9 +51,6 @@ def alone(scene: AbstractBearing, axial=0.0, radial=2e3) -> AbstractBearing:
     return scene.replace(changes | ({"operation.axial_load": axial} if axial else {}))
 
 
-def held(scene: AbstractBearing, displacement):
-    """Functions of the row of a bearing: `hold` and `force_at` over the displacement and the state; first state."""
-    from jaxbearing.shafts.batches import on_shaft
-
-    row = on_shaft(scene, jnp.asarray(SPEED)).row(jnp.asarray(1e-6))
-    return row.hold, row.force_at, row.initial(jnp.asarray(displacement))
+def row_of(scene: AbstractBearing) -> AbstractRow:
+    """The row of a bearing on a shaft; its inner raceway has grown by 1 um."""
+    return on_shaft(scene, jnp.asarray(SPEED)).row(jnp.asarray(1e-6))
