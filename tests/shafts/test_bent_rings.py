@@ -17,7 +17,7 @@ from jaxbearing.shafts import MountedBearing, PointLoad, Preload, Shaft, ShaftSy
 
 DISPLACED = {
     "ball": [2e-5, 25e-6, 4e-6, 5e-4, 3e-4],
-    "four_point": [2e-5, 25e-6, 4e-6, 5e-4, 3e-4],
+    "four_point": [1e-5, 30e-6, 6e-6, 3e-4, 2e-4],
     "cylindrical": [0.0, 40e-6, 5e-6, 1e-4, -1e-4],
     "tapered": [25e-6, 15e-6, 4e-6, 2e-4, 1e-4],
 }
@@ -45,7 +45,7 @@ def test_force_and_stiffness_are_derivatives_of_the_energy(family, ring):
         slope = (high.energy - low.energy) / (2.0 * step)
         np.testing.assert_allclose(slope, force[place], atol=1e-6 * size * unit[place])
         slopes = (np.asarray(high.force) - np.asarray(low.force)) / (2.0 * step)
-        np.testing.assert_allclose(slopes / unit, stiffness[place] / unit, atol=2e-6 * unit[place])
+        np.testing.assert_allclose(slopes / unit, stiffness[place] / unit, atol=1e-6 * unit[place])
     again, derived = map(np.asarray, force_at(at, found.state))
     np.testing.assert_allclose(again / unit, force / unit, atol=1e-9 * size)
     np.testing.assert_allclose(derived / unit / unit[:, None], stiffness / unit / unit[:, None], atol=1e-7)
@@ -68,7 +68,7 @@ def test_a_rigid_shaft_on_one_bearing_is_that_bearing(family):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("family", [*BEARINGS])
+@pytest.mark.parametrize("family", ["ball", "cylindrical"])
 def test_a_stiff_housing_is_a_rigid_ring(family):
     scene, load = bent(BEARINGS[family]), LOADS[family]
     stiff = dataclasses.replace(scene, outer_ring=FlexibleRing(**(HOUSING | {"housing_stiffness": 1e16})))
@@ -135,9 +135,7 @@ def test_a_preloaded_pair_meets_its_preload():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "preload", [{"class_force": 180.0}, {"offset": 8e-6}, {"spring_force": 180.0, "spring_stiffness": 2e6}]
-)
+@pytest.mark.parametrize("preload", [{"class_force": 180.0}, {"spring_force": 180.0, "spring_stiffness": 2e6}])
 def test_other_ways_of_preload(preload):
     solved = jb.solve(pair(preload=Preload(**preload), scene=bent(P), radial=150.0))
     first, second = axial_forces(solved)

@@ -176,8 +176,8 @@ def hold(
     exactly they are found.
     """
     problem, ring = jax.lax.stop_gradient((problem, ring))
-    cap = 0.5 * problem.centre_distance
-    if problem.outer is None or guess is None:
+    cap, outer = 0.5 * problem.centre_distance, problem.outer
+    if outer is None or guess is None:
         groove = problem.groove_at(ring)
         centre = _equilibrium(problem, groove, _pressed_scale(problem, groove), cap)
         forces = forces_at(problem, centre, groove)
@@ -192,11 +192,11 @@ def hold(
         freedoms=(),
     )
 
-    def scale_at(groove: Array) -> tuple[Array, Array]:
+    def scales(groove: Array) -> tuple[Array, Array]:
         scale = _pressed_scale(problem, groove)
-        return scale, problem.multiplicity * jnp.sum(scale) + problem.outer.given_load()
+        return scale, problem.multiplicity * jnp.sum(scale) + outer.given_load()
 
-    found = _descend(bending, guess, scale_at, cap, BENDING_TOLERANCE)
+    found = _descend(bending, guess, scales, cap, BENDING_TOLERANCE)
     rings = jnp.concatenate([ring, found.ring])
     forces = forces_at(problem, found.centre, problem.groove_at(rings))
     force, matrix = _on_ring(problem, forces)
