@@ -122,7 +122,8 @@ def test_derivatives_by_the_housing_and_by_a_lobe():
 
 @pytest.mark.slow
 def test_a_preloaded_pair_meets_its_preload():
-    scene = bent(P)
+    # races are round here: lobes move the mounted set across its axis, and it carries 2 % more
+    scene = dataclasses.replace(P, outer_ring=FlexibleRing(**HOUSING))
     loose, loaded = (
         jb.solve(pair(preload=Preload(force=180.0), scene=scene, **load)) for load in ({}, {"axial": 100.0})
     )
@@ -161,12 +162,12 @@ def test_supports_that_all_stand_away_from_the_load():
 @pytest.mark.slow
 def test_seats_of_a_bearing_whose_ring_bends():
     """A press fit takes the same clearance on a shaft as alone."""
-    scene = bent(jb.load_scene("deep_groove_6205", {"contact": "none"}))
+    scene = bent(jb.load_scene("deep_groove_6205", {"contact": "none", "operation.moment": "none"}))
     fits = {"geometry.bore": 25e-3, "geometry.outside_diameter": 52e-3, "geometry.width": 15e-3}
     scene = scene.replace(fits).replace({"fits": jb.mounting.Fits(shaft_interference=15e-6)})
     one, single = jb.solve(straight(scene, 100.0)).bearings["bearing"].solution, jb.solve(alone(scene, 100.0))
     np.testing.assert_allclose(one.elements.load_outer, single.elements.load_outer, atol=1e-5)
-    np.testing.assert_allclose(one.fit.running_clearance, single.fit.running_clearance, rtol=1e-12)
+    np.testing.assert_allclose(one.fit.clearance, single.fit.clearance, rtol=1e-12)
 
 
 @pytest.mark.parametrize("place", ["set.front", "bearing.rear"])
