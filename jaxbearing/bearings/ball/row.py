@@ -28,7 +28,7 @@ class BallRow(AbstractRow):
 
     def hold(self, displacement: Float[Array, "5"], state: RowState) -> HeldRow:
         arm, shift = levers(self.lever), shift_matrix(self.distance)
-        held = hold(self.problem, (shift @ displacement) * arm, state.amplitudes)
+        held = hold(self.problem, (shift @ displacement) * arm, state.elements, state.amplitudes)
         stiffness = held.stiffness * arm[:, None] * arm[None, :]
         state = RowState(held.centre, held.amplitudes)
         return HeldRow(held.energy, shift.T @ (held.force * arm), shift.T @ stiffness @ shift, state)

@@ -106,9 +106,18 @@ class _Balls(NamedTuple):
     trials: Int[Array, ""]
 
 
-def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: Array) -> Float[Array, "2 ball"]:
-    """Ball centres that minimise each ball's potential for given inner grooves."""
+def _equilibrium(
+    problem: CentrifugalProblem, groove: Array, scale: Array, cap: Array, near: Float[Array, "2 ball"] | None = None
+) -> Float[Array, "2 ball"]:
+    """Ball centres that minimise each ball's potential for given inner grooves.
+
+    **Arguments:** `near`: those for other grooves, m; the search begins there where the potential is lower than that of
+    `free_centres`.
+    """
     first, lost = free_centres(problem, groove)
+    if near is not None:
+        energies = [forces_at(problem, centre, groove).energy for centre in (near, first)]
+        first = jnp.where((energies[0] < energies[1]) & ~lost, near, first)
 
     def propose(centre: Array, forces: Forces):
         matrix = forces.stiffness + SOFTEST * jnp.eye(2)[:, :, None]
@@ -168,18 +177,21 @@ class HeldBalls(NamedTuple):
 
 
 def hold(
-    problem: CentrifugalProblem, ring: Float[Array, " freedom"], guess: Float[Array, " mode"] | None = None
+    problem: CentrifugalProblem,
+    ring: Float[Array, " freedom"],
+    near: Float[Array, "2 ball"],
+    guess: Float[Array, " mode"] | None = None,
 ) -> HeldBalls:
     """The balls for a given displacement of the inner ring, m; not differentiated.
 
-    **Arguments:** `guess`: amplitudes of an outer ring that bends, near those that are sought, m; see `row` on how
-    exactly they are found.
+    **Arguments:** `near`: ball centres under another displacement, m; `guess`: amplitudes of an outer ring that bends,
+    near those that are sought, m; see `row` on how exactly they are found.
     """
     problem, ring = jax.lax.stop_gradient((problem, ring))
     cap, outer = 0.5 * problem.centre_distance, problem.outer
     if outer is None or guess is None:
         groove = problem.groove_at(ring)
-        centre = _equilibrium(problem, groove, _pressed_scale(problem, groove), cap)
+        centre = _equilibrium(problem, groove, _pressed_scale(problem, groove), cap, near)
         forces = forces_at(problem, centre, groove)
         force, matrix = _on_ring(problem, forces)
         return HeldBalls(problem.multiplicity * jnp.sum(forces.energy), force, matrix, centre, None)
