@@ -43,6 +43,7 @@ class Results(NamedTuple, Generic[Elements, Losses]):
     laminae: LaminaLoads | None = None
     boundary_power: BoundaryPower | None = None
     outer_ring: RingDeflection | None = None
+    inner_ring: RingDeflection | None = None
 
 
 def assemble(

@@ -39,7 +39,7 @@ from .outline import Outline
 from .rated import RatedContacts
 from .rating import Rating
 from .ring import InnerRing
-from .ring_shape import FlexibleRing, InnerRoundness, OuterRoundness
+from .ring_shape import FlexibleInnerRing, FlexibleRing, InnerRoundness, OuterRoundness
 from .row import AbstractRow
 from .solution import RING_FREEDOMS, TILTS, LaminaLoads, Solution
 from .warm import settled, solve_warm
@@ -74,6 +74,7 @@ class AbstractBearing(AbstractScene):
     thermal: eqx.AbstractVar[Thermal | None]
     oil_temperatures: eqx.AbstractVar[OilTemperatures | None]
     outer_ring: eqx.AbstractVar[FlexibleRing | None]
+    inner_ring: eqx.AbstractVar[FlexibleInnerRing | None]
     inner_roundness: eqx.AbstractVar[InnerRoundness | None]
     outer_roundness: eqx.AbstractVar[OuterRoundness | None]
 

@@ -1,6 +1,7 @@
-"""Parts of a scene for rings that are not rigid or not round: a flexible outer ring, and the roundness of raceways."""
+"""Parts of a scene for rings that are not rigid or not round: flexible rings, and the roundness of raceways."""
 
-from collections.abc import Iterator
+import abc
+from collections.abc import Callable, Iterator
 from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import equinox as eqx
@@ -13,7 +14,7 @@ from jaxtyping import Array, Float
 from .._scene import label, number, optional_number
 from .._types import Scalar
 from ..materials import Material
-from ..mounting.bending import Foundation, rectangular_section
+from ..mounting.bending import Foundation, RingSection, rectangular_section
 from ..mounting.bent_ring import BentRing, RimLoads, Supports
 from ..numerics.checks import Checked, array_module, demand
 from ..numerics.precision import as_float
@@ -81,22 +82,54 @@ class _Lists(Checked):
                 )
 
 
-class FlexibleRing(_Lists):
+class AbstractBendingRing(_Lists):
+    """A ring of rectangular section that bends in its plane.
+
+    **Arguments:**
+    - `thickness`: radial height of the section, m, > 0, from the raceway on; of a ball bearing from the bottom of the
+      groove.
+    - `width`: along the axis, m, > 0; not given: the width of the bearing, otherwise the length of a roller.
+    - `harmonics`: highest order of the deflection, 0 for a rigid ring (structure: another number recompiles).
+    - `shear`: whether shear strain of the section is modelled.
+    """
+
+    sense: ClassVar[int] = 1
+    """1 if the section lies outside the raceway, -1 if it lies inside."""
+
+    thickness: Scalar = number(bound="> 0", unit="m")
+    width: Scalar | None = optional_number(bound="> 0", unit="m")
+    harmonics: eqx.AbstractVar[int]
+    shear: eqx.AbstractVar[bool]
+
+    def centroid_radius(self, raceway_radius: Scalar) -> Scalar:
+        """Radius of the centroid circle, m. **Arguments:** `raceway_radius`: of the raceway, m."""
+        return raceway_radius + 0.5 * self.sense * self.thickness
+
+    def section(self, material: Material, raceway_radius: Scalar, width: Scalar | None) -> RingSection:
+        """The section for the equations. **Arguments:** `width` where the scene does not give it, m."""
+        width = width if self.width is None else self.width
+        assert width is not None
+        poisson = material.poisson_ratio if self.shear else None
+        radius = self.centroid_radius(raceway_radius)
+        return rectangular_section(material.youngs_modulus, width, self.thickness, radius, poisson)
+
+    @abc.abstractmethod
+    def bent_ring(self, material: Material, raceway_radius: Scalar, width: Scalar | None) -> BentRing:
+        """The ring for the equations. **Arguments:** `width` where the scene does not give it, m."""
+
+
+class FlexibleRing(AbstractBendingRing):
     """An outer ring that bends in its plane, with what surrounds it.
 
     Without a housing and supports nothing holds the ring: the loads from outside must then balance those of the rolling
     elements, as on a planet gear, whose rim is the ring.
 
-    **Arguments:**
-    - `thickness`: radial height of the section, m, > 0, from the raceway outwards; of a ball bearing from the bottom of
-      the groove.
-    - `width`: along the axis, m, > 0; not given: the width of the bearing, otherwise the length of a roller.
-    - `harmonics`: highest order of the deflection, 0 for a rigid ring (structure: another number recompiles).
+    **Arguments:** those of `AbstractBendingRing`, and
+    - `shear`: whether shear strain of the section is modelled; it changes the largest load by less than 0.4 %.
     - `housing_stiffness`: of a housing all around the ring, radial force per area of the seat's developed line (length
       of circumference) and deflection, N/m^2, > 0; not given: nothing surrounds it. About 5e10 for a massive
       steel housing, 1e9 to 1e10 for thin or light ones: the largest uncertainty of the model.
     - `housing_shear_stiffness`: the same along the circumference, of a ring that is glued or tightly fitted, N/m^2.
-    - `shear`: whether shear strain of the section is modelled; it changes the largest load by less than 0.4 %.
     - `support_angle`, `support_stiffness`, `support_gap`: places that the ring leans on, as in a cut housing: angles
       from the load line, rad, stiffnesses, N/m, > 0, and outward deflections at which the ring touches, m.
     - `load_angle`, `load_radial`, `load_tangential`, `load_radius`: forces on the ring from outside: angles, rad; N
@@ -113,8 +146,6 @@ class FlexibleRing(_Lists):
         **{"load_radial": "finite", "load_tangential": "finite", "load_radius": "> 0"},
     }
 
-    thickness: Scalar = number(bound="> 0", unit="m")
-    width: Scalar | None = optional_number(bound="> 0", unit="m")
     harmonics: int = count("outer_ring.harmonics", HARMONICS, least=0, most=MOST_HARMONICS)
     housing_stiffness: Scalar | None = optional_number(bound="> 0", unit="N/m^2")
     housing_shear_stiffness: Scalar = number(0.0, bound=">= 0", unit="N/m^2")
@@ -133,12 +164,7 @@ class FlexibleRing(_Lists):
         return self.housing_stiffness is not None or self.support_angle is not None
 
     def bent_ring(self, material: Material, raceway_radius: Scalar, width: Scalar | None) -> BentRing:
-        """The ring for the equations. **Arguments:** `width` where the scene does not give it, m."""
-        width = width if self.width is None else self.width
-        assert width is not None
-        radius = raceway_radius + 0.5 * self.thickness
-        poisson = material.poisson_ratio if self.shear else None
-        section = rectangular_section(material.youngs_modulus, width, self.thickness, radius, poisson)
+        section = self.section(material, raceway_radius, width)
         orders = tuple(n for n in range(self.harmonics + 1) if self.held or n != 1)
         arrays = lambda *names: (jnp.asarray(getattr(self, name)) for name in names)
         foundation = supports = loads = None
@@ -159,6 +185,37 @@ class FlexibleRing(_Lists):
         arrays = (jnp.asarray(getattr(self, name)) for name in self.groups[1])
         rest = RimLoads(*arrays).resultant() + load
         return jnp.max(jnp.abs(rest)) / safe_norm(load[0], load[1])
+
+
+class FlexibleInnerRing(AbstractBendingRing):
+    r"""An inner ring that bends in its plane, on a hollow or soft shaft.
+
+    Its section reaches from the bore to the raceway. The shaft is a bed of springs under the ring and the only thing
+    that holds it. The deflected shape stands still relative to the load, and the ring turns through it: this holds far
+    below the first natural frequency of the ring, $2.683\sqrt{EI/\rho AR^4}$.
+
+    Displacements of the inner ring (`operation.displacement`, `ring` of the results, the port on a shaft) are those of
+    the shaft's seat. The order 1 of the deflection is the displacement of the ring against that seat: the raceway is
+    displaced by the sum of both.
+
+    **Arguments:** those of `AbstractBendingRing`, and
+    - `shaft_stiffness`: of the shaft under the ring, radial force per length of the centroid circle and deflection,
+      N/m^2, > 0. A solid shaft of steel has 1e11 and more (half-plane); a hollow one is softer.
+    - `shaft_shear_stiffness`: the same along the circumference, of a ring that is shrunk or glued to the shaft, N/m^2.
+    """
+
+    part: ClassVar[str] = "inner_ring"
+    sense: ClassVar[int] = -1
+
+    harmonics: int = count("inner_ring.harmonics", HARMONICS, least=0, most=MOST_HARMONICS)
+    shaft_stiffness: Scalar = number(kw_only=True, bound="> 0", unit="N/m^2")
+    shaft_shear_stiffness: Scalar = number(0.0, bound=">= 0", unit="N/m^2")
+    shear: bool = switch("inner_ring.shear", False)
+
+    def bent_ring(self, material: Material, raceway_radius: Scalar, width: Scalar | None) -> BentRing:
+        bed = Foundation(jnp.asarray(self.shaft_stiffness), jnp.asarray(self.shaft_shear_stiffness))
+        orders = tuple(range(self.harmonics + 1))
+        return BentRing(self.section(material, raceway_radius, width), orders, bed)
 
 
 class AbstractRoundness(_Lists):
@@ -228,6 +285,9 @@ class _Shaped(Protocol):
     def outer_ring(self) -> FlexibleRing | None: ...
 
     @property
+    def inner_ring(self) -> FlexibleInnerRing | None: ...
+
+    @property
     def inner_roundness(self) -> InnerRoundness | None: ...
 
     @property
@@ -238,13 +298,40 @@ def shaped_parts(scene: _Shaped) -> tuple[str, ...]:
     """Names of the parts of a scene that make a ring not rigid or not round."""
     parts = {
         "outer_ring": scene.outer_ring,
+        "inner_ring": scene.inner_ring,
         "inner_roundness": scene.inner_roundness,
         "outer_roundness": scene.outer_roundness,
     }
     return tuple(name for name, part in parts.items() if part is not None)
 
 
-def unheld_problems(ring: FlexibleRing | None, operation: AbstractOperation) -> Iterator[str | ValueError]:
+def bending_problems(
+    scene: _Shaped, operation: AbstractOperation, inner_diameter: Callable[[], Scalar], width: Scalar | None
+) -> Iterator[str | ValueError]:
+    """Refusals of rings that bend.
+
+    **Arguments:** `inner_diameter`: returns that of the inner raceway, m; `width`: of a ring for which the scene gives
+    none, m.
+    """
+    for ring in (scene.outer_ring, scene.inner_ring):
+        if ring is not None and ring.harmonics and ring.width is None and width is None:
+            yield f"{ring.part}.width: a ring that bends needs a width, here or as geometry.width"
+    yield from _unheld_problems(scene.outer_ring, operation)
+    ring = scene.inner_ring
+    if ring is not None and ring.harmonics:
+        radius = 0.5 * jnp.asarray(inner_diameter())
+        yield from refusals_of(
+            demand,
+            "inner_ring.thickness: expected less than the radius of the inner raceway",
+            ring.thickness < radius,
+            lambda: (
+                "inner_ring.thickness: expected less than the radius of the inner raceway, "
+                f"{1e3 * float(radius):.4g} mm, got {1e3 * float(ring.thickness):.4g} mm"
+            ),
+        )
+
+
+def _unheld_problems(ring: FlexibleRing | None, operation: AbstractOperation) -> Iterator[str | ValueError]:
     """Refusals of an outer ring that nothing holds under loads that do not balance."""
     load = operation.radial_load
     if ring is None or not ring.harmonics or ring.held:
@@ -269,13 +356,14 @@ def unheld_problems(ring: FlexibleRing | None, operation: AbstractOperation) -> 
     )
 
 
-def said_of_bending(ring: FlexibleRing | None) -> list[str]:
-    """Notes for the user on an outer ring that bends."""
-    if ring is None or not ring.harmonics:
-        return []
+def said_of_bending(scene: _Shaped) -> list[str]:
+    """Notes for the user on rings that bend."""
+    beds = ((scene.outer_ring, "housing"), (scene.inner_ring, "shaft"))
     return [
-        "outer_ring: a thin ring that bends in its plane; the stiffness of a housing is uncertain by a factor of 2 to "
+        f"{ring.part}: a thin ring that bends in its plane; the stiffness of a {bed} is uncertain by a factor of 2 to "
         "10, which moves the largest load by up to some 20 %"
+        for ring, bed in beds
+        if ring is not None and ring.harmonics
     ]
 
 

@@ -3,7 +3,7 @@ r"""A bearing without friction whose ring is held: one convex energy, whose grad
 Centrifugal forces are those of the unloaded bearing's contact angle, so that force and stiffness come of an energy.
 Shafts on bearings begin their search with it, and find the preload of bearings at rest, where it is exact.
 
-An outer ring that bends is in equilibrium too: the energy is the minimum over its amplitudes $a$ as well. Near the
+Rings that bend are in equilibrium too: the energy is the minimum over its amplitudes $a$ as well. Near the
 minimum one Newton step leads there: with the derivatives $r$ of the energy by the amplitudes, and its second
 derivatives $K$, the force is $F_q - K_{qa}K_{aa}^{-1}r$, the energy lower by $\frac12r^TK_{aa}^{-1}r$ and the
 stiffness $K_{qq} - K_{qa}K_{aa}^{-1}K_{aq}$. An error of the amplitudes therefore shows in its square only.
@@ -25,7 +25,7 @@ from .rings import AbstractBetweenRings
 from .solution import RING_FREEDOMS
 
 BENDING_TOLERANCE = 1e-8
-"""Scaled residual of the amplitudes of an outer ring at which the search for them ends; the force is then exact to
+"""Scaled residual of the amplitudes of rings that bend at which the search for them ends; the force is then exact to
 round-off, see the module."""
 BENDING_TRIALS = 80
 """Most trials of that search."""
@@ -35,7 +35,7 @@ class RowState(NamedTuple):
     """State of a row, to begin the next search with, in units of the family.
 
     - `elements`: of the rolling elements.
-    - `amplitudes`: of an outer ring that bends; `None` of a rigid one.
+    - `amplitudes`: of rings that bend; `None` if both are rigid.
     """
 
     elements: Float[Array, "m element"]
@@ -47,7 +47,7 @@ class HeldRow(NamedTuple):
 
     - `energy`: J, up to a constant.
     - `force`, `stiffness`: as `ring.Port`; the stiffness is symmetric.
-    - `state`: of the rolling elements and of an outer ring that bends.
+    - `state`: of the rolling elements and of rings that bend.
     """
 
     energy: Float[Array, ""]
@@ -78,7 +78,7 @@ class AbstractRow(eqx.Module):
 class AbstractRowSystem(AbstractBetweenRings, AbstractConvexArrow):
     """Equations of a row of rollers that are the gradient of one potential.
 
-    Its globals are the freedoms of the inner ring and the amplitudes of the outer one, and nothing else.
+    Its globals are the freedoms of the inner ring and the amplitudes of rings that bend, and nothing else.
     """
 
     @abc.abstractmethod
@@ -86,9 +86,9 @@ class AbstractRowSystem(AbstractBetweenRings, AbstractConvexArrow):
         """Force by which the residuals of the rings are divided, N."""
 
     def work(self, globals_):
-        """Work of the loads on the rings less the energy of an outer ring that bends, J."""
+        """Work of the loads on the rings less the energy of rings that bend, J."""
         work = LENGTH_UNIT * jnp.sum(self.ring.load * self.of_freedoms(globals_))
-        return work if self.outer is None else work - self.outer.ring.energy(LENGTH_UNIT * self.amplitudes(globals_))
+        return work - self.bent.energy(LENGTH_UNIT * self.amplitudes(globals_)) if self.bent else work
 
 
 def free_ring(lever: Array, distance: Array, expansion: Array | None) -> InnerRing:
@@ -99,7 +99,7 @@ def free_ring(lever: Array, distance: Array, expansion: Array | None) -> InnerRi
 def initial_state(held: AbstractRowSystem) -> RowState:
     """First guess of `settled_row`. **Arguments:** `held`: the equations with the ring held."""
     first = held.initial()
-    return RowState(first.elements, None if held.outer is None else first.globals)
+    return RowState(first.elements, first.globals if held.bent else None)
 
 
 def settled_row(held: AbstractRowSystem, full: AbstractRowSystem, state: RowState) -> HeldRow:
@@ -118,9 +118,9 @@ def settled_row(held: AbstractRowSystem, full: AbstractRowSystem, state: RowStat
     found = settled(full, ArrowPoint(state.elements, _coordinates(ring, state)))
     scale, arm = full.load_scale(), levers(ring.lever)
     energy, residual, stiffness = found.energy, found.residual, found.stiffness
-    if state.amplitudes is not None and full.outer is not None:
+    if state.amplitudes is not None:
         follow = solve_dense(stiffness[5:, 5:], residual[5:])
-        energy = energy + full.outer.ring.energy(LENGTH_UNIT * state.amplitudes)
+        energy = energy + full.bent.energy(LENGTH_UNIT * state.amplitudes)
         energy = energy - 0.5 * LENGTH_UNIT * scale * jnp.sum(residual[5:] * follow)
         residual, stiffness = residual[:5] - stiffness[:5, 5:] @ follow, condensed(stiffness, 5)
     stiffness = stiffness * (scale / LENGTH_UNIT) * arm[:, None] * arm[None, :]
@@ -131,7 +131,7 @@ def settled_row(held: AbstractRowSystem, full: AbstractRowSystem, state: RowStat
 
 def settled_force(ring: InnerRing, full: AbstractRowSystem, state: RowState) -> Float[Array, "5"]:
     """The force of `settled_row` with its first derivatives: one Newton step of the elements, and of the amplitudes of
-    an outer ring that bends, which does not move them.
+    rings that bend, which does not move them.
 
     **Arguments:** `ring`: held at the displacement; `full`: as in `settled_row`; `state`: the one that it found.
     """

@@ -225,6 +225,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     supply: SupplyResult | None = None
     outer_ring: RingDeflection | None = None
     """Deformed shape of the outer ring, if it bends."""
+    inner_ring: RingDeflection | None = None
+    """Deformed shape of the inner ring, if it bends."""
     textbook_frequencies: KinematicFrequencies | None = None
     """Frequencies of rolling without slip at the contact angle of the drawing."""
 

@@ -15,7 +15,7 @@ from ...gaps.ball_pocket import BallPocket
 from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowPoint
 from ...numerics.safe import safe_norm
-from ..elastic_ring import ElasticRing, elastic_ring
+from ..elastic_ring import BentRings, ElasticRing, elastic_ring
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..parts import azimuths, drag_density
 from ..ring import LENGTH_UNIT, InnerRing, inner_ring
@@ -101,7 +101,7 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
     """
     geometry, operation, row = scene.geometry, scene.operation, ball_row(scene, ring)
     grooves = ball_grooves(scene, row.ring.expansion)
-    outer = _elastic_ring(scene, row.azimuth)
+    bent = _bending_rings(scene, row.azimuth)
     form = out_of_round(scene.inner_roundness, scene.outer_roundness, row.azimuth)
     density = jnp.asarray(scene.materials.balls.density)
     attitude, gyroscopic = scene.kinematics.attitude, scene.kinematics.gyroscopic
@@ -116,10 +116,11 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
         grooves=grooves,
         directions=row.directions,
         azimuth=row.azimuth,
-        ring=row.ring.asking(_held_load(grooves, row, form, outer)) if row.ring.asks else row.ring,
+        ring=row.ring.asking(_held_load(grooves, row, form, bent.outer)) if row.ring.asks else row.ring,
         held_shift=row.held_shift,
         out_of_round=form,
-        outer=outer,
+        outer=bent.outer,
+        inner=bent.inner,
         mass=geometry.mass(density),
         inertia=geometry.inertia(density),
         gyroscopic=gyroscopic if isinstance(gyroscopic, AbstractGyroscopic) else None,
@@ -132,12 +133,13 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
     )
 
 
-def _elastic_ring(scene: BallBearing, azimuth: Float[Array, " ball"]) -> ElasticRing | None:
-    """The outer ring of a scene, if it bends."""
-    if scene.outer_ring is None:
-        return None
-    width = scene.geometry.width
-    return elastic_ring(scene.outer_ring, scene.materials.rings, 0.5 * scene.raceway_diameters[1], width, azimuth)
+def _bending_rings(scene: BallBearing, azimuth: Float[Array, " ball"]) -> BentRings:
+    """The rings of a scene that bend."""
+    material, width, (inner, outer) = scene.materials.rings, scene.geometry.width, scene.raceway_diameters
+    return BentRings(
+        elastic_ring(scene.outer_ring, material, outer, width, azimuth),
+        elastic_ring(scene.inner_ring, material, inner, width, azimuth),
+    )
 
 
 def _spread(scene: BallBearing) -> Float[Array, "2"]:

@@ -85,8 +85,8 @@ class BallState(NamedTuple):
     """Left side minus right side of the ball's two force balances, N."""
     on_ring: Float[Array, "row ball"]
     """Contributions of each ball to the forces on the ring's freedoms, N: of p_x, p_r, the force along the orbit where
-    the ring may tilt, and the moment about the tangent of the circle of groove centres; then the outward force on an
-    outer ring that bends."""
+    the ring may tilt, and the moment about the tangent of the circle of groove centres; then the radial forces on
+    rings that bend."""
 
 
 class BallCore(AbstractBallSystem):
@@ -250,15 +250,16 @@ class BallCore(AbstractBallSystem):
             freedoms=self.freedoms,
             arcs=self.arcs,
             outer=self.outer,
+            inner=self.inner,
         )
 
     def _directions_of_rings(self) -> Float[Array, "coordinate p ball"]:
         """Change of the coordinates of the inner groove, seen from the outer one, for a unit of each freedom of the
-        inner ring and of each amplitude of the outer one, m."""
-        if self.outer is None:
+        inner ring and of each amplitude of rings that bend, m."""
+        if not self.bent:
             return self.directions
         p, count = self.arcs.coordinates, self.azimuth.shape[0]
-        bent = jnp.zeros((self.outer.modes, p, count)).at[:, 1].set(-self.outer.shapes)
+        bent = jnp.zeros((self.bent.modes, p, count)).at[:, 1].set(-self.bent.shapes())
         return jnp.concatenate([self.directions, bent])
 
     def _groove_at_rest(self) -> Float[Array, "p ball"]:

@@ -113,12 +113,13 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
     def _through_land(self, pocket: Float[Array, " ball"]) -> Float[Array, "row ball"]:
         """Gives the contributions of the pockets' outward friction, N, to the forces on the rings.
 
-        They go through cage and land and act in the middle plane, hence without a moment."""
+        They go through cage and land and act in the middle plane, hence without a moment, on the shaft: they do not
+        bend an inner ring."""
         along = {"radial": jnp.cos(self.azimuth), "lateral": jnp.sin(self.azimuth)}
         zero = jnp.zeros_like(pocket)
         rows = [along.get(name, zero) * pocket for name in self.freedoms]
         through = self.multiplicity * jnp.stack(rows) if rows else zero[None][:0]
-        return through if self.outer is None else self.on_both(through, zero)
+        return self.on_both(through, zero, zero)
 
     def _motion(self, inner: Array, outer: Array, orbit: Array | None, own: dict[str, Array]) -> BallMotion:
         reference, unit = self.reference, self.spin_unit()

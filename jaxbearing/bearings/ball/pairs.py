@@ -88,8 +88,8 @@ class LubricatedBallSystem(AbstractBallEquations):
             within = arm.length * arm.share
             sideways = (load[0] * arm.along / jnp.where(forward, within, -within),)
         on_ring = on_ring((jnp.stack([axial[0], radial[0], *sideways]),), moment)
-        if self.outer is not None:
-            on_ring = self.on_both(on_ring, radial[1])
+        if self.bent:
+            on_ring = self.on_both(on_ring, radial[1], radial[0])
         if pocket is not None and self.cage is not None and self.cage.guidance == "inner_ring":
             on_ring = on_ring + self._through_land(pocket)
         return BallsState(

@@ -23,8 +23,8 @@ class BallRow(AbstractRow):
     distance: Float[Array, ""]
 
     def initial(self, displacement: Float[Array, "5"]) -> RowState:
-        outer = self.problem.outer
-        return RowState(jnp.zeros((2, self.problem.groove.shape[1])), None if outer is None else jnp.zeros(outer.modes))
+        bent = self.problem.bent
+        return RowState(jnp.zeros((2, self.problem.groove.shape[1])), jnp.zeros(bent.modes) if bent else None)
 
     def hold(self, displacement: Float[Array, "5"], state: RowState) -> HeldRow:
         arm, shift = levers(self.lever), shift_matrix(self.distance)

@@ -44,12 +44,13 @@ from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
 from ..ring_shape import (
+    FlexibleInnerRing,
     FlexibleRing,
     InnerRoundness,
     OuterRoundness,
+    bending_problems,
     said_of_bending,
     shaped_parts,
-    unheld_problems,
 )
 from ..row import AbstractRow
 from ..solution import LaminaLoads, Solution
@@ -180,9 +181,9 @@ class BallBearing(AbstractMovingBearing):
       "outer" or "inner".
     - `contact.traction=None`: films too, and where named the rolling resistance; balls roll without sliding.
     - with traction the balls slide and spin; without a `cage` every ball has its own orbital speed.
-    - `outer_ring`: an outer ring that bends in its housing; `None`: it is rigid. `inner_roundness`,
-      `outer_roundness`: raceways that are not round, standing still relative to the load. A run in time of moving balls
-      has rigid, round rings.
+    - `outer_ring`: an outer ring that bends in its housing; `inner_ring`: an inner ring that bends on its shaft;
+      `None`: it is rigid. `inner_roundness`, `outer_roundness`: raceways that are not round, standing still relative to
+      the load. A run in time of moving balls has rigid, round rings.
     - `simulation`: what a run in time does beyond the operating point; a steady solve does not look at it.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
@@ -208,6 +209,7 @@ class BallBearing(AbstractMovingBearing):
     simulation: Simulation | WarmUpSimulation | None = None
     oil_temperatures: OilTemperatures | None = None
     outer_ring: FlexibleRing | None = None
+    inner_ring: FlexibleInnerRing | None = None
     inner_roundness: InnerRoundness | None = None
     outer_roundness: OuterRoundness | None = None
 
@@ -246,10 +248,7 @@ class BallBearing(AbstractMovingBearing):
         if isinstance(self.simulation, Simulation) and self.thermal is None:
             for name in shaped_parts(self):
                 yield f"{name}: balls in motion have rigid, round rings in this version; leave out the simulation"
-        ring = self.outer_ring
-        if ring is not None and ring.harmonics and ring.width is None and self.geometry.width is None:
-            yield "outer_ring.width: a ring that bends needs a width, here or as geometry.width"
-        yield from unheld_problems(ring, self.operation)
+        yield from bending_problems(self, self.operation, lambda: self.raceway_diameters[0], self.geometry.width)
 
     def _attitude_problems(self) -> Iterator[str]:
         found = self.kinematics.attitude
@@ -421,7 +420,7 @@ class BallBearing(AbstractMovingBearing):
                 "kinematics.attitude = 'linear_slip': speeds of the balls are those of tractions proportional to "
                 "pressure and sliding; no loss of sliding is computed from them"
             )
-        said += said_of_bending(self.outer_ring)
+        said += said_of_bending(self)
         if self.rating is not None:
             said += self.rating.groove_assumptions()
         return tuple(said)

@@ -10,7 +10,8 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ...numerics.safe import safe_norm
-from ..elastic_ring import ElasticRing
+from ..elastic_ring import BentRings, ElasticRing
+from ..ring import LENGTH_UNIT
 from .arcs import Arcs, added, coordinate_map
 
 NO_APPROACH = 1e-300
@@ -22,9 +23,9 @@ class CentrifugalProblem(eqx.Module):
 
     `groove`: coordinates of the inner groove at every ball with the ring at rest (`arcs`; of one arc its centre);
     `directions`: their change for a unit of every coordinate of the rings: the freedoms of the inner one (a length
-    each), then the amplitudes of an `outer` ring that bends; `ring_load`: on the freedoms; `held_load`: of `InnerRing`;
-    `aligned`: axial displacement at which the planes of the grooves coincide; `multiplicity`: balls that each ball
-    stands for.
+    each), then the amplitudes of an `outer` and of an `inner` ring that bends; `ring_load`: on the freedoms;
+    `held_load`: of `InnerRing`; `aligned`: axial displacement at which the planes of the grooves coincide;
+    `multiplicity`: balls that each ball stands for.
     """
 
     offset: Float[Array, "2"]
@@ -41,33 +42,41 @@ class CentrifugalProblem(eqx.Module):
     freedoms: tuple[str, ...] = eqx.field(static=True)
     arcs: Arcs = Arcs()
     outer: ElasticRing | None = None
+    inner: ElasticRing | None = None
+
+    @property
+    def bent(self) -> BentRings:
+        """The rings that bend."""
+        return BentRings(self.outer, self.inner)
+
+    def carried(self) -> Float[Array, " mode"]:
+        """Generalised loads of the centrifugal forces, which move with the outer groove, on the rings that bend, N."""
+        return self.bent.pressed(self.bent.pick(self.centrifugal, jnp.zeros_like(self.centrifugal)))
 
     def groove_at(self, ring: Float[Array, " coordinate"]) -> Float[Array, "p ball"]:
         return self.groove + jnp.einsum("f,fcn->cn", ring, self.directions)
 
     def ring_work(self, ring: Float[Array, " coordinate"]) -> Array:
-        """Work of the loads on the rings at displacements, m, less the energy of an outer ring that bends, J."""
-        if self.outer is None:
+        """Work of the loads on the rings at displacements, m, less the energy of rings that bend, J."""
+        if not self.bent:
             return jnp.sum(self.ring_load * ring)
         d = len(self.freedoms)
-        # the centrifugal forces move with the outer groove
-        moved = jnp.sum(self.outer.pressed(self.centrifugal) * ring[d:])
-        return jnp.sum(self.ring_load * ring[:d]) + moved - self.outer.ring.energy(ring[d:])
+        return jnp.sum(self.ring_load * ring[:d]) + jnp.sum(self.carried() * ring[d:]) - self.bent.energy(ring[d:])
 
     def ring_balance(self, ring: Array, force: Float[Array, " coordinate"]) -> Float[Array, " coordinate"]:
         """Derivatives of the whole energy by the displacements of the rings, N; `force`: by those of the grooves."""
-        if self.outer is None:
+        if not self.bent:
             return force - self.ring_load
         d = len(self.freedoms)
-        pressed = self.outer.pressed(self.centrifugal) - force[d:]
-        return jnp.concatenate([force[:d] - self.ring_load, self.outer.ring.balance(ring[d:], pressed)])
+        bent = self.bent.balance(ring[d:] / LENGTH_UNIT, self.carried() - force[d:], floats=False)
+        return jnp.concatenate([force[:d] - self.ring_load, bent])
 
     def ring_stiffness(self, ring: Array, matrix: Float[Array, "coordinate coordinate"]) -> Array:
         """Derivatives of `ring_balance`, N/m; `matrix`: those of its `force`."""
-        if self.outer is None:
+        if not self.bent:
             return matrix
         d = len(self.freedoms)
-        return matrix.at[d:, d:].add(self.outer.ring.tangent(ring[d:]))
+        return matrix.at[d:, d:].add(self.bent.tangent(ring[d:]))
 
 
 class Forces(NamedTuple):

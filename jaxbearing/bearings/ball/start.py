@@ -28,7 +28,7 @@ from .springs import CentrifugalProblem, Forces, forces_at, inner_springs, toget
 RING_TOLERANCE = 2e-2
 """Tolerance of the ring's balance, relative to the load: sufficient for a start of the full equations."""
 BENDING_TOLERANCE = 1e-8
-"""The same of an outer ring that bends, where the inner one is held: `hold` takes one Newton step from there."""
+"""The same of rings that bend, where the inner one is held: `hold` takes one Newton step from there."""
 BALL_TOLERANCE = 1e-9
 """Tolerance of a ball's balance, relative to its load scale."""
 RING_STEPS, BALL_STEPS = 40, 60
@@ -167,7 +167,7 @@ def _on_ring(problem: CentrifugalProblem, forces: Forces) -> tuple[Float[Array, 
 
 class HeldBalls(NamedTuple):
     """Balls in equilibrium under an inner ring that is held: energy, J, forces on the ring's freedoms, N, and their
-    derivatives, N/m, the ball centres, m, and the amplitudes of an outer ring that bends, m."""
+    derivatives, N/m, the ball centres, m, and the amplitudes of rings that bend, m."""
 
     energy: Float[Array, ""]
     force: Float[Array, " freedom"]
@@ -189,7 +189,7 @@ def hold(
     """
     problem, ring = jax.lax.stop_gradient((problem, ring))
     cap, outer = 0.5 * problem.centre_distance, problem.outer
-    if outer is None or guess is None:
+    if guess is None:
         groove = problem.groove_at(ring)
         centre = _equilibrium(problem, groove, _pressed_scale(problem, groove), cap, near)
         forces = forces_at(problem, centre, groove)
@@ -206,7 +206,8 @@ def hold(
 
     def scales(groove: Array) -> tuple[Array, Array]:
         scale = _pressed_scale(problem, groove)
-        return scale, problem.multiplicity * jnp.sum(scale) + outer.given_load()
+        total = problem.multiplicity * jnp.sum(scale)
+        return scale, total if outer is None else total + outer.given_load()
 
     found = _descend(bending, guess, scales, cap, BENDING_TOLERANCE)
     rings = jnp.concatenate([ring, found.ring])
@@ -371,14 +372,14 @@ def _scale(problem: CentrifugalProblem) -> tuple[Array, int]:
 
 
 def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " coordinate"]:
-    """Displacements of the rings: an outer one that bends begins displaced as a rigid body; the inner one follows."""
+    """Displacements of the rings: those that bend begin displaced as rigid bodies; the shaft follows."""
     inner = _inner_estimate(problem)
-    if problem.outer is None:
+    if not problem.bent:
         return inner
     load = dict(zip(problem.freedoms, problem.ring_load, strict=True))
     in_plane = jnp.stack([load.get(name, jnp.zeros(())) for name in ("radial", "lateral")])
-    amplitudes = LENGTH_UNIT * problem.outer.start(in_plane)
-    along, across = problem.outer.displacement(amplitudes)
+    amplitudes = LENGTH_UNIT * problem.bent.start(in_plane)
+    along, across = problem.bent.displacement(amplitudes)
     follow = {"radial": along, "lateral": across}
     shift = [follow.get(name, jnp.zeros(())) for name in problem.freedoms]
     return jnp.concatenate([inner + jnp.stack(shift) if shift else inner, amplitudes])

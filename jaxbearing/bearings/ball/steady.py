@@ -59,8 +59,8 @@ def solve_ball(
         results, port = _lubricated(scene, system, result, state), _port(scene, system, result, state.film)
     causes = _without_cage(scene)
     steps = steps + result.iterations
+    results = results._replace(**system.bent.results(system.amplitudes(result.point.globals)))
     if system.outer is not None:
-        results = results._replace(outer_ring=system.outer.shape(system.amplitudes(result.point.globals)))
         result, none = system.outer.judged(system.ring, result)
         causes, steps = causes | {UNSUPPORTED: FailureCause(none, jnp.zeros(0))}, jnp.where(none, 0, steps)
     lever = system.grooves.lever
@@ -321,7 +321,7 @@ def _port(
         every, point = _released(scene, system, result)
         return _port_anew(every, point, every.element, system.freedoms)[0]
     full, point = _released(scene, system, result)
-    if full.outer is not None:
+    if full.bent:
         return _port_anew(full, point, full.element, system.freedoms)[0]
     # a ring that cannot tilt moves the groove centres only: at given unknowns of the balls the films stay
     kept = None if full.exact else jax.tree.map(lambda values: _wide(values, scene.geometry.n_balls), film)

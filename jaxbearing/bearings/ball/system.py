@@ -112,8 +112,8 @@ class Touch(NamedTuple):
 
 class Push(NamedTuple):
     """Forces of the contacts: on the outer ring less those on the inner one, axial and outward, N, and what they
-    contribute to the forces on the rings, N: on the freedoms of the inner one, and of a flexible outer ring the outward
-    force."""
+    contribute to the forces on the rings, N: on the freedoms of the inner one, and the radial forces on rings that
+    bend (`AbstractBetweenRings`)."""
 
     axial: Float[Array, " ball"]
     outward: Float[Array, " ball"]
@@ -124,13 +124,13 @@ class AbstractBallSystem(AbstractBetweenRings):
     """Balls between two grooved rings.
 
     Ball centres count from the centre of the outer groove at the azimuth of the ball, which moves outwards by the
-    deflection of the ring there.
+    deflection of the outer ring there, as the inner groove does by that of the inner ring.
 
     `directions[f]` are the changes of the coordinates of the inner groove (`arcs`; of one arc its centre, axial and
     radial) at every ball for a unit of freedom f, to first order; the lever of the `ring` is R_i. `held_shift`: their
     changes by what the ring is held at, m. `exact`: whether the grooves move with the exact rotation of the ring
-    (`groove_motion`). `out_of_round`: displacement towards each ball of races that are not round, m, and `outer`: the
-    outer ring if it bends; `None` where they are round and rigid.
+    (`groove_motion`). `out_of_round`: displacement towards each ball of races that are not round, m, and `outer`,
+    `inner`: the rings if they bend; `None` where they are round and rigid.
     """
 
     kinematics: BallKinematics
@@ -146,6 +146,7 @@ class AbstractBallSystem(AbstractBetweenRings):
     """Part of the gyroscopic couple that acts: 1, less in an easier system."""
     out_of_round: Float[Array, " ball"] | None
     outer: ElasticRing | None
+    inner: ElasticRing | None
     multiplicity: int = eqx.field(static=True)
     """Balls that each ball stands for."""
     attitude: Attitude = eqx.field(static=True)
@@ -176,8 +177,8 @@ class AbstractBallSystem(AbstractBetweenRings):
     def from_round(self, centre: Float[Array, "2 ball"], shared: Float[Array, "p ball"]) -> Float[Array, "2 ball"]:
         """Ball centres (axial, radial), m, counted from the centre of the outer groove, as they are for rings that are
         round and rigid."""
-        if self.outer is not None:
-            centre = jnp.stack([centre[0], centre[1] + shared[-1]])
+        for opening in self.opened(shared).values():
+            centre = jnp.stack([centre[0], centre[1] + opening])
         if self.out_of_round is not None:
             centre = jnp.stack([centre[0], centre[1] - self.out_of_round])
         return centre
@@ -291,8 +292,7 @@ class AbstractBallSystem(AbstractBetweenRings):
             forces.append(jnp.stack([axial[k], radial[k], *sideways]))
         (pushed, held), (raised, lowered) = self.arcs.by_race(axial), self.arcs.by_race(radial)
         on_ring = touch.on_ring(tuple(forces), moment)
-        if self.outer is not None:
-            on_ring = self.on_both(on_ring, lowered)
+        on_ring = self.on_both(on_ring, lowered, raised)
         return Push(held - pushed, lowered - raised, on_ring)
 
     def _to_first_order(self, forces: tuple[Array, ...], moment: Array) -> Array:

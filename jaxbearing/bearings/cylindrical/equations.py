@@ -105,6 +105,7 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
     held: Float[Array, " roller"] | None = None
     out_of_round: Float[Array, " roller"] | None = None
     outer: ElasticRing | None = None
+    inner: ElasticRing | None = None
     cage: CageParts | None = None
     elsewhere: OilElsewhere | None = None
     """Oil of the other interactions, if it differs from `inlet`, the oil of the raceways."""
@@ -127,14 +128,14 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         return ("approach of the rings at a roller", "moment balance of a roller", *ring, "moment balance of the cage")
 
     def step_caps(self) -> ArrowPoint:
-        ring = [5.0] * (self.directions.shape[0] + self.modes)
+        ring = [5.0] * self.ring_unknowns
         if self.cage is None:
             return ArrowPoint(jnp.asarray([[3.0]]), jnp.asarray(ring))
         return ArrowPoint(jnp.asarray([[3.0], [0.2]]), jnp.asarray([*ring, 0.2]))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
         low, high = LOG_LOAD_RANGE
-        ring = [1e4] * (self.directions.shape[0] + self.modes)
+        ring = [1e4] * self.ring_unknowns
         if self.cage is None:
             return (
                 ArrowPoint(jnp.asarray([[low]]), -jnp.asarray(ring)),
@@ -194,21 +195,21 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         return 0 if self.cage is None else 2
 
     def local_inputs(self, globals_):
-        """With an outer ring that bends, returns the displacement of the rings towards each other at each roller and,
-        with a cage, the cage speed. Returns `None` for a rigid outer ring."""
-        if self.outer is None:
+        """With rings that bend, returns the displacement of the rings towards each other at each roller and, with a
+        cage, the cage speed. Returns `None` if both rings are rigid."""
+        if not self.bent:
             return None
-        shift = self.approaching(globals_, self.outer)
+        shift = self.approaching(globals_)
         return shift[None] if self.cage is None else jnp.stack([shift, jnp.broadcast_to(globals_[-1], shift.shape)])
 
     def gathered(self, globals_, acting):
-        if self.outer is None:
+        if not self.bent:
             return jnp.sum(acting, axis=1)
-        return jnp.concatenate([self.on_rings(acting[:2], self.outer), jnp.sum(acting[2:], axis=1)])
+        return jnp.concatenate([self.on_rings(acting[:2]), jnp.sum(acting[2:], axis=1)])
 
     def element(self, unknowns, shared):
         state = self.rollers(unknowns, shared)
-        balance = state.load[0][None, :] * self.directions if self.outer is None else state.load
+        balance = state.load if self.bent else state.load[0][None, :] * self.directions
         if state.moment_error is None or state.cage_moment is None or state.cage_force is None:
             return state.approach_error[None, :], balance, state.contact.inner_residual
         local = jnp.stack([state.approach_error, state.moment_error])
@@ -216,7 +217,7 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         return local, contributions, state.contact.inner_residual
 
     def global_residual(self, globals_, totals):
-        d = self.directions.shape[0] + self.modes
+        d = self.ring_unknowns
         ring = self.ring_rows(globals_, totals)
         if self.cage is None:
             return ring, jnp.zeros(())
@@ -237,11 +238,11 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
     def rollers(self, unknowns: Float[Array, "m roller"], shared: Float[Array, "p roller"]) -> RollerState:
         """State of the rollers.
 
-        **Arguments:** `shared`: the globals. If the outer ring can bend, the values of `local_inputs` instead.
+        **Arguments:** `shared`: the globals. If a ring bends, the values of `local_inputs` instead.
         """
-        motion, d = self.kinematics, self.directions.shape[0] if self.outer is None else 1
+        motion, d = self.kinematics, 1 if self.bent else self.directions.shape[0]
         log_load = unknowns[0]
-        shift = self.inward(shared[:d]) if self.outer is None else shared[0]
+        shift = shared[0] if self.bent else self.inward(shared[:d])
         if self.cage is None:
             orbit_change = spin_change = jnp.zeros_like(log_load)
         else:
@@ -336,16 +337,17 @@ class DryRollerSystem(AbstractInPlane):
     held: Float[Array, " roller"] | None = None
     out_of_round: Float[Array, " roller"] | None = None
     outer: ElasticRing | None = None
+    inner: ElasticRing | None = None
 
     def equation_names(self) -> tuple[str, ...]:
         return self.ring_names()
 
     def step_caps(self) -> ArrowPoint:
         # in a dry bearing the loads are convex functions of the displacement: Newton's steps need no cap
-        return ArrowPoint(jnp.zeros((0, 1)), jnp.full(self.directions.shape[0] + self.modes, 1e4))
+        return ArrowPoint(jnp.zeros((0, 1)), jnp.full(self.ring_unknowns, 1e4))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        edge = jnp.full(self.directions.shape[0] + self.modes, 1e5)
+        edge = jnp.full(self.ring_unknowns, 1e5)
         return ArrowPoint(jnp.zeros((0, 1)), -edge), ArrowPoint(jnp.zeros((0, 1)), edge)
 
     def centrifugal(self) -> Array:
@@ -389,19 +391,18 @@ class DryRollerSystem(AbstractInPlane):
 
     def inward_shift(self, point: ArrowPoint) -> Array:
         """Displacement of the rings towards each other at each roller, m."""
-        outer = self.outer
-        return self.inward(point.globals[:, None]) if outer is None else self.approaching(point.globals, outer)
+        return self.approaching(point.globals) if self.bent else self.inward(point.globals[:, None])
 
     def local_inputs(self, globals_):
-        """With an outer ring that bends, returns the displacement of the rings towards each other at each roller.
-        Returns `None` for a rigid outer ring."""
-        return None if self.outer is None else self.approaching(globals_, self.outer)[None]
+        """With rings that bend, returns the displacement of the rings towards each other at each roller. Returns `None`
+        if both rings are rigid."""
+        return self.approaching(globals_)[None] if self.bent else None
 
     def gathered(self, globals_, acting):
-        return jnp.sum(acting, axis=1) if self.outer is None else self.on_rings(acting, self.outer)
+        return self.on_rings(acting) if self.bent else jnp.sum(acting, axis=1)
 
     def element(self, unknowns, shared):
-        if self.outer is not None:
+        if self.bent:
             load, inner = self.loads(shared[0])
             return unknowns, load, inner
         load, inner = self.loads(self.inward(shared))

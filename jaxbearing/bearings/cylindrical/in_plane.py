@@ -1,5 +1,5 @@
 """Base of the equations of cylindrical rollers that carry evenly along their length: displacements of the
-inner ring and, if it bends, amplitudes of the outer one."""
+inner ring and amplitudes of rings that bend."""
 
 import dataclasses
 from typing import TypeVar
@@ -8,9 +8,8 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ...numerics.arrow import AbstractArrowSystem
-from ..elastic_ring import EQUATION, ElasticRing
 from ..ring import LENGTH_UNIT, InnerRing
+from ..rings import AbstractBetweenRings
 
 System = TypeVar("System", bound="AbstractInPlane")
 IN_PLANE = ("radial", "lateral")
@@ -22,27 +21,20 @@ def outward(azimuth: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
     return jnp.stack([jnp.cos(azimuth), jnp.sin(azimuth)])
 
 
-class AbstractInPlane(AbstractArrowSystem):
+class AbstractInPlane(AbstractBetweenRings):
     """Base of the equations of rollers that carry evenly along their length.
 
     - `directions`: outward unit vectors along the unknown freedoms of the `ring`.
     - `held`: given part of the displacement of the inner ring towards each roller, m; `None` if none is given.
     - `out_of_round`: displacement towards each roller of races that are not round, m; `None` if they are round.
-    - `outer`: the outer ring if it bends; `None` if it is rigid. Its amplitudes are globals, after those of the inner
-      ring. A roller feels them as a part of the displacement towards it (`local_inputs`).
+    - `outer`, `inner`: the rings if they bend; `None` if they are rigid. A roller feels their openings together, as a
+      part of the displacement of the rings towards each other (`local_inputs`).
     """
 
     directions: eqx.AbstractVar[Float[Array, "freedom roller"]]
     azimuth: eqx.AbstractVar[Float[Array, " roller"]]
-    ring: eqx.AbstractVar[InnerRing]
     held: eqx.AbstractVar[Float[Array, " roller"] | None]
     out_of_round: eqx.AbstractVar[Float[Array, " roller"] | None]
-    outer: eqx.AbstractVar[ElasticRing | None]
-
-    @property
-    def freedoms(self) -> tuple[str, ...]:
-        """Freedoms of the ring that are unknown."""
-        return self.ring.freedoms
 
     def load_scale(self) -> Array:
         """Scale of the ring's balances, N."""
@@ -55,48 +47,31 @@ class AbstractInPlane(AbstractArrowSystem):
             shift = shift if given is None else shift + given
         return shift
 
-    @property
-    def modes(self) -> int:
-        """Number of amplitudes of the outer ring."""
-        return 0 if self.outer is None else self.outer.modes
-
-    def amplitudes(self, globals_: Float[Array, " g"]) -> Float[Array, " mode"]:
-        """The unknowns of the outer ring."""
-        first = self.directions.shape[0]
-        return globals_[first : first + self.modes]
-
-    def approaching(self, globals_: Float[Array, " g"], outer: ElasticRing) -> Float[Array, " roller"]:
-        """Displacement of the rings towards each other at each roller, m."""
+    def approaching(self, globals_: Float[Array, " g"]) -> Float[Array, " roller"]:
+        """Displacement of the rings towards each other at each roller, m, with rings that bend."""
         shift = self.inward(globals_[: self.directions.shape[0], None])
-        return shift - outer.deflection(self.amplitudes(globals_))
+        for opening in self.bent.openings(self.amplitudes(globals_)):
+            shift = shift - opening
+        return shift
 
-    def on_rings(self, load: Float[Array, "2 roller"], outer: ElasticRing) -> Float[Array, " row"]:
-        """Sums of the loads on both races, N, as they act on the displacements of the inner and the amplitudes of the
-        outer ring."""
-        return jnp.concatenate([self.directions @ load[0], outer.pressed(load[1])])
+    def on_rings(self, load: Float[Array, "2 roller"]) -> Float[Array, " row"]:
+        """Sums of the loads on both races, N, as they act on the displacements of the inner ring and on the amplitudes
+        of rings that bend."""
+        return jnp.concatenate([self.directions @ load[0], self.bent.pressed(self.bent.pick(load[1], load[0]))])
 
     def ring_rows(self, globals_: Float[Array, " g"], totals: Float[Array, " k"]) -> Float[Array, " row"]:
         """Balances of both rings over `load_scale`."""
-        d = self.directions.shape[0]
-        rows = (totals[:d] - self.ring.load) / self.load_scale()
-        if self.outer is None:
-            return rows
-        amplitudes = self.amplitudes(globals_)
-        bent = self.outer.balance(amplitudes, totals[d : d + self.modes], self.ring.asks)
-        return jnp.concatenate([rows, bent / self.load_scale()])
-
-    def ring_names(self) -> tuple[str, ...]:
-        """Names of the equations of both rings."""
-        return (*self.ring.equation_names(), *(EQUATION,) * self.modes)
+        balance = totals[: self.directions.shape[0]] - self.ring.load
+        return self.with_bending(balance, globals_, totals, self.ring.asks) / self.load_scale()
 
     def begun(self, ring: Float[Array, " freedom"]) -> Float[Array, " row"]:
         """First guess of the unknowns of both rings, from that of the inner ring on a rigid one."""
-        if self.outer is None:
+        if not self.bent:
             return ring
         load = jnp.zeros(2).at[self.ring.places - 1].set(self.ring.load)
-        amplitudes = self.outer.start(load)
-        # the inner ring follows the outer one, whose first order is a displacement
-        follow = self.outer.deflection(amplitudes) @ self.directions.T / LENGTH_UNIT
+        amplitudes = self.bent.start(load)
+        # the shaft follows rings whose first order is a displacement
+        follow = sum(self.bent.openings(amplitudes)) @ self.directions.T / LENGTH_UNIT
         weights = jnp.sum(jnp.square(self.directions), axis=1)
         return jnp.concatenate([ring + follow / weights, amplitudes])
 

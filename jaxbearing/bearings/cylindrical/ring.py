@@ -1,9 +1,9 @@
-"""The rings of a cylindrical roller bearing: the inner one from its operating point, the outer one if it bends."""
+"""The rings of a cylindrical roller bearing: the inner one from its operating point, and rings that bend."""
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ..elastic_ring import ElasticRing, elastic_ring
+from ..elastic_ring import BentRings, elastic_ring
 from ..ring import InnerRing, inner_ring
 from .scene import CylindricalRollerBearing
 
@@ -17,10 +17,10 @@ def roller_ring(scene: CylindricalRollerBearing, lever: Array) -> InnerRing:
     return ring.under(jnp.where(jnp.asarray(radial) > 0, ring.load, jnp.nan))
 
 
-def bending_ring(scene: CylindricalRollerBearing, azimuth: Float[Array, " roller"]) -> ElasticRing | None:
-    """The outer ring of a scene, if it bends. **Arguments:** `azimuth`: of the rollers, rad."""
-    geometry = scene.geometry
-    if scene.outer_ring is None:
-        return None
-    width = geometry.roller_length if geometry.width is None else geometry.width
-    return elastic_ring(scene.outer_ring, scene.materials.rings, geometry.outer_radius, width, azimuth)
+def bending_rings(scene: CylindricalRollerBearing, azimuth: Float[Array, " roller"]) -> BentRings:
+    """The rings of a scene that bend. **Arguments:** `azimuth`: of the rollers, rad."""
+    material, (inner, outer) = scene.materials.rings, scene.raceway_diameters
+    return BentRings(
+        elastic_ring(scene.outer_ring, material, outer, scene.ring_width, azimuth),
+        elastic_ring(scene.inner_ring, material, inner, scene.ring_width, azimuth),
+    )

@@ -15,6 +15,7 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array
 
+from ..._types import Scalar
 from ...contacts import LineContact, RigidRollingResistance
 from ...lubricants import Lubricant, NoPressureViscosity
 from ...materials import reduced_modulus
@@ -37,12 +38,13 @@ from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
 from ..ring_shape import (
+    FlexibleInnerRing,
     FlexibleRing,
     InnerRoundness,
     OuterRoundness,
+    bending_problems,
     said_of_bending,
     shaped_parts,
-    unheld_problems,
 )
 from ..row import AbstractRow
 from ..solution import RING_FREEDOMS, LaminaLoads, Solution
@@ -78,9 +80,9 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae; with a
       `contact` without traction: films and what rolling costs, for rolling without sliding.
     - `geometry.flange_stiffness`: the ring's axial freedom, which nothing else depends on.
-    - `outer_ring`: an outer ring that bends in its housing; `None`: it is rigid. `inner_roundness`,
-      `outer_roundness`: raceways that are not round, standing still relative to the load. All three hold for rollers
-      that carry evenly along their length; a run in time has rigid rings.
+    - `outer_ring`: an outer ring that bends in its housing; `inner_ring`: an inner ring that bends on its shaft;
+      `None`: it is rigid. `inner_roundness`, `outer_roundness`: raceways that are not round, standing still relative to
+      the load. A run in time has rigid rings.
     - `simulation`: what a run in time does beyond the operating point, a `WarmUpSimulation` with `thermal`; a steady
       solve does not look at it.
 
@@ -106,6 +108,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     thermal: Thermal | None = None
     oil_temperatures: OilTemperatures | None = None
     outer_ring: FlexibleRing | None = None
+    inner_ring: FlexibleInnerRing | None = None
     inner_roundness: InnerRoundness | None = None
     outer_roundness: OuterRoundness | None = None
 
@@ -159,9 +162,9 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     def _shape_problems(self, moves: bool) -> Iterator[str | ValueError]:
         """Refusals of parts that cannot be combined with rings that bend or are not round."""
         for name in shaped_parts(self):
-            if moves and name == "outer_ring":
+            if moves and name in ("outer_ring", "inner_ring"):
                 yield f"{name}: a run in time has rigid rings in this version; leave out the simulation"
-        yield from unheld_problems(self.outer_ring, self.operation)
+        yield from bending_problems(self, self.operation, lambda: self.raceway_diameters[0], self.ring_width)
 
     def solve_ring(
         self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
@@ -192,6 +195,11 @@ class CylindricalRollerBearing(AbstractMovingBearing):
             jnp.asarray(geometry.pitch_diameter - geometry.roller_diameter),
             jnp.asarray(geometry.pitch_diameter + geometry.roller_diameter),
         )
+
+    @property
+    def ring_width(self) -> Scalar:
+        """Width of rings that bend, where the scene gives none, m."""
+        return self.geometry.roller_length if self.geometry.width is None else self.geometry.width
 
     def play(self, growth: Growth) -> Play:
         from .mounting import running_play
@@ -308,7 +316,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
             said.append("geometry.contact_length is not given: the whole roller length carries load")
         if self.slips and self.cage is not None:
             said += self.cage.assumptions()
-        said += said_of_bending(self.outer_ring)
+        said += said_of_bending(self)
         if self.slips and self.flange is not None and self.flange.height is None:
             said.append(f"flange.height is not given: assumed {ASSUMED_FLANGE_HEIGHT:.3f} of the roller diameter")
         return tuple(said)

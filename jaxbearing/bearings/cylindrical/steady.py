@@ -27,7 +27,7 @@ from .geometry import RollerCage, RollerGeometry
 from .in_plane import IN_PLANE, outward
 from .kinematics import RollerKinematics, roller_kinematics
 from .loads import LEAST_LOAD
-from .ring import bending_ring, roller_ring
+from .ring import bending_rings, roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults, SolvedRollers
 
@@ -58,7 +58,7 @@ def build_system(
         reduced_modulus=jnp.asarray(reduced_modulus(scene.materials.rings, scene.materials.rollers)),
     )
     clearance, held = jnp.asarray(geometry.diametral_clearance) / 2.0, None
-    form, outer = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth), bending_ring(scene, azimuth)
+    form, bent = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth), bending_rings(scene, azimuth)
     if ring.asks:
         held = jnp.einsum("f,fn->n", ring.held[1:3], cosines)
         if ring.expansion is not None:
@@ -67,7 +67,7 @@ def build_system(
         pressed = held - clearance if form is None else held + form - clearance
         asked = pressed_load(stiffness, contact.length, pressed, jnp.zeros(()))
         asked = jnp.sum(asked) + LEAST_LOAD
-        ring = ring.asking(asked if outer is None else asked + outer.given_load())
+        ring = ring.asking(asked if bent.outer is None else asked + bent.outer.given_load())
     common = {
         "kinematics": motion,
         "contact": contact,
@@ -76,7 +76,8 @@ def build_system(
         "ring": ring,
         "held": held,
         "out_of_round": form,
-        "outer": outer,
+        "outer": bent.outer,
+        "inner": bent.inner,
         "radial_clearance": clearance,
         "roller_mass": scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length,
     }
@@ -169,8 +170,8 @@ def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions, ring: 
     system, result = newton_solve(build_system(scene, ring), options)
     results = _dry_results(system, result) if isinstance(system, DryRollerSystem) else _lubricated(system, result)
     causes, steps = {}, result.iterations
+    results = results._replace(**system.bent.results(system.amplitudes(result.point.globals)))
     if system.outer is not None:
-        results = results._replace(outer_ring=system.outer.shape(system.amplitudes(result.point.globals)))
         result, none = system.outer.judged(system.ring, result)
         causes, steps = {UNSUPPORTED: FailureCause(none, jnp.zeros(0))}, jnp.where(none, 0, steps)
     return assemble(

@@ -10,8 +10,9 @@ $\delta_o = x + \phi s - h$, $\delta_i = d\cdot n - J_d/2 - \tau\cos\psi(s - \el
 roller: $Q_o - Q_i = F_c$, $M_o - M_i = F_c\ell/2$; ring: $\sum Q_in = F$, $-\sum(M_i - Q_i\ell/2)\cos\psi = M$. The
 gradient of one convex potential, with the springs of `ring.ANCHOR`.
 
-An outer ring that bends moves outwards by w at a roller, along the whole of its length: w is taken from
-$\delta_o$, and the roller presses the ring by $Q_o$. What races that are not round add to $\delta_i$ is alike along
+Rings that bend move outwards by $w_o$, $w_i$ at a roller, along the whole of its length: $w_o$ is taken from
+$\delta_o$, and the roller presses the outer ring by $Q_o$; $w_i$ is added to $\delta_i$, and the roller presses the
+inner ring by $-Q_i$. What races that are not round add to $\delta_i$ is alike along
 the roller too.
 """
 
@@ -59,7 +60,7 @@ class TiltingRollers(AbstractRowSystem):
     centrifugal: Float[Array, ""]
     guess: ArrowPoint | None
     outer: ElasticRing | None = None
-    """The outer ring if it bends; `None`: it is rigid."""
+    inner: ElasticRing | None = None
 
     def load_scale(self) -> Array:
         return jnp.sqrt(jnp.square(self.ring.size()) + LOAD_FLOOR**2)
@@ -82,8 +83,8 @@ class TiltingRollers(AbstractRowSystem):
         far = FARTHEST / LENGTH_UNIT
         tilt = MOST_TILT * jnp.asarray(self.line.length) / LENGTH_UNIT
         ring = self.ring.of_each(lambda name: tilt if name in TILTS else far)
-        if self.outer is not None:
-            ring = jnp.concatenate([ring, jnp.full(self.outer.modes, far)])
+        if self.bent:
+            ring = jnp.concatenate([ring, jnp.full(self.bent.modes, far)])
         high = ArrowPoint(jnp.full((2, 1), far), ring)
         return ArrowPoint(-high.elements, -high.globals), high
 
@@ -101,8 +102,8 @@ class TiltingRollers(AbstractRowSystem):
         )
         ring = depth * self.ring.across() / LENGTH_UNIT
         inward = LENGTH_UNIT * jnp.einsum("f,fn->n", ring, self.columns[:, 0])
-        if self.outer is not None:
-            ring = jnp.concatenate([ring, jnp.zeros(self.outer.modes)])
+        if self.bent:
+            ring = jnp.concatenate([ring, jnp.zeros(self.bent.modes)])
         return ArrowPoint(self._between(inward), ring)
 
     def _between(self, inward: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
@@ -121,8 +122,8 @@ class TiltingRollers(AbstractRowSystem):
         state = self.state(unknowns, shared)
         balance = self.balance(state) + anchored(unknowns, ANCHOR * LENGTH_UNIT)
         totals = jnp.einsum("fcn,cn->fn", self.columns, self.ring_force(state))
-        if self.outer is not None:
-            totals = self.on_both(totals, state.load[1])
+        if self.bent:
+            totals = self.on_both(totals, state.load[1], state.load[0])
         out, tilt = self.units() * unknowns
         energy = jnp.sum(self.line.energy(state.approach, state.slope), axis=0)
         energy = energy - self.centrifugal * (out + 0.5 * self.line.length * tilt)
@@ -166,8 +167,9 @@ class TiltingRollers(AbstractRowSystem):
         out, tilt = self.units() * unknowns
         # `turn` is about the middle of the roller
         inner = inward - self.radial_clearance - 0.5 * self.line.length * turn - out
-        outer = out if self.outer is None else out - shared[-1]
-        approach, slope = jnp.stack([inner, outer]), jnp.stack([turn - tilt, tilt])
+        opened = self.opened(shared)
+        approach = [one - opened[side] if side in opened else one for side, one in (("inner", inner), ("outer", out))]
+        approach, slope = jnp.stack(approach), jnp.stack([turn - tilt, tilt])
         return TiltingState(approach, slope, *self.line.load_and_moment(approach, slope))
 
     def balance(self, state: TiltingState) -> Float[Array, "2 roller"]:

@@ -31,7 +31,7 @@ from ..ring_shape import out_of_round
 from ..solution import FailureCause, LaminaLoads, Solution
 from .forces import rolling_alone
 from .kinematics import RollerKinematics, roller_kinematics
-from .ring import bending_ring, roller_ring
+from .ring import bending_rings, roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults
 from .tilting import TiltingRollers, TiltingState
@@ -50,7 +50,7 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
     mass = scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length
     profile = RollerProfile() if scene.profile is None else scene.profile
     held = jnp.einsum("f,fcn->cn", ring.held, columns)
-    form = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth)
+    form, bent = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth), bending_rings(scene, azimuth)
     if form is not None:
         held = held.at[0].add(form)
     system = TiltingRollers(
@@ -62,7 +62,8 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
         radial_clearance=jnp.asarray(geometry.diametral_clearance) / 2.0,
         centrifugal=mass * motion.pitch_radius * jnp.square(motion.free_orbit),
         guess=None,
-        outer=bending_ring(scene, azimuth),
+        outer=bent.outer,
+        inner=bent.inner,
     )
     if not ring.asks:
         return system
@@ -89,8 +90,8 @@ def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions, ring:
     none = ~result.converged & minimum.outside
     result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
     results, causes, steps = _results(scene, system, system.at(result.point)), {}, minimum.steps + result.iterations
+    results = results._replace(**system.bent.results(system.amplitudes(result.point.globals)))
     if system.outer is not None:
-        results = results._replace(outer_ring=system.outer.shape(system.amplitudes(result.point.globals)))
         result, none = system.outer.judged(system.ring, result)
         causes, steps = {UNSUPPORTED: FailureCause(none, jnp.zeros(0))}, jnp.where(none, 0, steps)
     return assemble(

@@ -8,7 +8,7 @@ from jaxtyping import Array, Float
 
 from ...contacts import StraightLine, palmgren_stiffness
 from ...materials import reduced_modulus
-from ..elastic_ring import ElasticRing, elastic_ring
+from ..elastic_ring import BentRings, elastic_ring
 from ..parts import azimuths
 from ..profile import pressed_load
 from ..ring import InnerRing, inner_ring
@@ -109,6 +109,7 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
     stiffness = palmgren_stiffness(length, modulus)
     body = roller_body(geometry, jnp.asarray(scene.materials.rollers.density))
     held = jnp.einsum("f,fcn->cn", ring.held, columns)
+    bent = _bending_rings(scene, azimuth)
     system = TaperedSystem(
         form=tapered_form(geometry),
         line=StraightLine(stiffness, length) if scene.profile is None else scene.profile.line(stiffness, length),
@@ -117,7 +118,8 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
         columns=ring.of_unknown(columns),
         held=held if ring.expansion is None else held.at[1].add(ring.expansion),
         ring=ring,
-        outer=_elastic_ring(scene, azimuth),
+        outer=bent.outer,
+        inner=bent.inner,
         out_of_round=_out_of_round(scene, azimuth),
         closing=scene.closing,
         guess=None,
@@ -129,13 +131,13 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
     return dataclasses.replace(system, ring=ring.asking(_held_load(system, stiffness)))
 
 
-def _elastic_ring(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"]) -> ElasticRing | None:
-    """The cup of a scene, if it bends."""
-    geometry = scene.geometry
-    if scene.outer_ring is None:
-        return None
-    width = geometry.roller_length if geometry.width is None else geometry.width
-    return elastic_ring(scene.outer_ring, scene.materials.rings, 0.5 * scene.raceway_diameters[1], width, azimuth)
+def _bending_rings(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"]) -> BentRings:
+    """The cup and the cone of a scene, if they bend."""
+    material, (inner, outer) = scene.materials.rings, scene.raceway_diameters
+    return BentRings(
+        elastic_ring(scene.outer_ring, material, outer, scene.ring_width, azimuth),
+        elastic_ring(scene.inner_ring, material, inner, scene.ring_width, azimuth),
+    )
 
 
 def _out_of_round(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"]) -> Float[Array, "2 roller"] | None:

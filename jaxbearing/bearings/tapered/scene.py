@@ -38,11 +38,12 @@ from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
 from ..ring_shape import (
+    FlexibleInnerRing,
     FlexibleRing,
     InnerRoundness,
     OuterRoundness,
+    bending_problems,
     said_of_bending,
-    unheld_problems,
 )
 from ..row import AbstractRow
 from ..solution import LaminaLoads, Solution
@@ -91,8 +92,8 @@ class TaperedRollerBearing(AbstractBearing):
     - `drag`: of the oil on the orbiting rollers.
     - `profile`: without one rollers are straight, and contacts integrated in closed form.
     - `fits`, `temperatures`: seats of the rings and temperatures of the parts.
-    - `outer_ring`: a cup that bends in its plane; `None`: it is rigid. `inner_roundness`, `outer_roundness`: raceways
-      that are not round, standing still relative to the load.
+    - `outer_ring`, `inner_ring`: a cup and a cone that bend in their plane; `None`: it is rigid. `inner_roundness`,
+      `outer_roundness`: raceways that are not round, standing still relative to the load.
     - `closing`: what growth adds to the approaches of inner race, outer race and rib, m (`mounting.closing`); a
       scene that has seats makes it.
 
@@ -118,6 +119,7 @@ class TaperedRollerBearing(AbstractBearing):
     oil_temperatures: OilTemperatures | None = None
     closing: Float[Array, "3"] | None = None
     outer_ring: FlexibleRing | None = None
+    inner_ring: FlexibleInnerRing | None = None
     inner_roundness: InnerRoundness | None = None
     outer_roundness: OuterRoundness | None = None
 
@@ -128,7 +130,7 @@ class TaperedRollerBearing(AbstractBearing):
         yield from mounting_problems(self)
         yield from thermal_problems(self)
         yield from supply_problems(self)
-        yield from unheld_problems(self.outer_ring, self.operation)
+        yield from bending_problems(self, self.operation, lambda: self.raceway_diameters[0], self.ring_width)
         if self.contact is None:
             if self.rib is not None:
                 yield "contact: a scene with laws of the rib needs those of the raceways"
@@ -155,6 +157,11 @@ class TaperedRollerBearing(AbstractBearing):
         from .mounting import raceway_diameters
 
         return raceway_diameters(self.geometry)
+
+    @property
+    def ring_width(self) -> Scalar:
+        """Width of rings that bend, where the scene gives none, m."""
+        return self.geometry.roller_length if self.geometry.width is None else self.geometry.width
 
     def play(self, growth: Growth) -> Play:
         from .mounting import running_play
@@ -236,7 +243,7 @@ class TaperedRollerBearing(AbstractBearing):
 
     def assumptions(self) -> tuple[str, ...]:
         """Notes for the user: assumptions of the model, and uses for which its data were not made."""
-        said = self.geometry.assumptions() + said_of_bending(self.outer_ring)
+        said = self.geometry.assumptions() + said_of_bending(self)
         if self.contact is not None and self.oil is not None:
             said += [f"oil: {note}" for note in self.oil.notes]
             laws = (self.contact.traction, None if self.rib is None else self.rib.traction)

@@ -62,8 +62,8 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
         result = _with_nested(result, friction, options)
     results = _results(scene, system, result, state, friction)
     causes, steps = _reasons(scene, asked.inertia) if _bounded(scene, ring) else {}, minimum.steps + result.iterations
+    results = results._replace(**system.bent.results(system.amplitudes(result.point.globals)))
     if system.outer is not None:
-        results = results._replace(outer_ring=system.outer.shape(system.amplitudes(result.point.globals)))
         result, unsupported = system.outer.judged(system.ring, result)
         causes = causes | {UNSUPPORTED: FailureCause(unsupported, jnp.zeros(0))}
         sliding = sliding | unsupported

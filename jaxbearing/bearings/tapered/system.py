@@ -17,7 +17,9 @@ moments about the big end's centre (the source takes the contacts' about it and 
 mass: its moment row is off by $s_c(Q_i - Q_o)$).
 
 A cup that bends moves its raceway outwards by w at a roller, which takes $w\cos\alpha_o$ from $f_o$; the roller presses
-it outwards by $Q_o\cos\alpha_o$. Deviations of the raceways' radii act in the same way.
+it outwards by $Q_o\cos\alpha_o$. A cone that bends moves with its rib: its deflection is a part of $D_r$ at the
+roller, which presses it outwards by $Q_f\sin\alpha_f - Q_i\cos\alpha_i$. Deviations of the raceways' radii act on
+the raceways only.
 
 A roller that nothing touches has no place, nor has a cone that touches no roller. Each is held by a spring of `ANCHOR`
 from where it is, which adds to the Jacobian and nothing to the balances.
@@ -113,6 +115,8 @@ class TaperedSystem(AbstractRowSystem):
     ring: InnerRing
     outer: ElasticRing | None
     """The cup if it bends; `None`: it is rigid."""
+    inner: ElasticRing | None
+    """The cone if it bends; `None`: it is rigid."""
     out_of_round: Float[Array, "2 roller"] | None
     """Lobes of the raceways add these lengths to the approaches of inner and outer race, m; `None`: both are round."""
     guess: ArrowPoint | None
@@ -154,8 +158,8 @@ class TaperedSystem(AbstractRowSystem):
         """Limits of the search for an equilibrium; of the rings the apex distance, or the largest tilt."""
         away = self.form.apex_distance / LENGTH_UNIT
         ring = self.ring.of_each(lambda name: MOST_TILT * away if name in TILTS else away)
-        if self.outer is not None:
-            ring = jnp.concatenate([ring, jnp.full(self.outer.modes, away)])
+        if self.bent:
+            ring = jnp.concatenate([ring, jnp.full(self.bent.modes, away)])
         high = ArrowPoint(jnp.full((3, 1), FARTHEST / LENGTH_UNIT), ring)
         return ArrowPoint(-high.elements, -high.globals), high
 
@@ -172,8 +176,8 @@ class TaperedSystem(AbstractRowSystem):
         even = (share / (self.line.stiffness * self.line.length)) ** 0.9
         axial = jnp.maximum(2.0 * even / jnp.sin(self.form.cone_angle), 2e-6) / LENGTH_UNIT
         ring = self.ring.of_each(lambda name: axial if name == "axial" else 0.0)
-        if self.outer is not None:
-            ring = jnp.concatenate([ring, jnp.zeros(self.outer.modes)])
+        if self.bent:
+            ring = jnp.concatenate([ring, jnp.zeros(self.bent.modes)])
         ones = jnp.ones(self.held.shape[1])
         return ArrowPoint(jnp.stack([0.9 * axial * ones, 0.05 * axial * ones, 0.0 * ones]), ring)
 
@@ -184,9 +188,10 @@ class TaperedSystem(AbstractRowSystem):
         """See `AbstractConvexArrow`; the energy of a roller is that of its contacts less the work of its inertia, J."""
         state = self.state(unknowns, shared)
         balance = self.balance(state) + anchored(unknowns, ANCHOR * LENGTH_UNIT)
-        totals = self.multiplicity * jnp.einsum("fcn,cn->fn", self.columns, self.ring_force(state))
-        if self.outer is not None:
-            totals = self.on_both(totals, state.load[1] * jnp.cos(self.form.cup_angle))
+        force = self.ring_force(state)
+        totals = self.multiplicity * jnp.einsum("fcn,cn->fn", self.columns, force)
+        if self.bent:
+            totals = self.on_both(totals, state.load[1] * jnp.cos(self.form.cup_angle), force[1])
         return balance / self.roller_scale(), totals, self._energies(state, self.units() * unknowns)
 
     def global_residual(self, globals_, totals):
@@ -236,11 +241,14 @@ class TaperedSystem(AbstractRowSystem):
 
     def state(self, unknowns: Float[Array, "3 roller"], shared: Float[Array, "p roller"]) -> TaperedState:
         motion = self.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", self.of_freedoms(shared), self.columns)
+        opened = self.opened(shared)
+        if "inner" in opened:
+            motion = motion.at[1].add(-opened["inner"])
         approach, slope, flange = self.approaches(self.units() * unknowns, motion)
         if self.out_of_round is not None:
             approach = approach + self.out_of_round
-        if self.outer is not None:
-            approach = approach.at[1].add(-shared[-1] * jnp.cos(self.form.cup_angle))
+        if "outer" in opened:
+            approach = approach.at[1].add(-opened["outer"] * jnp.cos(self.form.cup_angle))
         return self._loaded(approach, slope, flange)
 
     def pressed(self, motion: Float[Array, "3 roller"]) -> Float[Array, " roller"]:

@@ -15,6 +15,7 @@ from ..bearing.schema import (
     CageBase,
     CatalogueTable,
     FitsTable,
+    InnerRingTable,
     InnerRoundnessTable,
     OuterRingTable,
     OuterRoundnessTable,
@@ -162,6 +163,7 @@ class BallBearingTable(Table):
     thermal: ThermalTable | None = None
     simulation: BallSimulationTable | None = None
     outer_ring: OuterRingTable | None = None
+    inner_ring: InnerRingTable | None = None
     inner_roundness: InnerRoundnessTable | None = None
     outer_roundness: OuterRoundnessTable | None = None
 

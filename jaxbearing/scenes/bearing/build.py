@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import jax
 
 from ...bearings.cage import AbstractCage
-from ...bearings.ring_shape import FlexibleRing, InnerRoundness, OuterRoundness
+from ...bearings.ring_shape import FlexibleInnerRing, FlexibleRing, InnerRoundness, OuterRoundness
 from ...materials import Material
 from ...mounting import Fits, PartTemperatures
 from ...numerics.checks import STAND_IN
@@ -102,6 +102,7 @@ def shapes(table: Any) -> dict[str, Callable[[], Any]]:
     """The parts of a bearing whose rings bend or are not round, as `built` takes them."""
     return {
         "outer_ring": lambda: part(FlexibleRing, table.outer_ring),
+        "inner_ring": lambda: part(FlexibleInnerRing, table.inner_ring),
         "inner_roundness": lambda: part(InnerRoundness, table.inner_roundness),
         "outer_roundness": lambda: part(OuterRoundness, table.outer_roundness),
     }

@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar
 from ...bearings.cage import AbstractCage
 from ...bearings.operation import AbstractOperation, HeldDisplacement
 from ...bearings.rating import Rating
-from ...bearings.ring_shape import FlexibleRing, InnerRoundness, OuterRoundness
+from ...bearings.ring_shape import FlexibleInnerRing, FlexibleRing, InnerRoundness, OuterRoundness
 from ...contacts.oil_supply import GIVEN, Supply
 from ...contacts.rolling_heating import AIHARA
 from ...makers.catalogue import Catalogue
@@ -103,6 +103,10 @@ class ThermalTable(table_of(Thermal)):
 
 class OuterRingTable(table_of(FlexibleRing)):
     """An outer ring that bends; see `bearings.ring_shape.FlexibleRing`."""
+
+
+class InnerRingTable(table_of(FlexibleInnerRing)):
+    """An inner ring that bends; see `bearings.ring_shape.FlexibleInnerRing`."""
 
 
 class InnerRoundnessTable(table_of(InnerRoundness)):

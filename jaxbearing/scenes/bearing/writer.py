@@ -16,7 +16,8 @@ from ..part_writer import Rows, all_rows, given, law_name, rows, same, shown, un
 from ..table import Table
 
 _ORDER = (
-    *("geometry", "outer_ring", "inner_roundness", "outer_roundness", "profile", "materials", "oil", "contact"),
+    *("geometry", "outer_ring", "inner_ring", "inner_roundness", "outer_roundness", "profile"),
+    *("materials", "oil", "contact"),
     *("kinematics", "cage", "flange", "drag", "rating"),
     *("operation", "fits", "temperatures", "thermal", "simulation"),
 )

@@ -11,6 +11,7 @@ from ..bearing.schema import (
     CageBase,
     CatalogueTable,
     FitsTable,
+    InnerRingTable,
     InnerRoundnessTable,
     OuterRingTable,
     OuterRoundnessTable,
@@ -133,6 +134,7 @@ class CylindricalRollerTable(Table):
     thermal: ThermalTable | None = None
     profile: ProfileTable | None = None
     outer_ring: OuterRingTable | None = None
+    inner_ring: InnerRingTable | None = None
     inner_roundness: InnerRoundnessTable | None = None
     outer_roundness: OuterRoundnessTable | None = None
 

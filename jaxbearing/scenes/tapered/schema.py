@@ -10,6 +10,7 @@ from ..bearing.profile import ProfileTable
 from ..bearing.schema import (
     CatalogueTable,
     FitsTable,
+    InnerRingTable,
     InnerRoundnessTable,
     OuterRingTable,
     OuterRoundnessTable,
@@ -104,6 +105,7 @@ class TaperedRollerTable(Table):
     thermal: ThermalTable | None = None
     simulation: WarmUpTable | None = None
     outer_ring: OuterRingTable | None = None
+    inner_ring: InnerRingTable | None = None
     inner_roundness: InnerRoundnessTable | None = None
     outer_roundness: OuterRoundnessTable | None = None
 
