@@ -34,6 +34,7 @@ SECTIONS = {
         "boundary_power": solution.BoundaryPower,
         "supply": supplied.SupplyResult,
         "outer_ring": ring_deflection.RingDeflection,
+        "inner_ring": ring_deflection.InnerRingDeflection,
         "fit": growth.FitResult,
         "thermal": thermal_result.ThermalResult,
         "thermal.temperatures": thermal_result.NodeTemperatures,

@@ -14,7 +14,7 @@ from .facts import Facts
 from .frequencies import textbook_frequencies
 from .interactions import Costs
 from .ring import Port
-from .ring_deflection import RingDeflection
+from .ring_deflection import InnerRingDeflection, RingDeflection
 from .solution import (
     RING_FREEDOMS,
     BoundaryPower,
@@ -43,7 +43,7 @@ class Results(NamedTuple, Generic[Elements, Losses]):
     laminae: LaminaLoads | None = None
     boundary_power: BoundaryPower | None = None
     outer_ring: RingDeflection | None = None
-    inner_ring: RingDeflection | None = None
+    inner_ring: InnerRingDeflection | None = None
 
 
 def assemble(

@@ -21,7 +21,7 @@ from ..numerics.safe import smooth_abs
 from .bearing import AbstractBearing
 from .cage import AbstractCage
 from .facts import BUSY, Contacts, Excess, Facts, SolvedBearing
-from .ring_shape import FlexibleRing
+from .ring_shape import AbstractBendingRing
 from .solution import CageState, RingDisplacement
 
 SKIDDING = 0.1
@@ -268,15 +268,18 @@ def _wide_land(scene: AbstractBearing) -> Excess:
 
 
 def _thick_rim(scene: AbstractBearing) -> Excess:
-    ring: FlexibleRing | None = getattr(scene, "outer_ring", None)
-    if ring is None or not ring.harmonics:
-        return {}
-    text = (
-        "the outer ring is thicker than a fifth of its radius: the bending of a thin ring is wrong by about the square "
-        "of this ratio, 4 % and more"
-    )
-    thickness = jnp.asarray(ring.thickness)
-    return {text: thickness / (0.5 * scene.raceway_diameters[1] + 0.5 * thickness) - THICK_RIM}
+    rings: list[AbstractBendingRing | None] = [getattr(scene, f"{side}_ring", None) for side in ("inner", "outer")]
+    found = {}
+    for side, ring in enumerate(rings):
+        if ring is None or not ring.harmonics:
+            continue
+        text = (
+            f"the {('inner', 'outer')[side]} ring is thicker than a fifth of its radius: the bending of a thin ring is "
+            "wrong by about the square of this ratio, 4 % and more"
+        )
+        radius = ring.centroid_radius(0.5 * scene.raceway_diameters[side])
+        found[text] = jnp.asarray(ring.thickness) / radius - THICK_RIM
+    return found
 
 
 INPUT_CHECKS: tuple[Callable[[AbstractBearing], Excess], ...] = (

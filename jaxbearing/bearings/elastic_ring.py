@@ -22,7 +22,7 @@ from ..numerics.convex import anchored
 from ..numerics.newton import NewtonResult
 from ..numerics.status import Status
 from .ring import ANCHOR, LENGTH_UNIT, InnerRing
-from .ring_deflection import RingDeflection
+from .ring_deflection import AbstractRingDeflection, InnerRingDeflection, RingDeflection
 from .ring_shape import AbstractBendingRing
 
 PLACES = 361
@@ -138,7 +138,7 @@ class ElasticRing(eqx.Module):
         found = amplitudes[np.asarray([orders.index(1), len(orders)])]
         return -found if self.inner else found
 
-    def shape(self, amplitudes: Float[Array, " mode"]) -> RingDeflection:
+    def shape(self, amplitudes: Float[Array, " mode"]) -> AbstractRingDeflection:
         """The result."""
         scaled, ring = LENGTH_UNIT * amplitudes, self.ring
         azimuth = np.linspace(0.0, 2.0 * np.pi, PLACES)
@@ -148,7 +148,8 @@ class ElasticRing(eqx.Module):
         forces = None if ring.supports is None else ring.reactions(scaled)
         radius = jnp.asarray(ring.section.radius)
         deflection = ring.deflection(scaled, azimuth)
-        return RingDeflection(jnp.asarray(azimuth), deflection, scaled[:count], sines, radius, orders, forces)
+        found = (jnp.asarray(azimuth), deflection, scaled[:count], sines, radius, orders)
+        return InnerRingDeflection(*found) if self.inner else RingDeflection(*found, forces)
 
 
 class BentRings(eqx.Module):
@@ -228,7 +229,7 @@ class BentRings(eqx.Module):
         first, *others = [ring.displacement(part) for ring, part in self.of_each(amplitudes)]
         return sum(others, first)
 
-    def results(self, amplitudes: Float[Array, " mode"]) -> dict[str, RingDeflection]:
+    def results(self, amplitudes: Float[Array, " mode"]) -> dict[str, AbstractRingDeflection]:
         """The results of the rings that bend, by their names in a solution."""
         return {
             "inner_ring" if ring.inner else "outer_ring": ring.shape(part) for ring, part in self.of_each(amplitudes)

@@ -1,4 +1,4 @@
-"""Result of a bearing whose outer ring bends: its deformed shape."""
+"""Results of a bearing whose rings bend: their deformed shapes."""
 
 import equinox as eqx
 from jaxtyping import Array, Float
@@ -6,7 +6,18 @@ from jaxtyping import Array, Float
 from .._scene import label
 
 
-class RingDeflection(eqx.Module):
+class AbstractRingDeflection(eqx.Module):
+    """Deformed shape of a flexible ring: deflection of its centroid circle, outwards."""
+
+    azimuth: eqx.AbstractVar[Float[Array, " place"]]
+    deflection: eqx.AbstractVar[Float[Array, " place"]]
+    cosines: eqx.AbstractVar[Float[Array, " order"]]
+    sines: eqx.AbstractVar[Float[Array, " order"]]
+    radius: eqx.AbstractVar[Float[Array, ""]]
+    order: eqx.AbstractVar[Float[Array, " order"]]
+
+
+class RingDeflection(AbstractRingDeflection):
     """Deformed shape of a flexible outer ring: deflection of its centroid circle, outwards."""
 
     azimuth: Float[Array, " ring_place"] = eqx.field(metadata=label("rad", "azimuth from the load line"))
@@ -18,3 +29,17 @@ class RingDeflection(eqx.Module):
     support_forces: Float[Array, " support"] | None = eqx.field(
         default=None, metadata=label("N", "forces of the supports on the outer ring, inwards")
     )
+
+
+class InnerRingDeflection(AbstractRingDeflection):
+    """Deformed shape of a flexible inner ring against its seat on the shaft: deflection of its centroid circle,
+    outwards; the order 1 is a displacement against that seat."""
+
+    azimuth: Float[Array, " inner_ring_place"] = eqx.field(metadata=label("rad", "azimuth from the load line"))
+    deflection: Float[Array, " inner_ring_place"] = eqx.field(
+        metadata=label("m", "outward deflection of the inner ring against the shaft")
+    )
+    cosines: Float[Array, " inner_ring_order"] = eqx.field(metadata=label("m", "amplitude of the cosine of each order"))
+    sines: Float[Array, " inner_ring_order"] = eqx.field(metadata=label("m", "amplitude of the sine of each order"))
+    radius: Float[Array, ""] = eqx.field(metadata=label("m", "radius of the centroid circle of the inner ring"))
+    order: Float[Array, " inner_ring_order"] = eqx.field(metadata=label("1", "order of the harmonic of the inner ring"))

@@ -18,7 +18,7 @@ from ..numerics.status import Status
 from ..thermal.result import ThermalResult
 from .frequencies import KinematicFrequencies, frequencies_of_motion
 from .growth import FitResult
-from .ring_deflection import RingDeflection
+from .ring_deflection import InnerRingDeflection, RingDeflection
 from .supplied import SupplyResult
 
 INNER_TOLERANCE = 1e-8
@@ -225,7 +225,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     supply: SupplyResult | None = None
     outer_ring: RingDeflection | None = None
     """Deformed shape of the outer ring, if it bends."""
-    inner_ring: RingDeflection | None = None
+    inner_ring: InnerRingDeflection | None = None
     """Deformed shape of the inner ring, if it bends."""
     textbook_frequencies: KinematicFrequencies | None = None
     """Frequencies of rolling without slip at the contact angle of the drawing."""

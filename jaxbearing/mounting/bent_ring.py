@@ -13,7 +13,7 @@ cosine and the sine amplitude of order n
 - a couple M, counter-clockwise: $\frac{n^2-1}{nR}Mf_M\sin n\varphi$, $-\frac{n^2-1}{nR}Mf_M\cos n\varphi$,
 
 where $f_T = (1 + n^2(i+s))/(1+i+n^2s)$ and $f_M = 1/(1+i+n^2s)$ are exact for Timoshenko's ring, on a springy housing
-too. Rolling elements press with P = Q.
+too. Rolling elements press an outer ring with P = Q and an inner one with P = -Q.
 """
 
 import equinox as eqx
@@ -98,7 +98,7 @@ class BentRing(eqx.Module):
     - `section`: of the ring.
     - `orders`: of the harmonics. Leave out 1 for a ring whose loads balance each other and that nothing holds: it has
       no place of its own.
-    - `foundation`: a housing around it; `None`: there is none.
+    - `foundation`: a housing around it or a shaft in it; `None`: there is none.
     - `supports`, `loads`: `None`: there are none.
 
     **Raises:** `ValueError` for orders that are not whole, not rising or negative; for order 1 of a ring that neither

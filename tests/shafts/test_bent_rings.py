@@ -6,7 +6,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from bent_shafts import BEARINGS, HOUSING, SUPPORTS, alone, bent, row_of, straight
+from bent_shafts import BEARINGS, HOUSING, SHAFT, SUPPORTS, alone, bent, row_of, straight
 from rings_that_bend import unbalance
 from shaft_cases import DEEP_GROOVE, P, axial_forces, pair
 
@@ -28,7 +28,9 @@ SLOW = {"cylindrical", "four_point", "tapered"}
 FAMILIES = [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in BEARINGS]
 
 
-@pytest.mark.parametrize("ring", [HOUSING, SUPPORTS], ids=["housing", "supports"])
+@pytest.mark.parametrize(
+    "ring", [HOUSING, SUPPORTS, HOUSING | {"inner": SHAFT}], ids=["housing", "supports", "both rings"]
+)
 @pytest.mark.parametrize("family", FAMILIES)
 def test_force_and_stiffness_are_derivatives_of_the_energy(family, ring):
     row = row_of(bent(BEARINGS[family], **ring))
@@ -51,9 +53,10 @@ def test_force_and_stiffness_are_derivatives_of_the_energy(family, ring):
     np.testing.assert_allclose(derived / unit / unit[:, None], stiffness / unit / unit[:, None], atol=1e-7)
 
 
+@pytest.mark.parametrize("inner", [None, SHAFT], ids=["outer ring", "both rings"])
 @pytest.mark.parametrize("family", FAMILIES)
-def test_a_rigid_shaft_on_one_bearing_is_that_bearing(family):
-    scene, (axial, radial) = bent(BEARINGS[family]), LOADS[family]
+def test_a_rigid_shaft_on_one_bearing_is_that_bearing(family, inner):
+    scene, (axial, radial) = bent(BEARINGS[family], inner=inner), LOADS[family]
     solved, single = jb.solve(straight(scene, axial, radial)), jb.solve(alone(scene, axial, radial))
     one = solved.bearings["bearing"]
     np.testing.assert_allclose(one.force[:3], [axial, radial, 0.0], rtol=1e-9, atol=1e-9 * radial)
@@ -65,6 +68,8 @@ def test_a_rigid_shaft_on_one_bearing_is_that_bearing(family):
         [one.ring.radial, one.ring.lateral], [single.ring.radial, single.ring.lateral], rtol=1e-7
     )
     assert unbalance(scene, one.solution) < 1e-9
+    if inner is not None:
+        assert unbalance(scene, one.solution, "inner") < 1e-9
 
 
 @pytest.mark.slow

@@ -9,7 +9,7 @@ from shaft_cases import DEEP_GROOVE, NU
 
 import jaxbearing as jb
 from jaxbearing.bearings.bearing import AbstractBearing
-from jaxbearing.bearings.ring_shape import FlexibleRing, InnerRoundness, OuterRoundness
+from jaxbearing.bearings.ring_shape import FlexibleInnerRing, FlexibleRing, InnerRoundness, OuterRoundness
 from jaxbearing.bearings.row import AbstractRow
 from jaxbearing.shafts import LinearBearing, MountedBearing, PointLoad, Shaft, ShaftSystem
 from jaxbearing.shafts.batches import on_shaft
@@ -21,16 +21,20 @@ SUPPORTS = {
     **{"thickness": 4e-3, "width": 14e-3, "harmonics": 3, "support_angle": [-0.7, 0.7, 3.1]},
     **{"support_stiffness": [2e8, 2e8, 2e8], "support_gap": [0.0, -2e-6, 5e-6]},
 }
+SHAFT = {"thickness": 4e-3, "width": 14e-3, "harmonics": 2, "shaft_stiffness": 8e9}
+"""Of an inner ring."""
 FOUR_POINT = jb.load_scene("four_point_qj", {"contact": "none", "kinematics.attitude": "linear_slip"})
 TAPERED = jb.load_scene("tapered_example", {"contact": "none"})
 BEARINGS = {"ball": DEEP_GROOVE, "four_point": FOUR_POINT, "cylindrical": NU, "tapered": TAPERED}
 
 
-def bent(scene: AbstractBearing, height=3e-6, **ring) -> AbstractBearing:
-    """A bearing whose outer ring bends, and whose races have lobes beside the load line."""
+def bent(scene: AbstractBearing, height=3e-6, inner=None, **ring) -> AbstractBearing:
+    """A bearing whose outer ring bends, whose inner ring bends where `inner` says how, and whose races have lobes
+    beside the load line."""
     return dataclasses.replace(
         scene,
         outer_ring=FlexibleRing(**(ring or HOUSING)),
+        inner_ring=None if inner is None else FlexibleInnerRing(**inner),
         inner_roundness=lobes(InnerRoundness, 2, 2e-6, 0.3),
         outer_roundness=lobes(OuterRoundness, 3, height, 0.1),
         rating=None,

@@ -18,7 +18,7 @@ import jaxbearing as jb
 from jaxbearing.bearings.ball.motion.results import BallEnergy, BallInstant, LooseBallPowerLoss
 from jaxbearing.bearings.cylindrical.motion.results import RollerEnergy, RollerInstant
 from jaxbearing.bearings.motion.history import History
-from jaxbearing.bearings.ring_shape import FlexibleRing
+from jaxbearing.bearings.ring_shape import FlexibleInnerRing, FlexibleRing
 from jaxbearing.bearings.warming.history import WarmUpHistory
 from jaxbearing.bearings.warming.programs import instants_at
 from jaxbearing.ehl import LineContactHistory
@@ -69,7 +69,7 @@ SCENES = {
 
 
 def flexible_roller():
-    """Dry rollers in a ring on a housing and a support."""
+    """Dry rollers between a ring on a housing and a support, and a ring on a soft shaft."""
     ring = FlexibleRing(
         thickness=8e-3,
         harmonics=3,
@@ -78,7 +78,8 @@ def flexible_roller():
         support_stiffness=[1e8],
         support_gap=[0.0],
     )
-    return dataclasses.replace(SCENES["dry roller"](), outer_ring=ring)
+    inner = FlexibleInnerRing(thickness=6e-3, harmonics=2, shaft_stiffness=1e10)
+    return dataclasses.replace(SCENES["dry roller"](), outer_ring=ring, inner_ring=inner)
 
 
 _traced: list[tuple[typing.Any, typing.Any]] = []

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ...bearings.flanks import on_heavier_flanks
-from ...bearings.ring_deflection import RingDeflection
+from ...bearings.ring_deflection import AbstractRingDeflection
 from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
 from ..display import digits, with_unit
 from .fit_facts import fit_facts
@@ -38,8 +38,8 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         yield from fit_facts(solution.fit)
     if solution.thermal is not None:
         yield from thermal_facts(solution.thermal)
-    yield "Inner ring", ", ".join(_ring(solution))
-    ring = solution.outer_ring
+    inner, ring = solution.inner_ring, solution.outer_ring
+    yield "Inner ring", ", ".join([*_ring(solution), *([] if inner is None else [bending(inner)])])
     if ring is not None:
         yield "Outer ring", bending(ring)
     held = ", ".join(_held(solution))
@@ -58,8 +58,8 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         yield from life_facts(solution)
 
 
-def bending(ring: RingDeflection) -> str:
-    """The least and the largest deflection of an outer ring in words."""
+def bending(ring: AbstractRingDeflection) -> str:
+    """The least and the largest deflection of a ring in words."""
     deflection = np.asarray(ring.deflection)
     least, most = (with_unit(float(value), "m") for value in (np.min(deflection), np.max(deflection)))
     return f"bends outwards by {least} to {most}"

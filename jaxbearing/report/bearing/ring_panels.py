@@ -1,5 +1,5 @@
-"""Charts of a flexible outer ring: its deformed shape, exaggerated, its deflection over the azimuth, and the loads
-beside those in a rigid ring."""
+"""Charts of flexible rings: their deformed shapes, exaggerated, their deflections over the azimuth, and the loads
+beside those in rigid rings."""
 
 import dataclasses
 import math
@@ -7,10 +7,10 @@ import math
 import numpy as np
 
 from ...bearings.bearing import AbstractBearing
-from ...bearings.ring_deflection import RingDeflection
+from ...bearings.ring_deflection import AbstractRingDeflection, InnerRingDeflection
 from ...bearings.solution import Solution
 from ...solve import solve
-from ..colours import FAINT, OUTER
+from ..colours import FAINT, INNER, OUTER
 from ..display import axis_unit, with_unit
 from ..panels import Axis, Curves, Polar, Series
 from .azimuth import signed_degrees
@@ -21,65 +21,83 @@ DRAWN = 0.2
 
 
 def ring_panels(solution: Solution, rigid: Solution | None = None) -> list[Polar | Curves]:
-    """The charts; none of a rigid ring.
+    """The charts; none if both rings are rigid.
 
     **Arguments:** `rigid`: `rigid_counterpart`; `None`: the loads are not compared.
     """
-    ring = solution.outer_ring
-    if ring is None:
-        return []
-    shapes = shape_panels(solution, ring)
-    return shapes if rigid is None else [load_polygon(solution, rigid), *shapes]
+    rings = bent_rings(solution)
+    shapes = [panel for ring in rings for panel in shape_panels(solution, ring)]
+    return [load_polygon(solution, rigid), *shapes] if rings and rigid is not None else shapes
+
+
+def bent_rings(solution: Solution) -> list[AbstractRingDeflection]:
+    """Shapes of the rings that bend, that of the outer ring first."""
+    return [ring for ring in (solution.outer_ring, solution.inner_ring) if ring is not None]
+
+
+def side_of(ring: AbstractRingDeflection) -> str:
+    """The ring in one word."""
+    return "inner" if isinstance(ring, InnerRingDeflection) else "outer"
 
 
 def rigid_counterpart(scene: AbstractBearing, solution: Solution) -> Solution | None:
-    """Solution of the same scene with a rigid outer ring; `None` where the ring is rigid or that solve fails."""
-    if solution.outer_ring is None:
+    """Solution of the same scene with rigid rings; `None` where they are rigid or that solve fails."""
+    if not bent_rings(solution):
         return None
-    found = solve(dataclasses.replace(scene, outer_ring=None), throw=False)
+    found = solve(dataclasses.replace(scene, outer_ring=None, inner_ring=None), throw=False)
     return found if bool(found.converged) else None
 
 
 def load_polygon(solution: Solution, rigid: Solution) -> Polar:
-    """Loads on the outer race in the flexible and in the rigid ring."""
-    bent, stiff = (np.asarray(one.elements.load_outer) for one in (solution, rigid))
+    """Loads on the race of the flexible ring, and with rigid rings; on the outer race if both rings bend."""
+    rings = bent_rings(solution)
+    side = side_of(rings[0])
+    bent, stiff = (np.asarray(getattr(one.elements, f"load_{side}")) for one in (solution, rigid))
     unit, factor = axis_unit("N", float(max(np.max(bent), np.max(stiff))))
     azimuth, name = np.asarray(solution.elements.azimuth), solution.element_name
     largest = f"{with_unit(float(np.max(bent)), 'N')} and {with_unit(float(np.max(stiff)), 'N')}"
+    one = len(rings) == 1
     return Polar(
-        name="outer_ring_load",
-        title="Loads in a flexible and in a rigid ring",
-        caption=f"Load of each {name} on the outer race, and that of the same scene with a rigid outer ring; the "
-        f"largest are {largest}. Azimuth 0 is below.",
+        name=f"{side}_ring_load",
+        title="Loads in a flexible and in a rigid ring" if one else "Loads in flexible and in rigid rings",
+        caption=f"Load of each {name} on the {side} race, and that of the same scene with "
+        f"{f'a rigid {side} ring' if one else 'rigid rings'}; the largest are {largest}. Azimuth 0 is below.",
         series=[
             Series("rigid", azimuth, factor * stiff, FAINT, dash="dash", faint=True),
-            Series("flexible", azimuth, factor * bent, OUTER, "square"),
+            Series("flexible", azimuth, factor * bent, colour_of(rings[0]), "square"),
         ],
         unit=unit,
         arrow=load_angle(solution.operation),
     )
 
 
+def colour_of(ring: AbstractRingDeflection) -> str:
+    """Colour of results of the ring."""
+    return INNER if isinstance(ring, InnerRingDeflection) else OUTER
+
+
 def shape_panels(
-    solution: Solution, ring: RingDeflection, name: str = "outer_ring", of: str = "", zero: str = "the load line"
+    solution: Solution, ring: AbstractRingDeflection, name: str = "", of: str = "", zero: str = "the load line"
 ) -> list[Polar | Curves]:
     """The deformed ring, and its deflection over the azimuth.
 
-    **Arguments:** `name`: with which the names of the charts begin; `of`: the bearing, behind the titles; `zero`: where
-    azimuth 0 is, in words.
+    **Arguments:** `name`: of the bearing, in the names of the charts; `of`: the bearing, behind the titles; `zero`:
+    where azimuth 0 is, in words.
     """
+    side, colour = side_of(ring), colour_of(ring)
+    name = f"{side}_ring_{name}" if name else f"{side}_ring"
     azimuth, deflection = np.asarray(ring.azimuth), np.asarray(ring.deflection)
     largest, radius = float(np.max(np.abs(deflection))), float(ring.radius)
     factor = exaggeration(largest, radius)
     unit, scale = axis_unit("m", radius)
     shape = Polar(
         name=f"{name}_shape",
-        title=f"Deformed outer ring{of}",
-        caption=f"Centroid circle of the outer ring with deflections {factor:g} times as large as they are, and the "
+        title=f"Deformed {side} ring{of}",
+        caption=f"Centroid circle of the {side} ring with deflections {factor:g} times as large as they are, and the "
         "round one; azimuth 0 is below.",
         series=[
             Series("round", azimuth, np.full_like(azimuth, scale * radius), FAINT, dash="dash", faint=True),
-            Series("deformed", azimuth, scale * (radius + factor * deflection), OUTER),
+            Series("deformed", azimuth, scale * (radius + factor * deflection), colour),
         ],
         unit=unit,
         arrow=load_angle(solution.operation),
@@ -90,9 +108,9 @@ def shape_panels(
     order = np.argsort(degrees)
     curve = Curves(
         name=f"{name}_deflection",
-        title=f"Deflection of the outer ring{of}",
-        caption="Outward deflection of the centroid circle.",
-        series=[Series("outer ring", degrees[order], scale * deflection[:-1][order], OUTER)],
+        title=f"Deflection of the {side} ring{of}",
+        caption="Outward deflection of the centroid circle" + (" against the shaft." if side == "inner" else "."),
+        series=[Series(f"{side} ring", degrees[order], scale * deflection[:-1][order], colour)],
         unit=unit,
         x=Axis(f"azimuth from {zero}, deg", (-188.0, 188.0), (-180, -90, 0, 90, 180)),
     )

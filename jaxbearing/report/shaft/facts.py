@@ -150,10 +150,12 @@ def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     yield "Tilt of rings", ", ".join(f"{name} {1e3 * tilt:.3g} mrad" for name, tilt in named)
     axial = ", ".join(f"{name} {with_unit(float(one.ring.axial), 'm', 3)}" for name, one in solution.bearings.items())
     yield "Axial", f"inner ring against outer ring: {axial}"
-    rings = {name: None if one.solution is None else one.solution.outer_ring for name, one in solution.bearings.items()}
-    bent = ", ".join(f"{name} {bending(ring)}" for name, ring in rings.items() if ring is not None)
-    if bent:
-        yield "Outer rings", bent
+    solved = {name: one.solution for name, one in solution.bearings.items() if one.solution is not None}
+    for side in ("inner", "outer"):
+        rings = {name: getattr(one, f"{side}_ring") for name, one in solved.items()}
+        bent = ", ".join(f"{name} {bending(ring)}" for name, ring in rings.items() if ring is not None)
+        if bent:
+            yield f"{side.capitalize()} rings", bent
     apart = {name: one.sliding_difference for name, one in solution.bearings.items()}
     sizes = {name: float(np.linalg.norm(np.asarray(one)[:3])) for name, one in apart.items() if one is not None}
     if sizes:

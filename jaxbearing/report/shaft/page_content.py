@@ -9,7 +9,7 @@ from ...numerics.status import Status
 from ...shafts.scene import ShaftSystem
 from ...shafts.solution import BearingOnShaft, ShaftSolution
 from ..bearing.facts import facts as bearing_facts
-from ..bearing.ring_panels import shape_panels
+from ..bearing.ring_panels import bent_rings, shape_panels
 from ..colours import LOSS
 from ..display import axis_unit, digits, with_unit
 from ..labels import labelled
@@ -52,11 +52,10 @@ def page_content(scene: ShaftSystem, solution: ShaftSolution) -> Content:
 
 
 def _rings(solution: ShaftSolution) -> Iterator[Polar | Curves]:
-    """Deformed outer rings of bearings."""
+    """Deformed rings of bearings."""
     for name, one in solution.bearings.items():
-        if one.solution is not None and one.solution.outer_ring is not None:
-            ring = one.solution.outer_ring
-            yield from shape_panels(one.solution, ring, f"outer_ring_{name}", f", {name}", "Y of the shaft")
+        for ring in [] if one.solution is None else bent_rings(one.solution):
+            yield from shape_panels(one.solution, ring, name, f", {name}", "Y of the shaft")
 
 
 def _losses(losses: dict[str, float]) -> Bars:

@@ -1,0 +1,279 @@
+"""Inner rings that bend on their shaft, of all families: an independent solve, balances, limits, derivatives,
+refusals."""
+
+import dataclasses
+import functools
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from rings_that_bend import lobes, pressing, unbalance
+from roller_cases import dry_roller, reference_roller
+from scipy.optimize import root
+
+import jaxbearing as jb
+from jaxbearing.bearings.bearing import AbstractBearing
+from jaxbearing.bearings.cylindrical.steady import build_system
+from jaxbearing.bearings.elastic_ring import ElasticRing
+from jaxbearing.bearings.ring_shape import FlexibleInnerRing, FlexibleRing, InnerRoundness
+from jaxbearing.bearings.solution import RING_FREEDOMS
+from jaxbearing.contacts import palmgren_stiffness
+from jaxbearing.materials import reduced_modulus
+from jaxbearing.numerics.newton import newton_solve
+
+THICK = {"thickness": 8e-3, "width": 20e-3, "harmonics": 6}
+"""Rings of the roller bearing."""
+THIN = {"thickness": 3e-3, "width": 14e-3, "harmonics": 4}
+"""Rings of the small bearings."""
+
+
+def on_shaft(scene: AbstractBearing, **changes) -> AbstractBearing:
+    return dataclasses.replace(scene, inner_ring=FlexibleInnerRing(**({"shaft_stiffness": 5e9} | THIN | changes)))
+
+
+def rollers(**parts) -> AbstractBearing:
+    """Table 13's bearing at rest."""
+    return dataclasses.replace(dry_roller().at_operation(inner_speed=0.0), **parts)
+
+
+@functools.cache
+def ball(**changes: str) -> AbstractBearing:
+    """The 6205 under a radial load, an axial one and a moment: its inner ring tilts."""
+    loads = {"radial_load": "3 kN", "axial_load": "500 N", "moment": "5 N*m"} | changes
+    return jb.load_scene("deep_groove_6205", {f"operation.{name}": value for name, value in loads.items()})
+
+
+@functools.cache
+def tapered(**changes: str) -> AbstractBearing:
+    loads = {"operation.axial_load": "2 kN", "operation.radial_load": "4 kN"} | changes
+    return jb.load_scene("tapered_example", {"contact": "none", **loads})
+
+
+def four_point() -> AbstractBearing:
+    loads = {"operation.radial_load": "8 kN", "operation.axial_load": "3 kN"}
+    return on_shaft(jb.load_scene("four_point_qj", loads), thickness=6e-3, width=25e-3)
+
+
+def films() -> AbstractBearing:
+    oil = {"oil.name": "mobil_jet_ii", "operation.oil_temperature": "60 degC", "contact.film": "hamrock_dowson"}
+    scene = jb.load_scene("deep_groove_6205", oil | {"operation.radial_load": "3 kN", "operation.moment": "none"})
+    return on_shaft(scene)
+
+
+def sliding_balls() -> AbstractBearing:
+    scene = jb.load_scene("turbine_ball", {"operation.radial_load": "5 kN", "contact.traction_accuracy": "1e-2"})
+    return on_shaft(scene, thickness=8e-3, width=30e-3, shaft_stiffness=1e10)
+
+
+def test_an_inner_ring_like_an_outer_one():
+    """At rest both races carry the same loads, so that the same ring in either place gives the same bearing."""
+    outer = rollers(outer_ring=FlexibleRing(housing_stiffness=1e10, **THICK))
+
+    @jax.jit
+    def solved(system):
+        found, result = newton_solve(system)
+        return found.loads(found.inward_shift(result.point))[0][0], result.point.globals
+
+    system = build_system(outer)
+    moved = ElasticRing(system.outer.ring, -system.outer.shapes, True)
+    (one, at), (other, there) = (
+        solved(each) for each in (system, dataclasses.replace(system, outer=None, inner=moved))
+    )
+    np.testing.assert_allclose(other, one, rtol=1e-10, atol=1e-10 * np.max(one))
+    # the deflections have opposite signs, and the shaft goes the same way
+    np.testing.assert_allclose(there[1:], -at[1:], rtol=1e-9, atol=1e-9 * np.max(np.abs(at)))
+    np.testing.assert_allclose(there[0], at[0], rtol=1e-10)
+
+
+def influence(radius: float, sizes: dict, bed: float, angle: np.ndarray) -> np.ndarray:
+    """Deflections at angles by unit loads there, m/N, of a ring on springs: the sum of the harmonics."""
+    modulus, height, width = 210e9, sizes["thickness"], sizes["width"]
+    bending, axial = modulus * width * height**3 / 12.0, modulus * width * height
+    between, found = angle[:, None] - angle[None, :], 0.0
+    for order in range(sizes["harmonics"] + 1):
+        own = bending * (order**2 - 1) ** 2 / radius**4 / (1.0 + bending / (axial * radius**2))
+        own = axial / radius**2 if order == 0 else own
+        found = found + np.cos(order * between) / (np.pi * radius * (2.0 if order == 0 else 1.0) * (own + bed))
+    return found
+
+
+def test_both_rings_against_scipy():
+    """Approaches of the rollers and the displacement of the shaft are the unknowns; no amplitude is."""
+    scene = on_shaft(rollers(outer_ring=FlexibleRing(housing_stiffness=2e10, **(THICK | {"harmonics": 4}))), **THICK)
+    solution = jb.solve(scene)
+    geometry, load = scene.geometry, 25e3
+    azimuth = np.asarray(solution.elements.azimuth)
+    bends = influence(0.5 * 154e-3 + 4e-3, THICK | {"harmonics": 4}, 2e10, azimuth)
+    bends = bends + influence(0.5 * 130e-3 - 4e-3, THICK, 5e9, azimuth)
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
+    line = float(palmgren_stiffness(geometry.contact_length, modulus)) * geometry.contact_length
+
+    def loads(approach):
+        # two equal contacts, one behind the other
+        return line * (0.5 * np.maximum(approach, 0.0)) ** (10.0 / 9.0)
+
+    def misfit(x):
+        approach, shift = 1e-5 * x[:-1], 1e-5 * x[-1]
+        found = loads(approach)
+        fit = shift * np.cos(azimuth) - 0.5 * geometry.diametral_clearance - bends @ found - approach
+        return np.append(fit / 1e-5, (np.sum(found * np.cos(azimuth)) - load) / load)
+
+    begin = 2.0 * np.cos(azimuth)
+    found = root(misfit, np.append(begin, 7.0), method="hybr", options={"xtol": 1e-13})
+    assert np.max(np.abs(misfit(found.x))) < 1e-11
+    expected = loads(1e-5 * found.x[:-1])
+    np.testing.assert_allclose(solution.elements.load_inner, expected, rtol=1e-8, atol=1e-8 * np.max(expected))
+    np.testing.assert_allclose(solution.ring.radial, 1e-5 * found.x[-1], rtol=1e-9)
+    for side in ("outer", "inner"):
+        assert unbalance(scene, solution, side) < 1e-9
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        pytest.param(lambda: on_shaft(rollers(), **THICK), id="dry rollers"),
+        pytest.param(lambda: on_shaft(ball(moment="none", radial_load_lateral="1 kN")), id="dry balls, two loads"),
+        pytest.param(lambda: on_shaft(tapered()), id="dry tapered"),
+        pytest.param(lambda: on_shaft(tapered(**{"operation.moment": "450 N*m"})), id="tapered, tilting"),
+        pytest.param(
+            lambda: on_shaft(dry_roller().replace({"operation.misalignment": 1e-4}), **THICK),
+            id="tilting rollers",
+            marks=pytest.mark.slow,
+        ),
+        pytest.param(four_point, id="four contacts", marks=pytest.mark.slow),
+        pytest.param(films, id="balls, films", marks=pytest.mark.slow),
+        pytest.param(sliding_balls, id="balls, sliding, cage", marks=pytest.mark.slow),
+        pytest.param(
+            lambda: on_shaft(reference_roller(), **THICK), id="rollers, sliding, cage", marks=pytest.mark.slow
+        ),
+        pytest.param(lambda: on_shaft(jb.load_scene("tapered_example")), id="tapered, films", marks=pytest.mark.slow),
+    ],
+)
+def test_the_ring_is_in_balance(make):
+    scene = make()
+    solution, rigid = jb.solve(scene), jb.solve(dataclasses.replace(scene, inner_ring=None))
+    assert unbalance(scene, solution, "inner") < 1e-9
+    # the ring yields under the most loaded element
+    assert float(np.max(solution.elements.load_inner)) < float(np.max(rigid.elements.load_inner))
+    if solution.drive_power is not None:
+        np.testing.assert_allclose(solution.drive_power, solution.power_loss.total, rtol=1e-8)
+    # the elements carry the load on the seat of the ring
+    azimuth, load = np.asarray(solution.elements.azimuth), float(scene.operation.radial_load)
+    carried = np.sum(pressing(scene, solution, "inner") * np.cos(azimuth))
+    np.testing.assert_allclose(carried, load, rtol=1e-2 if solution.cage is not None else 1e-8)
+
+
+def test_stiffness_of_a_tilting_ring_is_symmetric():
+    """At rest all forces come of one energy, with the exact rotation of the ring too; the stiffness is its second
+    derivative with the amplitudes in equilibrium."""
+    scene = on_shaft(ball(radial_load_lateral="1 kN", moment_lateral="3 N*m").replace({"operation.inner_speed": 0.0}))
+    stiffness = np.asarray(jb.solve(scene).stiffness)
+    unit = np.sqrt(np.diag(stiffness))
+    scaled = stiffness / unit / unit[:, None]
+    np.testing.assert_allclose(scaled, scaled.T, atol=1e-9)
+    assert np.max(np.abs(scaled - np.diag(np.diag(scaled)))) > 0.01
+
+
+@pytest.mark.parametrize("make", [rollers, ball, tapered])
+def test_stiff_shaft_is_the_rigid_ring(make):
+    rigid, stiff = jb.solve(make()), jb.solve(on_shaft(make(), shaft_stiffness=1e16))
+    largest = np.max(rigid.elements.load_inner)
+    np.testing.assert_allclose(stiff.elements.load_inner, rigid.elements.load_inner, rtol=1e-5, atol=1e-7 * largest)
+    np.testing.assert_allclose(stiff.ring.radial, rigid.ring.radial, rtol=1e-5)
+
+
+def test_no_harmonics_is_the_same_program():
+    rigid, none = jb.solve(rollers()), jb.solve(on_shaft(rollers(), harmonics=0))
+    np.testing.assert_array_equal(rigid.elements.load_inner, none.elements.load_inner)
+    assert rigid.unknowns == none.unknowns
+    assert none.inner_ring is None
+
+
+def test_a_lobe_that_the_ring_follows():
+    """A soft ring takes the shape that lobes of its raceway ask for: no load changes by much."""
+    oval = lobes(InnerRoundness, 2, 20e-6)
+    plain = on_shaft(rollers(), thickness=0.5e-3, shaft_stiffness=1e8)
+    loads = [
+        np.max(np.asarray(jb.solve(scene).elements.load_inner))
+        for scene in (
+            plain,
+            dataclasses.replace(plain, inner_roundness=oval),
+            rollers(),
+            rollers(inner_roundness=oval),
+        )
+    ]
+    assert abs(loads[1] - loads[0]) < 0.2 * abs(loads[3] - loads[2])
+
+
+@pytest.mark.parametrize(
+    "make", [rollers, pytest.param(ball, marks=pytest.mark.slow), pytest.param(tapered, marks=pytest.mark.slow)]
+)
+def test_derivatives(make):
+    def most(shaft, thickness):
+        return jb.solve(on_shaft(make(), shaft_stiffness=shaft, thickness=thickness)).elements.load_inner[0]
+
+    at = (5e9, 4e-3)
+    solved = jax.jit(most)
+    backward, forward = (jax.jit(mode(most, argnums=(0, 1)))(*map(jnp.asarray, at)) for mode in (jax.grad, jax.jacfwd))
+    for place, slope in enumerate(backward):
+        step = np.zeros(2)
+        step[place] = 1e-4 * at[place]
+        high, low = (solved(*map(jnp.asarray, np.asarray(at) + sign * step)) for sign in (1, -1))
+        np.testing.assert_allclose(slope, (high - low) / (2 * step[place]), rtol=1e-6)
+        np.testing.assert_allclose(forward[place], slope, rtol=1e-9)
+
+
+FREE = {
+    "rollers": lambda: on_shaft(rollers(ring_freedom=("radial", "lateral")), **THICK),
+    "balls": lambda: on_shaft(ball(radial_load_lateral="0 N", moment_lateral="0 N*m")),
+    "tapered": lambda: on_shaft(tapered(**{"operation.radial_load_lateral": "0 N"})),
+}
+LOADS = {"rollers": [0.0, 25e3, 0.0], "balls": [500.0, 3e3, 0.0], "tapered": [2e3, 4e3, 0.0]}
+"""Axial, radial, lateral, N."""
+
+
+@pytest.mark.parametrize("name", ["rollers", "balls", pytest.param("tapered", marks=pytest.mark.slow)])
+def test_reaction_is_the_load(name):
+    # a lobe beside the load line pushes the ring sideways
+    scene = dataclasses.replace(FREE[name](), inner_roundness=lobes(InnerRoundness, 2, 3e-6, 0.3))
+    solution = jb.solve(scene)
+    held = jb.reaction(scene, [float(getattr(solution.ring, freedom)) for freedom in RING_FREEDOMS], at="ring")
+    load = LOADS[name]
+    np.testing.assert_allclose(held.force[:3], load, atol=1e-8 * max(load))
+    stiffness = solution.stiffness[1:3, 1:3]
+    np.testing.assert_allclose(held.stiffness[1:3, 1:3], stiffness, atol=1e-6 * np.max(stiffness))
+    np.testing.assert_allclose(held.inner_ring.deflection, solution.inner_ring.deflection, atol=1e-13)
+
+
+def test_refusals():
+    with pytest.raises(ValueError, match=r"inner_ring\.width: a ring that bends needs a width"):
+        on_shaft(ball(), width=None).replace({"geometry.width": None})
+    with pytest.raises(
+        ValueError, match=r"inner_ring\.thickness: expected less than the radius of the inner raceway, 65"
+    ):
+        on_shaft(rollers(), thickness=66e-3)
+    with pytest.raises(ValueError, match=r"inner_ring\.shaft_stiffness must be > 0"):
+        FlexibleInnerRing(shaft_stiffness=0.0, **THICK)
+    with pytest.raises(ValueError, match=r"inner_ring\.harmonics"):
+        FlexibleInnerRing(shaft_stiffness=1e10, **(THICK | {"harmonics": 61}))
+    with pytest.raises(jb.SceneError, match=r"inner_ring\.shaft_stiffness"):
+        jb.load_scene("tapered_example", {"inner_ring.thickness": "4 mm"})
+    for name in ("turbine_ball_dynamic", "turbine_roller_dynamic"):
+        with pytest.raises(ValueError, match="inner_ring: "):
+            on_shaft(jb.load_scene(name))
+
+
+def test_a_thick_ring_has_a_warning():
+    solution = jb.solve(on_shaft(rollers(), thickness=15e-3))
+    assert [text for text in solution.warnings if "the inner ring is thicker than a fifth" in text]
+
+
+def test_scene_files(tmp_path):
+    scene = on_shaft(rollers(), shaft_shear_stiffness=2e9, shear=True)
+    path = tmp_path / "ring.toml"
+    jb.save_scene(scene, path)
+    read = jb.load_scene(path)
+    assert jax.tree.structure(read.inner_ring) == jax.tree.structure(scene.inner_ring)
+    for here, there in zip(*map(jax.tree.leaves, (scene.inner_ring, read.inner_ring)), strict=True):
+        np.testing.assert_allclose(here, there, rtol=1e-15)
