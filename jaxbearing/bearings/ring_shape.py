@@ -96,10 +96,10 @@ class AbstractBendingRing(_Lists):
     sense: ClassVar[int] = 1
     """1 if the section lies outside the raceway, -1 if it lies inside."""
 
-    thickness: Scalar = number(bound="> 0", unit="m")
-    width: Scalar | None = optional_number(bound="> 0", unit="m")
     harmonics: eqx.AbstractVar[int]
     shear: eqx.AbstractVar[bool]
+    thickness: Scalar = number(bound="> 0", unit="m")
+    width: Scalar | None = optional_number(bound="> 0", unit="m")
 
     def centroid_radius(self, raceway_radius: Scalar) -> Scalar:
         """Radius of the centroid circle, m. **Arguments:** `raceway_radius`: of the raceway, m."""

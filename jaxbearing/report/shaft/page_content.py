@@ -54,8 +54,9 @@ def page_content(scene: ShaftSystem, solution: ShaftSolution) -> Content:
 def _rings(solution: ShaftSolution) -> Iterator[Polar | Curves]:
     """Deformed rings of bearings."""
     for name, one in solution.bearings.items():
-        for ring in [] if one.solution is None else bent_rings(one.solution):
-            yield from shape_panels(one.solution, ring, name, f", {name}", "Y of the shaft")
+        if one.solution is not None:
+            for ring in bent_rings(one.solution):
+                yield from shape_panels(one.solution, ring, name, f", {name}", "Y of the shaft")
 
 
 def _losses(losses: dict[str, float]) -> Bars:
