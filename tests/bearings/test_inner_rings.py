@@ -21,6 +21,8 @@ from jaxbearing.bearings.solution import RING_FREEDOMS
 from jaxbearing.contacts import palmgren_stiffness
 from jaxbearing.materials import reduced_modulus
 from jaxbearing.numerics.newton import newton_solve
+from jaxbearing.report.bearing.facts import facts
+from jaxbearing.report.bearing.ring_panels import rigid_counterpart, ring_panels
 
 THICK = {"thickness": 8e-3, "width": 20e-3, "harmonics": 6}
 """Rings of the roller bearing."""
@@ -267,6 +269,18 @@ def test_refusals():
 def test_a_thick_ring_has_a_warning():
     solution = jb.solve(on_shaft(rollers(), thickness=15e-3))
     assert [text for text in solution.warnings if "the inner ring is thicker than a fifth" in text]
+
+
+def test_screen_and_charts():
+    scene = on_shaft(rollers(), **THICK)
+    solution = jb.solve(scene)
+    assert "bends outwards by" in dict(facts(solution))["Inner ring"]
+    names = ["inner_ring_load", "inner_ring_shape", "inner_ring_deflection"]
+    panels = ring_panels(solution, rigid_counterpart(scene, solution))
+    assert [panel.name for panel in panels] == names
+    # the shape is drawn smaller where the elements press the ring inwards
+    drawn = {series.name: np.asarray(series.y) for series in panels[1].series}
+    assert drawn["deformed"][0] < drawn["round"][0]
 
 
 def test_scene_files(tmp_path):

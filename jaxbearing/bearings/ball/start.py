@@ -184,8 +184,8 @@ def hold(
 ) -> HeldBalls:
     """The balls for a given displacement of the inner ring, m; not differentiated.
 
-    **Arguments:** `near`: ball centres under another displacement, m; `guess`: amplitudes of an outer ring that bends,
-    near those that are sought, m; see `row` on how exactly they are found.
+    **Arguments:** `near`: ball centres under another displacement, m; `guess`: amplitudes of rings that bend, near
+    those that are sought, m; see `row` on how exactly they are found.
     """
     problem, ring = jax.lax.stop_gradient((problem, ring))
     cap, outer = 0.5 * problem.centre_distance, problem.outer
