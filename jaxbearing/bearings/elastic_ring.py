@@ -193,7 +193,7 @@ class BentRings(eqx.Module):
         return [ring.opening(part) for ring, part in self.of_each(amplitudes)]
 
     def pick(self, outer: Array, inner: Array) -> list[Array]:
-        """Of a value for each ring those of the rings that bend."""
+        """Selects the values of the rings that bend."""
         return [value for ring, value in ((self.outer, outer), (self.inner, inner)) if ring is not None]
 
     def pressed(self, loads: Sequence[Float[Array, " element"]]) -> Float[Array, " mode"]:

@@ -3,7 +3,7 @@ r"""A bearing without friction whose ring is held: one convex energy, whose grad
 Centrifugal forces are those of the unloaded bearing's contact angle, so that force and stiffness come of an energy.
 Shafts on bearings begin their search with it, and find the preload of bearings at rest, where it is exact.
 
-Rings that bend are in equilibrium too: the energy is the minimum over its amplitudes $a$ as well. Near the
+Rings that bend are in equilibrium too: the energy is the minimum over their amplitudes $a$ as well. Near the
 minimum one Newton step leads there: with the derivatives $r$ of the energy by the amplitudes, and its second
 derivatives $K$, the force is $F_q - K_{qa}K_{aa}^{-1}r$, the energy lower by $\frac12r^TK_{aa}^{-1}r$ and the
 stiffness $K_{qq} - K_{qa}K_{aa}^{-1}K_{aq}$. An error of the amplitudes therefore shows in its square only.

@@ -16,7 +16,7 @@ from .geometry import Estimate, Geometry
 from .proportions import Normal
 
 _KEY = ("kind", "series", "bore", "outside", "width", "angle", "deviation")
-"""What an estimate follows from: type, boundary dimensions, mm, contact angle and its standard deviation, degrees.
+"""An estimate follows from type, boundary dimensions, mm, contact angle and its standard deviation, degrees.
 After a change of dimensions no row is found, and the estimate is computed."""
 _INTERVALS, _RATINGS = Geometry._fields[:7], Geometry._fields[7:9]
 """Fields of `Geometry` with an interval, three columns each, and fields with one column."""

@@ -8,7 +8,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from rings_that_bend import lobes, pressing, unbalance
+from rings_that_bend import check_no_harmonics, lobes, pressing, unbalance
 from roller_cases import dry_roller, reference_roller
 from scipy.optimize import root
 
@@ -186,10 +186,7 @@ def test_stiff_shaft_is_the_rigid_ring(make):
 
 
 def test_no_harmonics_is_the_same_program():
-    rigid, none = jb.solve(rollers()), jb.solve(on_shaft(rollers(), harmonics=0))
-    np.testing.assert_array_equal(rigid.elements.load_inner, none.elements.load_inner)
-    assert rigid.unknowns == none.unknowns
-    assert none.inner_ring is None
+    check_no_harmonics(jb.solve(rollers()), jb.solve(on_shaft(rollers(), harmonics=0)), "inner_ring")
 
 
 def test_a_lobe_that_the_ring_follows():

@@ -45,3 +45,13 @@ def unbalance(scene: AbstractBearing, solution: jb.Solution, side: str = "outer"
         for amplitude, shape in ((found.cosines, np.cos), (found.sines, np.sin))
     ]
     return float(np.max(np.abs(rows)) / np.sum(force))
+
+
+def check_no_harmonics(rigid, none, name):
+    """A ring without harmonics is the rigid one, in the same program.
+
+    **Arguments:** solutions without the ring and with it; `name`: of its result.
+    """
+    np.testing.assert_array_equal(rigid.elements.load_inner, none.elements.load_inner)
+    assert rigid.unknowns == none.unknowns
+    assert getattr(none, name) is None

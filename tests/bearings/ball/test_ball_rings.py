@@ -8,7 +8,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from rings_that_bend import lobes, unbalance
+from rings_that_bend import check_no_harmonics, lobes, unbalance
 
 import jaxbearing as jb
 from jaxbearing.bearings.ball.build import build_core
@@ -128,10 +128,7 @@ def test_stiff_housing_is_the_rigid_ring():
 
 
 def test_no_harmonics_is_the_same_program():
-    rigid, none = jb.solve(flat()), jb.solve(on_housing(flat(), harmonics=0))
-    np.testing.assert_array_equal(rigid.elements.load_inner, none.elements.load_inner)
-    assert rigid.unknowns == none.unknowns
-    assert none.outer_ring is None
+    check_no_harmonics(jb.solve(flat()), jb.solve(on_housing(flat(), harmonics=0)), "outer_ring")
 
 
 def test_axial_load_only():
