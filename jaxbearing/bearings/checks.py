@@ -38,6 +38,8 @@ STARVED = 0.5
 THICK_RIM = 0.2
 """Thickness over the radius of the centroid circle from which on an outer ring is no thin ring: the curvature of its
 neutral fibre changes the stiffness by about the square of this, 4 %."""
+MORE_THAN_WALL = 1.01
+"""Thickness of a ring that bends over the wall between its raceway and its seat, which a warning allows."""
 SLOWEST = 99.9 * 2.0 * np.pi / 60.0
 """Speed of the rings against each other below which the lubricated models have no meaning, rad/s (100 rpm)."""
 
@@ -277,8 +279,15 @@ def _thick_rim(scene: AbstractBearing) -> Excess:
             f"the {('inner', 'outer')[side]} ring is thicker than a fifth of its radius: the bending of a thin ring is "
             "wrong by about the square of this ratio, 4 % and more"
         )
-        radius = ring.centroid_radius(0.5 * scene.raceway_diameters[side])
-        found[text] = jnp.asarray(ring.thickness) / radius - THICK_RIM
+        raceway, thickness = 0.5 * scene.raceway_diameters[side], jnp.asarray(ring.thickness)
+        found[text] = thickness / ring.centroid_radius(raceway) - THICK_RIM
+        seat = (scene.geometry.bore, scene.geometry.outside_diameter)[side]
+        if seat is not None:
+            text = (
+                f"{ring.part}.thickness is more than the wall between raceway and seat: a section of this height bends "
+                "less than the ring"
+            )
+            found[text] = thickness - MORE_THAN_WALL * jnp.abs(0.5 * seat - raceway)
     return found
 
 

@@ -305,6 +305,16 @@ def shaped_parts(scene: _Shaped) -> tuple[str, ...]:
     return tuple(name for name, part in parts.items() if part is not None)
 
 
+def moving_problems(scene: _Shaped, round_races: bool) -> Iterator[str]:
+    """Refusals of the parts of a scene that its motion in time would not see.
+
+    **Arguments:** `round_races`: whether moving elements run on round races.
+    """
+    for name in shaped_parts(scene):
+        if round_races or name.endswith("_ring"):
+            yield f"{name}: a run in time has rigid{', round' if round_races else ''} rings in this version"
+
+
 def bending_problems(
     scene: _Shaped, operation: AbstractOperation, inner_diameter: Callable[[], Scalar], width: Scalar | None
 ) -> Iterator[str | ValueError]:

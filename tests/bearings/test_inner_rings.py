@@ -261,6 +261,11 @@ def test_refusals():
     for name in ("turbine_ball_dynamic", "turbine_roller_dynamic"):
         with pytest.raises(ValueError, match="inner_ring: "):
             on_shaft(jb.load_scene(name))
+        still = on_shaft(jb.load_scene(name).replace({"simulation": None}))
+        with pytest.raises(ValueError, match="inner_ring: a run in time has rigid"):
+            jb.simulate(still, 1e-4)
+        with pytest.raises(ValueError, match="inner_ring: a run in time has rigid"):
+            jb.simulate_batch(still, 1e-4, {"operation.inner_speed": np.array([1e3])})
 
 
 def test_a_thick_ring_has_a_warning():

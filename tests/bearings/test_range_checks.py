@@ -51,6 +51,7 @@ KINDS = {
     "wide land": "land wider than a third",
     "apex": "load_position is 0",
     "thick rim": "thicker than a fifth of its radius",
+    "wall": "more than the wall between",
 }
 """Kind of check -> words of its text, which no other one has."""
 OF_RACES = {"yield", "skid", "behind", "other shoulder", "cut off", "edge", "hot", "sheared", "thermal loading"}

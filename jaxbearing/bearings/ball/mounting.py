@@ -7,7 +7,8 @@ centres of radii $R_i$ and $R_o$, $A_r = R_i - R_o$ and $BD = r_i + r_o - D$: cl
 $\cos\alpha = A_r/BD$.
 """
 
-from typing import NamedTuple
+import dataclasses
+from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -99,22 +100,14 @@ def running_geometry(geometry: BallGeometry, growth: Growth) -> RunningBallGeome
     grooves = _grown(geometry, growth)
     cosine = jnp.minimum(grooves.across / grooves.distance, 1.0)
     middle = grooves.circles[1] + (grooves.radii[1] - 0.5 * grooves.ball) * cosine
-    return RunningBallGeometry(
-        n_balls=geometry.n_balls,
-        pitch_diameter=2.0 * middle,
-        ball_diameter=grooves.ball,
-        conformity_inner=grooves.radii[0] / grooves.ball,
-        conformity_outer=grooves.radii[1] / grooves.ball,
-        contact_angle=geometry.contact_angle,
-        diametral_clearance=geometry.diametral_clearance,
-        shim_inner=geometry.shim_inner,
-        shim_outer=geometry.shim_outer,
-        shoulder_angle_inner=geometry.shoulder_angle_inner,
-        shoulder_angle_outer=geometry.shoulder_angle_outer,
-        first_element_angle=geometry.first_element_angle,
-        running_clearance=grooves.clearance,
-        axial_rest=-geometry.aligned,
-    )
+    nominal: dict[str, Any] = {field.name: getattr(geometry, field.name) for field in dataclasses.fields(BallGeometry)}
+    grown: dict[str, Any] = {
+        "pitch_diameter": 2.0 * middle,
+        "ball_diameter": grooves.ball,
+        "conformity_inner": grooves.radii[0] / grooves.ball,
+        "conformity_outer": grooves.radii[1] / grooves.ball,
+    }
+    return RunningBallGeometry(**(nominal | grown), running_clearance=grooves.clearance, axial_rest=-geometry.aligned)
 
 
 def running_play(geometry: BallGeometry, growth: Growth) -> Play:

@@ -49,8 +49,8 @@ from ..ring_shape import (
     InnerRoundness,
     OuterRoundness,
     bending_problems,
+    moving_problems,
     said_of_bending,
-    shaped_parts,
 )
 from ..row import AbstractRow
 from ..solution import LaminaLoads, Solution
@@ -183,7 +183,7 @@ class BallBearing(AbstractMovingBearing):
     - with traction the balls slide and spin; without a `cage` every ball has its own orbital speed.
     - `outer_ring`: an outer ring that bends in its housing; `inner_ring`: an inner ring that bends on its shaft;
       `None`: it is rigid. `inner_roundness`, `outer_roundness`: raceways that are not round, standing still relative to
-      the load. A run in time of moving balls has rigid, round rings.
+      the load. Balls in motion have rigid, round rings.
     - `simulation`: what a run in time does beyond the operating point; a steady solve does not look at it.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
@@ -221,7 +221,9 @@ class BallBearing(AbstractMovingBearing):
         yield from thermal_problems(self)
         yield from supply_problems(self)
         yield from self._attitude_problems()
-        yield from self._shape_problems()
+        yield from bending_problems(self, self.operation, lambda: self.raceway_diameters[0], self.geometry.width)
+        if isinstance(self.simulation, Simulation) and self.thermal is None:
+            yield from moving_problems(self, round_races=True)
         if self.slips and self.kinematics.orbit == "common":
             yield (
                 "kinematics.orbit: 'common' is for balls that roll without sliding; with contact.traction they orbit "
@@ -242,13 +244,6 @@ class BallBearing(AbstractMovingBearing):
                 f"contact.film: {type(self.contact.film).__name__} holds for oils whose viscosity rises with pressure, "
                 "not for an isoviscous one"
             )
-
-    def _shape_problems(self) -> Iterator[str | ValueError]:
-        """Refusals of rings that bend or are not round."""
-        if isinstance(self.simulation, Simulation) and self.thermal is None:
-            for name in shaped_parts(self):
-                yield f"{name}: balls in motion have rigid, round rings in this version; leave out the simulation"
-        yield from bending_problems(self, self.operation, lambda: self.raceway_diameters[0], self.geometry.width)
 
     def _attitude_problems(self) -> Iterator[str]:
         found = self.kinematics.attitude

@@ -43,6 +43,7 @@ from ..ring_shape import (
     InnerRoundness,
     OuterRoundness,
     bending_problems,
+    moving_problems,
     said_of_bending,
     shaped_parts,
 )
@@ -82,7 +83,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     - `geometry.flange_stiffness`: the ring's axial freedom, which nothing else depends on.
     - `outer_ring`: an outer ring that bends in its housing; `inner_ring`: an inner ring that bends on its shaft;
       `None`: it is rigid. `inner_roundness`, `outer_roundness`: raceways that are not round, standing still relative to
-      the load. A run in time has rigid rings.
+      the load. Rollers and cage in motion have rigid rings.
     - `simulation`: what a run in time does beyond the operating point, a `WarmUpSimulation` with `thermal`; a steady
       solve does not look at it.
 
@@ -121,8 +122,9 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         yield from thermal_problems(self)
         yield from supply_problems(self)
         moves = isinstance(self.simulation, Simulation) and self.thermal is None
-        yield from self._shape_problems(moves)
+        yield from bending_problems(self, self.operation, lambda: self.raceway_diameters[0], self.ring_width)
         if moves:
+            yield from moving_problems(self, round_races=False)
             yield from refusals_of(check_run, self.operation)
         if self.contact is None:
             return
@@ -158,13 +160,6 @@ class CylindricalRollerBearing(AbstractMovingBearing):
                         f"contact.{name}: {type(law).__name__} holds for oils whose viscosity rises with pressure, not "
                         "for an isoviscous one; film = 'moes' and rolling_resistance = 'full_range' do"
                     )
-
-    def _shape_problems(self, moves: bool) -> Iterator[str | ValueError]:
-        """Refusals of parts that cannot be combined with rings that bend or are not round."""
-        for name in shaped_parts(self):
-            if moves and name in ("outer_ring", "inner_ring"):
-                yield f"{name}: a run in time has rigid rings in this version; leave out the simulation"
-        yield from bending_problems(self, self.operation, lambda: self.raceway_diameters[0], self.ring_width)
 
     def solve_ring(
         self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None

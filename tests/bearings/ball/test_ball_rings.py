@@ -230,8 +230,19 @@ def test_refusals():
     with pytest.raises(ValueError, match="nothing holds the ring"):
         on_housing(flat(), housing_stiffness=None)
     moving = jb.load_scene("turbine_ball_dynamic")
-    with pytest.raises(ValueError, match="inner_roundness: balls in motion"):
+    with pytest.raises(ValueError, match="inner_roundness: a run in time has rigid, round rings"):
         dataclasses.replace(moving, inner_roundness=lobes(InnerRoundness, 2, 1e-6))
+
+
+def test_width_and_wall_of_a_bearing_on_its_seats():
+    """A ring without a width takes that of the bearing, also between seats; one higher than its wall has a warning."""
+    said = lambda solution: [text for text in solution.warnings if "more than the wall" in text]
+    mounted = jb.load_scene("deep_groove_6205_fitted")
+    thin = jb.solve(on_housing(mounted, thickness=2.5e-3, width=None, harmonics=2))
+    given = jb.solve(on_housing(mounted, thickness=2.5e-3, width=15e-3, harmonics=2))
+    np.testing.assert_array_equal(thin.elements.load_inner, given.elements.load_inner)
+    assert not said(thin)
+    assert said(jb.solve(on_housing(mounted, harmonics=2)))
 
 
 def test_scene_files(tmp_path):

@@ -13,6 +13,7 @@ from ....materials import CATALOGUE, reduced_modulus
 from ....numerics.arrow import ArrowPoint
 from ....numerics.integrator import IMPLICIT
 from ....numerics.newton import NewtonOptions, newton_solve
+from ....numerics.refusals import refuse_all
 from ...cage import ASSUMED_MATERIAL
 from ...inlet import oil_of
 from ...motion.family import AbstractDynamics, Resumed, Start
@@ -21,6 +22,7 @@ from ...motion.settings import Simulation
 from ...mounted import running_scene
 from ...parts import azimuths
 from ...ring import inner_ring
+from ...ring_shape import moving_problems
 from ...solution import RING_FREEDOMS
 from ..build import build_core, build_lubricated
 from ..core import BallCore
@@ -79,11 +81,13 @@ class QuasiStatic(NamedTuple):
 
 
 def require_moving(scene: BallBearing) -> None:
-    """**Raises:** `ValueError` for a scene whose balls nothing drives, or with a thermal network."""
+    """**Raises:** `ValueError` for a scene whose balls nothing drives, with a thermal network, or whose rings bend or
+    are not round."""
     if not scene.slips:
         raise ValueError(IMMOBILE)
     if scene.thermal is not None:
         raise ValueError(NO_NETWORK)
+    refuse_all(moving_problems(scene, round_races=True))
 
 
 def free_freedoms(scene: BallBearing, simulation: Simulation) -> tuple[bool, ...]:

@@ -9,6 +9,7 @@ from jaxtyping import Array, Float, Int
 from ....gaps import CompliantPocketFace
 from ....materials import CATALOGUE, reduced_modulus
 from ....numerics.newton import NewtonOptions, newton_solve
+from ....numerics.refusals import refuse_all
 from ....numerics.status import Status
 from ...cage import ASSUMED_MATERIAL
 from ...motion.family import Resumed, Start
@@ -16,6 +17,7 @@ from ...motion.history import LastState
 from ...motion.settings import Simulation
 from ...mounted import running_scene
 from ...ring import LENGTH_UNIT
+from ...ring_shape import moving_problems
 from ..equations import LubricatedRollerSystem
 from ..scene import CylindricalRollerBearing, check_run
 from ..steady import build_system
@@ -49,11 +51,13 @@ class QuasiStatic(NamedTuple):
 
 
 def require_moving(scene: CylindricalRollerBearing) -> None:
-    """**Raises:** `ValueError` for a scene whose rollers nothing drives, or with a thermal network."""
+    """**Raises:** `ValueError` for a scene whose rollers nothing drives, with a thermal network, or whose rings
+    bend."""
     if not scene.slips:
         raise ValueError(IMMOBILE)
     if scene.thermal is not None:
         raise ValueError(NO_NETWORK)
+    refuse_all(moving_problems(scene, round_races=False))
 
 
 def build_dynamics(
