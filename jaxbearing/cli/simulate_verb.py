@@ -18,6 +18,7 @@ from .terminal import console
 
 if TYPE_CHECKING:
     from .._scene import AbstractScene
+    from ..bearings.motion.family import AbstractMovingBearing
     from ..bearings.motion.history import History, LastState
     from ..bearings.warming.history import WarmState, WarmUpHistory
     from ..ehl import LineContactHistory
@@ -107,7 +108,7 @@ def simulate(
         if warms:
             _check_warm_up(model, length, every)
         elif not film:
-            _check_instants(length or float(model.simulation.duration), every)
+            _check_motion(model, length or float(model.simulation.duration), every)
         check_files((("--plot", plot, PICTURES), ("--out", out, (".nc",)), ("--animation", animation, ANIMATIONS)))
         _check_animation(animation)
         last = None if restart is None else _last_state(restart, model, scene, length)
@@ -148,8 +149,9 @@ def simulate(
         raise typer.Exit(INTERRUPTED if history.interrupted else NOT_CONVERGED)
 
 
-def _check_instants(length: float, every: float | None) -> None:
-    from ..bearings.motion.runs import MOST_INSTANTS
+def _check_motion(model: "AbstractMovingBearing", length: float, every: float | None) -> None:
+    """Refuses a run of moving elements with too many instants, and a scene or settings that it cannot have."""
+    from ..bearings.motion.runs import MOST_INSTANTS, requested
     from ..simulate import INTERVAL
 
     if length / (every or INTERVAL) > MOST_INSTANTS:
@@ -157,6 +159,10 @@ def _check_instants(length: float, every: float | None) -> None:
             f"--duration: found {length:g} s with results every {every or INTERVAL:g} s; expected at most "
             f"{MOST_INSTANTS} results: choose a longer --interval"
         )
+    try:
+        requested(model, length, None, every or INTERVAL)
+    except ValueError as error:
+        refuse(str(error))
 
 
 def _check_warm_up(model: Any, length: float | None, every: float | None) -> None:

@@ -111,6 +111,7 @@ def test_parts_that_are_left_out_are_not_modelled(name):
     assert ("flange" in found["summary"]["power_loss"]) == (not name.startswith("no flange"))
 
 
+BENT = ("inner_ring.thickness=3 mm", "inner_ring.width=15 mm", "inner_ring.shaft_stiffness=1e9 N/m^2")
 REFUSED = {
     "without a duration": (BASE, "--duration"),
     "a bare number": ((*BASE, "--duration", "50"), "unit"),
@@ -145,6 +146,11 @@ REFUSED = {
             "simulation.speed_ramp.duration=1 ms",
         ),
         "films vanish",
+    ),
+    "balls without the mass of the ring": (("simulate", "turbine_ball", "--duration", "1 ms"), "simulation.ring_mass"),
+    "a ring that bends": (
+        ("simulate", "reference_roller", "--duration", "1 ms", *(part for ring in BENT for part in ("--set", ring))),
+        "inner_ring: a run in time has rigid rings",
     ),
 }
 
