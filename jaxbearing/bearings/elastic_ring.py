@@ -21,6 +21,7 @@ from ..mounting.bent_ring import BentRing
 from ..numerics.convex import anchored
 from ..numerics.newton import NewtonResult
 from ..numerics.status import Status
+from ..numerics.structure import switch
 from .ring import ANCHOR, LENGTH_UNIT, InnerRing
 from .ring_deflection import AbstractRingDeflection, InnerRingDeflection, RingDeflection
 from .ring_shape import AbstractBendingRing
@@ -45,7 +46,7 @@ class ElasticRing(eqx.Module):
 
     ring: BentRing
     shapes: Float[Array, "mode element"]
-    inner: bool = eqx.field(static=True, default=False)
+    inner: bool = switch("inner", False)
 
     @property
     def equation(self) -> str:
