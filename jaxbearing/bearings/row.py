@@ -18,7 +18,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..numerics.arrow import ArrowJacobian, ArrowPoint, condensed, linearize, schur_complement, seen_by_elements
-from ..numerics.convex import AbstractConvexArrow, descend_settled, settled
+from ..numerics.convex import AbstractConvexArrow, descend_settled, settle, settled
 from ..numerics.small_linear import solve_blocks, solve_dense
 from .ring import LENGTH_UNIT, InnerRing, levers, shift_matrix
 from .rings import AbstractBetweenRings
@@ -110,7 +110,10 @@ def settled_row(held: AbstractRowSystem, full: AbstractRowSystem, state: RowStat
     - `full`: with all five freedoms of the ring, which begin the globals.
     - `state`: first guess.
     """
-    if state.amplitudes is not None:
+    # the search with the ring held has fewer derivatives than one with the five freedoms
+    if state.amplitudes is None:
+        state = RowState(settle(held, ArrowPoint(state.elements, jnp.zeros(0))).elements)
+    else:
         guess = ArrowPoint(state.elements, state.amplitudes)
         bent = descend_settled(held, guess, tolerance=BENDING_TOLERANCE, trials=BENDING_TRIALS).point
         state = RowState(bent.elements, bent.globals)
@@ -126,7 +129,7 @@ def settled_row(held: AbstractRowSystem, full: AbstractRowSystem, state: RowStat
     stiffness = stiffness * (scale / LENGTH_UNIT) * arm[:, None] * arm[None, :]
     shift = jnp.eye(5) if ring.distance is None else shift_matrix(ring.distance)
     force = _at_port(full, ring, residual)
-    return HeldRow(energy, force, shift.T @ stiffness @ shift, state._replace(elements=found.point.elements))
+    return HeldRow(energy, force, shift.T @ stiffness @ shift, state)
 
 
 def settled_force(ring: InnerRing, full: AbstractRowSystem, state: RowState) -> Float[Array, "5"]:

@@ -212,22 +212,20 @@ def settle(system: AbstractConvexArrow, point: ArrowPoint) -> ArrowPoint:
 
 
 class Settled(NamedTuple):
-    """All elements at their minima for given globals: the point, the sum of the energies, the residuals of the globals,
-    and the Schur complement, their derivatives."""
+    """All elements at their minima for given globals: the sum of the energies, the residuals of the globals, and the
+    Schur complement, their derivatives."""
 
-    point: ArrowPoint
     energy: Float[Array, ""]
     residual: Float[Array, " g"]
     stiffness: Float[Array, "g g"]
 
 
 def settled(system: AbstractConvexArrow, point: ArrowPoint) -> Settled:
-    """The system with all elements at their minima for the globals of `point`."""
+    """The system at a point with all elements at their minima, as `settle` or `descend_settled` leaves them."""
     system, point = jax.lax.stop_gradient((system, point))
-    point = settle(system, point)
     values, tangents, energies = _tangents(system, point.elements, seen_by_elements(system, point))
     equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
-    return Settled(point, jnp.sum(energies), equations.residual.globals, eliminated(jacobian)[1])
+    return Settled(jnp.sum(energies), equations.residual.globals, eliminated(jacobian)[1])
 
 
 def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, trials: int) -> Descent:

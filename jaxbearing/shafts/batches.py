@@ -75,6 +75,20 @@ class AbstractBatch(eqx.Module):
         """The forces of `hold`, with first derivatives. **Arguments:** `state`: none of bearings without elements."""
 
 
+def spread(batches: tuple[AbstractBatch, ...], parts: list[Array], count: int) -> Array:
+    """Joins the arrays of the batches to one array in the order of the bearings, with zeros for those in no batch.
+
+    **Arguments:** `count`: of all bearings of the system.
+    """
+    together = jnp.concatenate(parts)
+    order = [place for batch in batches for place in batch.places]
+    if len(order) < count:
+        together = jnp.concatenate([together, jnp.zeros_like(together[:1])])
+        order += [place for place in range(count) if place not in order]
+    last = together.shape[0] - 1
+    return together[jnp.asarray([min(order.index(place), last) for place in range(count)])]
+
+
 class RollingBatch(AbstractBatch):
     """Bearings with rolling elements: `scene` is a stack of scenes.
 

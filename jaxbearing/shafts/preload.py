@@ -14,10 +14,9 @@ from jaxtyping import Array, Bool, Float, Int
 from ..bearings.row import RowState
 from ..numerics.once import once
 from .balance import Spring
-from .batches import AbstractBatch
+from .batches import AbstractBatch, spread
 from .mounting import Preload
 from .scene import Place, ShaftSystem
-from .search import _spread
 
 FIRST_TRIAL = 5e-5
 """First axial displacement that is tried, m."""
@@ -34,14 +33,16 @@ EXPONENT = 2.0 / 3.0
 
 
 class Rest(NamedTuple):
-    """All bearings of a system at rest, without expansion by growth, displaced along their axes alone."""
+    """Bearings of preloaded sets at rest, without expansion by growth, displaced along their axes alone."""
 
     batches: tuple[AbstractBatch, ...]
     rows: list[Any]
 
 
-def at_rest(batches: tuple[AbstractBatch, ...], count: int) -> Rest:
-    return Rest(batches, [batch.rows(jnp.zeros(count), at_rest=True) for batch in batches])
+def at_rest(batches: tuple[AbstractBatch, ...], preloaded: np.ndarray) -> Rest:
+    """The batches that have a bearing of a preloaded set. **Arguments:** `preloaded`: whether each bearing is one."""
+    own = tuple(batch for batch in batches if np.any(preloaded[batch.index]))
+    return Rest(own, [batch.rows(jnp.zeros(len(preloaded)), at_rest=True) for batch in own])
 
 
 def _displacements(axial: Float[Array, " bearing"]) -> Float[Array, "bearing 5"]:
@@ -49,7 +50,7 @@ def _displacements(axial: Float[Array, " bearing"]) -> Float[Array, "bearing 5"]
 
 
 class _Held(NamedTuple):
-    """Axial forces, N, axial stiffness, N/m, and the states of the rows by batch."""
+    """Axial forces, N, and axial stiffness, N/m, 0 of bearings without a row in `Rest`; states of the rows by batch."""
 
     force: Float[Array, " bearing"]
     slope: Float[Array, " bearing"]
@@ -58,13 +59,13 @@ class _Held(NamedTuple):
 
 @once
 def _held(rest: Rest, axial: Float[Array, " bearing"]) -> _Held:
-    """All bearings held; not differentiated."""
+    """The bearings held; not differentiated."""
     displacement = _displacements(axial)
     found = []
     for batch, rows in zip(rest.batches, rest.rows, strict=True):
         own = displacement[batch.index]
         found.append(batch.hold(rows, own, batch.initial(rows, own)))
-    of = lambda get: _spread(rest.batches, [get(one) for one in found])
+    of = lambda get: spread(rest.batches, [get(one) for one in found], len(axial))
     states = [one.state for one in found]
     return _Held(of(lambda one: one.force[:, 0]), of(lambda one: one.stiffness[:, 0, 0]), states)
 
@@ -80,7 +81,7 @@ def axial_forces(rest: Rest, axial: Float[Array, " bearing"], states: list[RowSt
         batch.force_at(rows, displacement[batch.index], own)[:, 0]
         for batch, rows, own in zip(rest.batches, rest.rows, states, strict=True)
     ]
-    return _spread(rest.batches, parts)
+    return spread(rest.batches, parts, len(axial))
 
 
 class _Search(NamedTuple):
@@ -129,7 +130,7 @@ def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearin
 
     none = jnp.zeros(len(groups))
     first = _Search(
-        none + FIRST_TRIAL, none - FIRST_TRIAL, none + jnp.inf, jnp.asarray(0), none > 0, _nothing(fixed[0])
+        none + FIRST_TRIAL, none - FIRST_TRIAL, none + jnp.inf, jnp.asarray(0), none > 0, _nothing(fixed[0], additional)
     )
     going = lambda state: (state.trials < TRIALS) & ~jnp.all(state.done)
     end = jax.lax.while_loop(going, look, first)
@@ -168,7 +169,8 @@ def mount(system: ShaftSystem, places: tuple[Place, ...], batches: tuple[Abstrac
     sets = [(number, one.name, one.preload) for number, one in enumerate(system.sets) if one.preload is not None]
     if not sets:
         return Mounted(closure, (), {}, {}, {}, {})
-    rest = at_rest(batches, len(places))
+    preloaded = np.asarray([place.set_index in {number for number, _, _ in sets} for place in places])
+    rest = at_rest(batches, preloaded)
     travel = _travels(rest, places, sets, closure)
     springs: list[Spring] = []
     closures: dict[str, Array] = {}
@@ -237,7 +239,7 @@ def _mounted(
 
     going = lambda state: (state[1] > BALANCED) & (state[2] < TRIALS)
     none = jnp.zeros(len(sets))
-    begin = (none, jnp.asarray(jnp.inf), jnp.asarray(0), _nothing(fixed[0]))
+    begin = (none, jnp.asarray(jnp.inf), jnp.asarray(0), _nothing(fixed[0], closure))
     place, _, _, held = jax.lax.while_loop(going, look, begin)
     slope = jnp.maximum((first + second) @ held.slope, 1.0)
     place = place - signs @ axial_forces(rest, closure + signs.T @ place, held.states) / slope
@@ -250,7 +252,6 @@ def _mounted(
     return dict(zip(sets, mounted, strict=True)), dict(zip(sets, loss, strict=True))
 
 
-def _nothing(rest: Rest) -> _Held:
-    """Zeros, to begin a loop with."""
-    count = sum(len(batch.places) for batch in rest.batches)
-    return _held(rest, jnp.zeros(count), when=jnp.asarray(False))
+def _nothing(rest: Rest, axial: Float[Array, " bearing"]) -> _Held:
+    """Zeros, to begin a loop with. **Arguments:** `axial`: any displacements."""
+    return _held(rest, jnp.zeros_like(axial), when=jnp.asarray(False))

@@ -27,7 +27,7 @@ from ..numerics.newton import NewtonOptions
 from ..numerics.once import once
 from ..numerics.status import Status
 from .balance import Balance
-from .batches import AbstractBatch, LinearBatch, RollingBatch, solutions
+from .batches import AbstractBatch, LinearBatch, RollingBatch, solutions, spread
 
 START_TOLERANCE = 1e-5
 """Tolerance of the first stage for the residual, relative to the size of the loads."""
@@ -77,13 +77,6 @@ class Problem(eqx.Module):
     expansion: Float[Array, " bearing"]
 
 
-def _spread(batches: tuple[AbstractBatch, ...], parts: list[Array]) -> Array:
-    """Joins the arrays of the batches to one array, in the order of the bearings."""
-    together = jnp.concatenate(parts)
-    order = [place for batch in batches for place in batch.places]
-    return together[jnp.asarray([order.index(place) for place in range(len(order))])]
-
-
 class _Ports(NamedTuple):
     """Energies, forces and stiffnesses of all bearings under held rings, each in the frame of its bearing. `states`: of
     the rows, with which the next trial starts."""
@@ -100,7 +93,7 @@ def _held(problem: Problem, rows: list[Any], displacement: Float[Array, "bearing
         batch.hold(row, displacement[batch.index], own)
         for batch, row, own in zip(problem.batches, rows, states, strict=True)
     ]
-    of = lambda name: _spread(problem.batches, [getattr(one, name) for one in found])
+    of = lambda name: spread(problem.batches, [getattr(one, name) for one in found], problem.balance.count)
     return _Ports(of("energy"), of("force"), of("stiffness"), [one.state for one in found])
 
 
@@ -120,7 +113,8 @@ def ports(
             assert isinstance(batch, LinearBatch)
             forces.append(batch.force_at(None, own, None))
             stiffness.append(batch.stiffness)
-    return _spread(problem.batches, forces), _spread(problem.batches, stiffness), good
+    of = lambda parts: spread(problem.batches, parts, problem.balance.count)
+    return of(forces), of(stiffness), good
 
 
 class Start(NamedTuple):

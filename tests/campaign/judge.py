@@ -21,7 +21,7 @@ FINER_STEPS = (1e-7, 1e-6)
 HONEST = (Status.NOT_CONVERGED, Status.DIVERGED, Status.NO_EQUILIBRIUM, Status.OUTSIDE_VALIDITY)
 HIDDEN = (
     *("elements.", "ring.", "cage.", "power_loss.", "boundary_power.", "rolling_by_race.", "supply.", "stiffness"),
-    *("film", "profile.pressure", "traction_coefficient", "outer_ring."),
+    *("film", "profile.pressure", "traction_coefficient", "outer_ring.", "inner_ring."),
 )
 """How the paths of results begin that a solve that failed must not show."""
 
