@@ -1,6 +1,11 @@
 """What tests of rings that bend, or that are not round, have in common."""
 
+from collections.abc import Callable
+
+import jax
+import jax.numpy as jnp
 import numpy as np
+from jax import Array
 
 import jaxbearing as jb
 from jaxbearing.bearings.bearing import AbstractBearing
@@ -55,3 +60,19 @@ def check_no_harmonics(rigid, none, name):
     np.testing.assert_array_equal(rigid.elements.load_inner, none.elements.load_inner)
     assert rigid.unknowns == none.unknowns
     assert getattr(none, name) is None
+
+
+def check_derivatives(result: Callable[..., Array], at: tuple[float, ...], rtol: float = 1e-6, forward: bool = True):
+    """Derivatives in reverse mode agree with central differences, and those in forward mode with these.
+
+    **Arguments:** `result`: a number, of as many arguments as `at` has; `rtol`: of differences; `forward`: whether that
+    mode is checked.
+    """
+    numbers, every = tuple(map(jnp.asarray, at)), tuple(range(len(at)))
+    solved, backward = jax.jit(result), jax.jit(jax.grad(result, argnums=every))(*numbers)
+    for place, (slope, step) in enumerate(zip(backward, 1e-4 * np.asarray(at), strict=True)):
+        moved = (numbers[place] + step, numbers[place] - step)
+        high, low = (solved(*numbers[:place], one, *numbers[place + 1 :]) for one in moved)
+        np.testing.assert_allclose(slope, (high - low) / (2.0 * step), rtol=rtol)
+    if forward:
+        np.testing.assert_allclose(jax.jit(jax.jacfwd(result, argnums=every))(*numbers), backward, rtol=1e-9)
