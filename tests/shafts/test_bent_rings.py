@@ -41,7 +41,8 @@ def test_force_and_stiffness_are_derivatives_of_the_energy(family, ring):
     force, stiffness = np.asarray(found.force), np.asarray(found.stiffness)
     unit = np.sqrt(np.maximum(np.diag(stiffness), 1e-300))
     size = np.max(np.abs(force / unit))
-    for place, step in enumerate([1e-8, 1e-8, 1e-8, 1e-6, 1e-6]):
+    # a ball of the bearing with four contacts is so near an arc that steps ten times as long see it touch
+    for place, step in enumerate([1e-9, 1e-9, 1e-9, 1e-7, 1e-7]):
         moved = step * np.eye(5)[place]
         high, low = hold(at + moved, found.state), hold(at - moved, found.state)
         slope = (high.energy - low.energy) / (2.0 * step)
