@@ -1,9 +1,11 @@
 """Outputs of shafts: screen, JSON, data set, page, pictures, stiffness over speed, rotors for ROSS."""
 
+import dataclasses
 import io
 import json
 from datetime import UTC, datetime
 
+import jax.numpy as jnp
 import numpy as np
 import pytest
 import xarray as xr
@@ -12,11 +14,13 @@ from rich.console import Console
 
 import jaxbearing as jb
 from jaxbearing.report.dataset import solution_to_dataset, write_netcdf
+from jaxbearing.report.display import digits
 from jaxbearing.report.html_report import html_report
 from jaxbearing.report.json_report import solution_to_dict
 from jaxbearing.report.plots import plot_solution, save_plot
 from jaxbearing.report.shaft.bending import bending_line, cut_loads
 from jaxbearing.report.shaft.drawn import svg
+from jaxbearing.report.shaft.facts import life_facts
 from jaxbearing.report.shaft.modes import natural_frequencies
 from jaxbearing.report.shaft.picture import Area, Pointer, pictures
 from jaxbearing.report.shaft.ross import ross_rotor, write_ross_rotor
@@ -63,6 +67,30 @@ def test_screen(filled):
     ]
     for name in ("axial", "radial", "moment", "Q max", "L10r", "System life", "Deflection", "Torques"):
         assert name in text
+
+
+def test_lives_safety_and_lubrication(filled):
+    """A line each with the numbers of all bearings that have one."""
+    lives = [one.life for one in filled.bearings.values()]
+    one, two = (
+        dataclasses.replace(life, viscosity_ratio=kappa, Lnmr_hours=hours)
+        for life, kappa, hours in zip(lives, (jnp.asarray(0.4321), None), (jnp.asarray(2e4), None), strict=True)
+    )
+    bearings = dict(zip(filled.bearings, map(_with_life, filled.bearings.values(), (one, two)), strict=True))
+    told = dict(life_facts(dataclasses.replace(filled, bearings=bearings)))
+    names = list(filled.bearings)
+    assert told["kappa"] == f"{names[0]} 0.432"
+    assert told["Lnmr"] == f"{names[0]} 20000 h"
+    assert told["Static C0/P0"] == ", ".join(
+        f"{name} {digits(float(life.static_capacity / life.static_load), 3)}"
+        for name, life in zip(names, (one, two), strict=True)
+    )
+    assert list(told)[-1] == "System life"
+    assert told["Static C0/P0"] in " ".join(screen(print_summary, filled, "a shaft").split())
+
+
+def _with_life(one, life):
+    return dataclasses.replace(one, life=life)
 
 
 def test_json_has_the_names_of_the_interface(filled):

@@ -14,6 +14,14 @@ from .bending import bending_line
 
 NAMES = "bearing\n"
 """Heading of the names of bearings."""
+_LIFE_NUMBERS = (
+    ("L10r", "L10r_hours", 4, " h"),
+    ("Lnmr", "Lnmr_hours", 4, " h"),
+    ("Static C0/P0", "static_safety", 3, ""),
+    ("Static, contact", "contact_static_safety", 3, ""),
+    ("kappa", "viscosity_ratio", 3, ""),
+)
+"""Title, field of a `Life`, significant digits, unit."""
 _LEAST_MOVE = 1e-13
 """Displacements, m, and tilts, rad, up to which they are shown as 0: round-off."""
 CARRIES = 1e-3
@@ -87,11 +95,19 @@ def _power_of_ten(value: float) -> str:
     return f"{value:.2e}".replace("e+0", "e").replace("e+", "e")
 
 
-def hours_fact(solution: ShaftSolution) -> str:
-    """Life of each bearing in hours; "" without one."""
+def life_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
+    """Name and text of what is known of the lives of the bearings, their static safety and lubrication, and of the life
+    of the system."""
     lives = {name: one.life for name, one in solution.bearings.items() if one.life is not None}
-    hours = {name: number(life.L10r_hours) for name, life in lives.items()}
-    return ", ".join(f"{name} {digits(value)} h" for name, value in hours.items() if value is not None)
+    for words, attribute, significant, unit in _LIFE_NUMBERS:
+        known = {name: number(getattr(life, attribute)) for name, life in lives.items()}
+        said = ", ".join(
+            f"{name} {digits(value, significant)}{unit}" for name, value in known.items() if value is not None
+        )
+        if said:
+            yield words, said
+    if life_fact(solution):
+        yield "System life", life_fact(solution)
 
 
 def loss_of(one: BearingOnShaft) -> float | None:

@@ -15,7 +15,7 @@ from ..backends.screen import (
     print_warnings,
 )
 from ..display import digits
-from .facts import NAMES, bearing_columns, hours_fact, life_fact, set_facts, shaft_facts, shaft_warnings
+from .facts import NAMES, bearing_columns, life_facts, set_facts, shaft_facts, shaft_warnings
 
 
 def print_summary(solution: ShaftSolution, scene_label: str, console: Console, full: bool = False) -> None:
@@ -52,12 +52,8 @@ def _print_bearings(solution: ShaftSolution, console: Console) -> None:
     print_line("", "Forces of the bearings on the shaft; azimuths from Y in the sense of rotation.", console, 0)
     for name, text in set_facts(solution):
         print_line(name, text, console)
-    hours = hours_fact(solution)
-    if hours:
-        print_line("L10r", hours, console)
-    life = life_fact(solution)
-    if life:
-        print_line("System life", life, console)
+    for name, text in life_facts(solution):
+        print_line(name, text, console)
 
 
 def _print_duty(duty: DutyResult, console: Console) -> None:
