@@ -4,9 +4,12 @@ A law is a formula that maps numbers to a number. Its arguments may be arrays th
 `jax.vmap` makes batches too.
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from jaxtyping import Array, ArrayLike, Float
+
+Tree = TypeVar("Tree")
+"""A pytree; where a function takes and returns it, the result has the same structure."""
 
 if TYPE_CHECKING:  # static checkers know neither shapes nor that a Python float has jax's operators
     Scalar = Values = Any

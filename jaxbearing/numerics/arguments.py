@@ -2,7 +2,6 @@
 
 import difflib
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 
@@ -52,7 +51,7 @@ def _judged(name: str, value: object) -> np.ndarray:
     return numbers
 
 
-def require_numbers(bound: str, **values: Any) -> None:
+def require_numbers(bound: str, **values: object) -> None:
     """Checks that each value is a number, or an array of numbers, within a bound. NaN passes, because a failed solve
     returns it, and so do traced values.
 

@@ -12,10 +12,11 @@ from typing import Any, TypeVar
 import equinox as eqx
 import jax
 
+Given = TypeVar("Given")
 Result = TypeVar("Result")
 
 
-def in_turn(search: Callable[[Any], Result], given: Any) -> Result:
+def in_turn(search: Callable[[Given], Result], given: Given) -> Result:
     """`search(given)`; if it is batched on a CPU, one lane after the other.
 
     **Arguments:** `search`: function from a pytree to a pytree of arrays that closes over no traced value; `given`: all

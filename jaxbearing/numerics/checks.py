@@ -18,6 +18,7 @@ import numpy as np
 from jax.core import Tracer
 from jaxtyping import Array, Bool
 
+from .._types import Tree
 from .gates import derivatives_if
 from .precision import as_float
 from .ranges import RANGES, Interval
@@ -34,9 +35,9 @@ class _Record:
     def __init__(self) -> None:
         self.path = ""
         """Dotted path of the part that is being checked."""
-        self.numbers: dict[str, tuple[Any, Interval]] = {}
+        self.numbers: dict[str, tuple[Tracer, Interval]] = {}
         """Check of one number in words -> the number and its allowed values."""
-        self.rules: dict[str, Any] = {}
+        self.rules: dict[str, Array] = {}
         """Rule about several numbers in words -> True where it holds."""
 
 
@@ -100,7 +101,7 @@ class Checked(eqx.Module):
         require(part, **checks)
 
 
-def _is_number(value: Any) -> bool:
+def _is_number(value: object) -> bool:
     return isinstance(value, int | float | np.generic | np.ndarray | jax.Array | Tracer)
 
 
@@ -116,7 +117,7 @@ def known(*values: Any) -> tuple[float, ...] | None:
     return tuple(float(v) for v in values)
 
 
-def array_module(*values: Any) -> Any:
+def array_module(*values: object) -> Any:
     """The module whose functions take these values: `jax.numpy` if one is traced, else `numpy`. Rules that need a sine
     or a root call it."""
     return jnp if any(isinstance(value, Tracer) for value in values) else np
@@ -217,13 +218,13 @@ def check_inputs(scene: Any) -> InputChecks:
     return InputChecks((*record.numbers, *record.rules), flags, ~jnp.any(flags))
 
 
-def nan_unless(tree: Any, valid: Bool[Array, ""]) -> Any:
+def nan_unless(tree: Tree, valid: Bool[Array, ""]) -> Tree:
     """Replaces every number of the tree by NaN if the inputs are not valid. Newton's iteration ends at a NaN at
     once."""
     return jax.tree.map(lambda leaf: jnp.where(valid, as_float(leaf), jnp.nan), tree)
 
 
-def gate(tree: Any, valid: Bool[Array, ""]) -> Any:
+def gate(tree: Tree, valid: Bool[Array, ""]) -> Tree:
     """Returns the tree with the same values. If the inputs are not valid, the derivatives with respect to its traced
     numbers are 0."""
     traced, others = eqx.partition(tree, lambda leaf: isinstance(leaf, Tracer))

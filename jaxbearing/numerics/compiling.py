@@ -2,7 +2,7 @@
 
 import functools
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 import equinox as eqx
 import jax
@@ -11,6 +11,8 @@ from jax.core import Tracer
 
 from .garbage import rare_garbage_collection
 
+Given = ParamSpec("Given")
+Result = TypeVar("Result")
 IDLE_PASSES = (
     "reshape-mover",
     "simplify-while-loops",
@@ -76,7 +78,7 @@ def require_outside(verb: str, instead: str, *values: Any) -> None:
         raise ValueError(f"{verb} was called inside of jit, vmap or grad, which it cannot be part of: {instead}")
 
 
-def compiled_by_hand(function: Callable[..., Any]) -> Callable[..., Any]:
+def compiled_by_hand(function: Callable[Given, Result]) -> Callable[Given, Result]:
     """Compiles a law that has a loop inside, once for each shape of its arguments.
 
     Without this, JAX would compile the loop at every call from Python. Plain numbers become arrays. Calls inside a
@@ -87,7 +89,7 @@ def compiled_by_hand(function: Callable[..., Any]) -> Callable[..., Any]:
         return np.float64(leaf) if isinstance(leaf, int | float) and not isinstance(leaf, bool) else leaf
 
     @functools.wraps(function)
-    def call(*args: Any, **kwargs: Any) -> Any:
+    def call(*args: Given.args, **kwargs: Given.kwargs) -> Result:
         if is_tracing():
             return function(*args, **kwargs)
         args, kwargs = jax.tree.map(number, (args, kwargs))
@@ -96,16 +98,16 @@ def compiled_by_hand(function: Callable[..., Any]) -> Callable[..., Any]:
     return call
 
 
-def quickly_compiled(function: Callable[..., Any]) -> Callable[..., Any]:
+def quickly_compiled(function: Callable[Given, Result]) -> Callable[Given, Result]:
     """`equinox.filter_jit(function)` with the quick options on a CPU. It must not be called `inside_a_program`."""
     ordinary = eqx.filter_jit(function)
 
     @functools.cache
-    def quick() -> Callable[..., Any]:
+    def quick() -> Callable[Given, Result]:
         return eqx.filter_jit(function, compiler_options=quick_options())  # pyright: ignore[reportCallIssue]
 
     @rare_garbage_collection()
-    def call(*args: Any, **kwargs: Any) -> Any:
+    def call(*args: Given.args, **kwargs: Given.kwargs) -> Result:
         chosen = quick() if jax.default_backend() == "cpu" else ordinary
         return chosen(*args, **kwargs)
 

@@ -22,6 +22,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
+from .._types import Tree
 from .arrow import (
     AbstractArrowSystem,
     ArrowJacobian,
@@ -121,9 +122,9 @@ class _Search(NamedTuple):
 
 
 def _descent(
-    look: Callable[[Any], tuple[Any, _View]],
-    step: Callable[[_View, Array], tuple[Any, Array]],
-    start: Any,
+    look: Callable[[Tree], tuple[Tree, _View]],
+    step: Callable[[_View, Array], tuple[Tree, Array]],
+    start: Tree,
     tolerance: float,
     most: int,
 ) -> _Search:

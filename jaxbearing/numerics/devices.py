@@ -1,16 +1,17 @@
 """Distribution of the lanes of a batch over the devices of this process."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
 import jax
 from jax.core import Tracer
 from jax.sharding import PartitionSpec
 
 AXIS = "lane"
+Result = TypeVar("Result")
 
 
-def shared_out(run: Callable[..., Any]) -> Callable[..., Any]:
+def shared_out(run: Callable[..., Result]) -> Callable[..., Result]:
     """The function, run by each device for its part of the lanes.
 
     It is used inside of `jax.jit`, if `may_be_shared_out` is True for the arguments of the outermost call. On a CPU,
@@ -24,7 +25,7 @@ def shared_out(run: Callable[..., Any]) -> Callable[..., Any]:
     multiple of the number of devices.
     """
 
-    def split(lanes: Any, *shared: Any) -> Any:
+    def split(lanes: Any, *shared: Any) -> Result:
         devices = jax.local_devices()
         if len(devices) == 1 or jax.tree.leaves(lanes)[0].shape[0] % len(devices):
             return run(lanes, *shared)

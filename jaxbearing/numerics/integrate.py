@@ -10,6 +10,7 @@ A run consists of segments (`integrate_segment`). Between two of them the caller
 stop.
 """
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import diffrax as dfx
@@ -29,7 +30,7 @@ from .remembering import Memory, Remembering
 from .status import Status
 from .switching import Switching
 
-_CLASSES: dict[str, Any] = {
+_CLASSES: dict[str, Callable[..., dfx.AbstractAdaptiveSolver]] = {
     "tsit5": dfx.Tsit5,
     "dopri8": dfx.Dopri8,
     "kvaerno3": dfx.Kvaerno3,
@@ -64,7 +65,7 @@ class NoisyChord(dfx.VeryChord):
         return ended | settled, optx.RESULTS.where(settled, optx.RESULTS.successful, result)
 
 
-def diffrax_solver(options: IntegratorOptions, idle: int = 0, noise: float = 0.0) -> Any:
+def diffrax_solver(options: IntegratorOptions, idle: int = 0, noise: float = 0.0) -> dfx.AbstractAdaptiveSolver:
     """The solver of diffrax for a name of `SOLVERS`.
 
     **Arguments:** `idle`: see `lineax_solver.BlockArrow`; `noise`: see `NoisyChord`, in units of the tolerance.
@@ -86,12 +87,12 @@ class _Problem(NamedTuple):
     """Problem for diffrax: vector field, solver, state, arguments, norm of an error, and `proper`, the function that
     takes the state of the run from that of the solver."""
 
-    field: Any
-    solver: Any
+    field: Callable[[Any, Any, Any], Any]
+    solver: dfx.AbstractAdaptiveSolver
     state: Any
     args: Any
-    norm: Any
-    proper: Any
+    norm: Callable[[Any], Array]
+    proper: Callable[[Any], ArrowPoint]
 
 
 def _problem(
@@ -148,7 +149,7 @@ def _kept_problem(
         plain = eqx.filter_jit(field)
         rates = lambda t, y, a, found: (plain(t, y, a[0]), found)
         guess = lambda t, y, a: ()
-    solver: Any = KeptJacobian(
+    solver = KeptJacobian(
         method=_CLASSES[options.solver](),
         rates=rates,
         guess=guess,
@@ -170,7 +171,7 @@ def integrate_segment(
     args: Any,
     options: IntegratorOptions,
     first_step: Float[Array, ""] | None = None,
-    adjoint: Any = None,
+    adjoint: dfx.AbstractAdjoint | None = None,
     idle: int = 0,
 ) -> Segment:
     """Integrates from `start` to the last of `times`; a run that fails has a status and raises no exception.
@@ -209,7 +210,7 @@ def integrate_segment(
         stepsize_controller=control,
         max_steps=options.max_steps,
         throw=False,
-        **({} if adjoint is None else {"adjoint": adjoint}),
+        adjoint=dfx.RecursiveCheckpointAdjoint() if adjoint is None else adjoint,
     )
     # what is asked for is there
     saved: Any = found.ys
@@ -228,7 +229,7 @@ def integrate_segment(
     )
 
 
-def _status(result: Any, last: ArrowPoint, done: Bool[Array, ""]) -> Int[Array, ""]:
+def _status(result: dfx.RESULTS, last: ArrowPoint, done: Bool[Array, ""]) -> Int[Array, ""]:
     """Status of a run: not converged if steps ran out, diverged if they became too short or a state is not finite.
 
     **Arguments:** `done`: True if the run reached its last time. If round-off leaves a step below the limit up to

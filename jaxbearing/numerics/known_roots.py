@@ -5,12 +5,14 @@ the searches; in a block of `known_roots` it takes the root that was noted and d
 """
 
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import jax
+
+Root = TypeVar("Root")
 
 
 class _Roots(NamedTuple):
@@ -31,7 +33,7 @@ def recorded_roots() -> Iterator[list[Any]]:
 
 
 @contextmanager
-def known_roots(roots: Any, stiffness: bool = True) -> Iterator[None]:
+def known_roots(roots: Iterable[Any], stiffness: bool = True) -> Iterator[None]:
     """For a block that is traced: its searches take these roots, which `recorded_roots` noted in the same block.
 
     **Arguments:** `stiffness`: whether what is computed from a Jacobian, as the stiffness, is differentiated; its
@@ -63,7 +65,7 @@ def _set(roots: _Roots | None) -> Iterator[None]:
         _ROOTS.reset(token)
 
 
-def at_known_root(search: Callable[[], Any], known: Callable[[Any, bool], Any]) -> Any:
+def at_known_root(search: Callable[[], Root], known: Callable[[Root, bool], Root]) -> Root:
     """The root of a search.
 
     **Arguments:** `search`: finds it; `known`: the same with its derivatives, from the root that was noted and

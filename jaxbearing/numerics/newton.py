@@ -7,13 +7,14 @@ first try fails.
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
+from .._types import Tree
 from .arrow import (
     AbstractArrowSystem,
     ArrowJacobian,
@@ -183,7 +184,7 @@ def _known_root_jvp(primals, tangents, *, root: _Root, stiffness: bool):
     return _implicit(system, system_dot, _known_root(system, root=root, stiffness=True), stiffness)
 
 
-def _implicit(system: Any, system_dot: Any, root: _Root, stiffness: bool = True) -> tuple[_Root, _Root]:
+def _implicit(system: System, system_dot: System, root: _Root, stiffness: bool = True) -> tuple[_Root, _Root]:
     """A root and its directional derivative, by the implicit function theorem. Without `stiffness` the derivative of
     the Jacobian is NaN."""
     # Both the incoming and the outgoing tangent of a failed lane are set to 0. Otherwise NaN times 0 would reach
@@ -201,7 +202,7 @@ def _implicit(system: Any, system_dot: Any, root: _Root, stiffness: bool = True)
     return root, _Root(point_dot, jax.tree.map(select, jacobian_dot), *rest)
 
 
-def _directional(function: Callable, primals: tuple, tangents: tuple) -> Any:
+def _directional(function: Callable[..., Tree], primals: tuple, tangents: tuple) -> Tree:
     """Directional derivative of a function of pytrees. Outputs that do not depend on the direction get zeros, not
     `None`."""
     values, dots = eqx.filter_jvp(function, primals, tangents)

@@ -2,7 +2,7 @@
 
 import functools
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import equinox as eqx
 import jax
@@ -10,15 +10,17 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool
 
+Result = TypeVar("Result")
+
 
 class _Shape(NamedTuple):
     """Structure of a result, with shape and type of each of its arrays."""
 
     structure: Any
-    arrays: tuple[tuple[tuple[int, ...], Any], ...]
+    arrays: tuple[tuple[tuple[int, ...], np.dtype], ...]
 
 
-def once(function: Callable[..., Any]) -> Callable[..., Any]:
+def once(function: Callable[..., Result]) -> Callable[..., Result]:
     """The function under a `jax.jit` of its own, whose result is one array.
 
     A call of which only a part of the result is used would become a function of its own in the program, because JAX
@@ -38,7 +40,7 @@ def once(function: Callable[..., Any]) -> Callable[..., Any]:
         return flat, _Shape(structure, tuple((leaf.shape, leaf.dtype) for leaf in leaves))
 
     @functools.wraps(function)
-    def call(*args: Any, when: Bool[Array, ""] | None = None) -> Any:
+    def call(*args: Any, when: Bool[Array, ""] | None = None) -> Result:
         if when is None:
             flat, shape = packed(args)
         else:

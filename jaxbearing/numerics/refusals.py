@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any
 
 
 class Refusals(ValueError):
@@ -58,7 +57,7 @@ def refuse_all(problems: Iterable[str | ValueError]) -> None:
         raise Refusals(errors.values())
 
 
-def refusals_of(check: Callable[..., Any], *args: Any) -> Iterator[ValueError]:
+def refusals_of(check: Callable[..., object], *args: object) -> Iterator[ValueError]:
     """The problems that a check raises, one by one."""
     try:
         check(*args)

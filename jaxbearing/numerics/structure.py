@@ -6,7 +6,7 @@ They are never traced; another value compiles another program.
 import dataclasses
 import math
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import Any, TypeVar
 
 import equinox as eqx
 import jax
@@ -16,6 +16,7 @@ from jax.core import Tracer
 from .arguments import require_choice
 from .ranges import RANGES
 
+Kind = TypeVar("Kind", int, float, bool)
 _WORDS = {int: "a whole number", float: "one finite number", bool: "True or False"}
 
 
@@ -30,7 +31,7 @@ def count(
     """Static field that holds a whole number from `least` to `most`. Without `least` it is at least 0 if `most` is
     given; without both it may be negative. Messages call the field `name`. `None` passes if it is the default."""
 
-    def read(value: Any) -> int:
+    def read(value: object) -> int:
         number = static_count(name, value, least if most is None else None)
         if most is not None and not (least or 0) <= number <= most:
             raise ValueError(f"{name} must be from {least or 0} to {most}, got {number}")
@@ -51,7 +52,7 @@ def constant(
     is given, it is also one of these numbers. Messages call the field `name`. `None` passes if it is the default."""
     numbers = None if among is None else tuple(among)
 
-    def read(value: Any) -> float:
+    def read(value: object) -> float:
         number = static_number(name, value, float)
         if not RANGES[bound].holds(number):
             raise ValueError(f"{name} must be {bound}, got {number:g}")
@@ -83,7 +84,7 @@ def choice(
     """
     words = tuple(choices)
 
-    def read(value: Any) -> str:
+    def read(value: object) -> str:
         value = _untraced(name, value)
         value = value if also is None else also(value)
         require_choice(name, value, words)
@@ -111,7 +112,7 @@ def _field(read: Callable[[Any], Any], default: Any, kwargs: dict[str, Any], sai
     return eqx.field(static=True, converter=converter, metadata=metadata, **kwargs)
 
 
-def static_count(name: str, value: Any, least: int | None = None) -> int:
+def static_count(name: str, value: object, least: int | None = None) -> int:
     """The value as a Python `int`. **Raises:** `ValueError` as `static_number` does, and for a value below `least`."""
     number = static_number(name, value, int)
     if least is not None and number < least:
@@ -119,7 +120,7 @@ def static_count(name: str, value: Any, least: int | None = None) -> int:
     return number
 
 
-def static_number(name: str, value: Any, kind: type) -> Any:
+def static_number(name: str, value: Any, kind: type[Kind]) -> Kind:
     """The value, or that of a numpy or JAX scalar, as Python's `kind`: `int`, `float` or `bool`.
 
     **Raises:** `ValueError` for a traced value, a value of another kind and a number that is not finite.
