@@ -232,7 +232,9 @@ def network_of(
     return Network(names, conductances_between(names, between), ways, ambient, oil)
 
 
-def conductances_between(nodes: tuple[str, ...], between: Mapping[tuple[str, str], Scalar]) -> Any:
+def conductances_between(
+    nodes: tuple[str, ...], between: Mapping[tuple[str, str], Scalar]
+) -> Float[Array | np.ndarray, "node node"]:
     """The symmetric matrix of named conductances, W/K, shape (node, node).
 
     **Arguments:** `nodes`: names; `between`: W/K by the names of two nodes in any order.

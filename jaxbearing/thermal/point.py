@@ -1,7 +1,7 @@
 """Parts of the search for steady temperatures: the problem, an evaluation of it, a step from one to the next."""
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import equinox as eqx
 import jax
@@ -125,7 +125,7 @@ def square(problem: Problem) -> Float[Array, "node node"]:
 def no_point(problem: Problem) -> Point:
     """A point of the shape that an evaluation has."""
     shape = jax.eval_shape(problem.losses_at, problem.start)
-    losses: Any = jax.tree.map(lambda leaf: jnp.zeros(leaf.shape, leaf.dtype), shape)
+    losses = jax.tree.map(lambda leaf: jnp.zeros(leaf.shape, leaf.dtype), shape)
     return Point(losses, jnp.zeros_like(problem.start), jnp.asarray(jnp.inf), jnp.asarray(jnp.inf))
 
 

@@ -6,7 +6,7 @@ load in an oil of 12 mm^2/s (24 mm^2/s for thrust roller bearings): the heat lea
 
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import TypeVar
 
 import jax
 import jax.numpy as jnp
@@ -16,6 +16,7 @@ from .._types import Batch, Scalar, Values
 from ..numerics.arguments import require_numbers
 from ..numerics.roots import Root, monotone_root
 
+Given = TypeVar("Given")
 LARGE_AREA = 0.05
 """Seat area from which the reference heat flow falls, m^2."""
 REFERENCE_RISE = 50.0
@@ -113,7 +114,9 @@ def reference_speed(
     return jnp.exp(root.value)
 
 
-def speed_of_heat(losses: Callable[[Array, Any], Array], args: Any, heat: Scalar, lower: Scalar, upper: Scalar) -> Root:
+def speed_of_heat(
+    losses: Callable[[Array, Given], Array], args: Given, heat: Scalar, lower: Scalar, upper: Scalar
+) -> Root:
     """The speed at which losses are equal to the heat that may leave: with a bearing's own losses, contacts at 70 degC
     and 12 mm^2/s, it is the reference speed of the model instead of the standard's formula.
 
@@ -128,14 +131,14 @@ def speed_of_heat(losses: Callable[[Array, Any], Array], args: Any, heat: Scalar
 
 
 def _root_in_logarithm(
-    power: Callable[[Array, Any], Array], args: Any, heat: Array, lower: Array, upper: Array
+    power: Callable[[Array, Given], Array], args: Given, heat: Array, lower: Array, upper: Array
 ) -> Root:
     """Root of ln(power) - ln(heat) in ln(speed)."""
     shape = jnp.broadcast_shapes(heat.shape, *(jnp.shape(leaf) for leaf in jax.tree.leaves(args)))
     ends = [jnp.full(shape, jnp.log(end)) for end in (lower, upper)]
     middle = 0.5 * (ends[0] + ends[1])
 
-    def excess(log_speed: Array, given: Any) -> Array:
+    def excess(log_speed: Array, given: tuple[Given, Array]) -> Array:
         own, target = given
         return jnp.log(power(jnp.exp(log_speed), own)) - jnp.log(target)
 

@@ -2,7 +2,7 @@
 
 import dataclasses
 import itertools
-from typing import Any
+from typing import Any, TypeVar
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -14,6 +14,7 @@ from ..numerics.status import Status
 from .shares import OilTemperatures
 from .solve import UNSTABLE
 
+Named = TypeVar("Named", bound=eqx.Module)
 _Number = Float[Array, ""]
 
 
@@ -129,7 +130,7 @@ class ThermalResult(eqx.Module):
         return f"{status.text}: the search for steady temperatures ended with {place}"
 
 
-def named(kind: type, values: dict[str, Any]) -> Any:
+def named(kind: type[Named], values: dict[str, Array]) -> Named:
     """An object with the values that it has a field for; zero conductances have no path."""
     known = {field.name for field in dataclasses.fields(kind)}
     return kind(**{name: value for name, value in values.items() if name in known})

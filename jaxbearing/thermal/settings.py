@@ -1,7 +1,7 @@
 """The thermal network of a bearing as a table of a scene."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, TypeVar
 
 import equinox as eqx
 
@@ -12,6 +12,7 @@ from ..numerics.structure import choice, count, switch
 from .network import NODES
 from .solve import LIMIT
 
+Part = TypeVar("Part", bound=Checked)
 ROOM_TEMPERATURE = 293.15
 """Temperature of the ambient where a scene does not give it, K."""
 
@@ -96,8 +97,8 @@ class Shares(Checked):
     drag: Scalar | None = _share("of the drag", "the elements, the rest the oil")
 
 
-def _as_part(kind: type, name: str) -> Callable[[Any], Any]:
-    def read(value: Any) -> Any:
+def _as_part(kind: type[Part], name: str) -> Callable[[object], Part]:
+    def read(value: object) -> Part:
         if value is None:
             return kind()
         if isinstance(value, Mapping):
@@ -113,7 +114,7 @@ def _as_part(kind: type, name: str) -> Callable[[Any], Any]:
     return read
 
 
-def _part(kind: type, name: str) -> Any:
+def _part(kind: type[Checked], name: str) -> Any:
     return eqx.field(converter=_as_part(kind, name), default=None, metadata={"part": name})
 
 

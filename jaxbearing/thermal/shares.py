@@ -100,7 +100,7 @@ def _row(name: str, nodes: tuple[str, ...], parts: Mapping[str, Scalar | None]) 
     *others, last = parts
     for node in others:
         require_numbers("between 0 and 1", **{f"the share of {name} to {node}": parts[node]})
-    given: list[Any] = [parts[node] for node in others]
+    given: list[Scalar] = [parts[node] for node in others]
     rest = 1.0 - sum(given)
     numbers = known(parts[last], *given)
     if numbers is not None and abs(sum(numbers) - 1.0) > SUM_ERROR:

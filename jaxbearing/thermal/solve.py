@@ -204,7 +204,7 @@ def _root(problem: Problem, *, options: ThermalOptions) -> _Root:
 
 
 @_root.def_jvp
-def _root_jvp(primals: Any, tangents: Any, *, options: ThermalOptions) -> tuple[_Root, _Root]:
+def _root_jvp(primals: tuple[Problem], tangents: tuple[Problem], *, options: ThermalOptions) -> tuple[_Root, _Root]:
     (problem,), (problem_dot,) = primals, tangents
     root = _root(problem, options=options)
     solved = root.status == Status.CONVERGED
@@ -215,7 +215,7 @@ def _root_jvp(primals: Any, tangents: Any, *, options: ThermalOptions) -> tuple[
         problem, jax.tree.map(lambda dot: dot is not None, problem_dot, is_leaf=lambda dot: dot is None)
     )
 
-    def balances(given: Any, temperatures: Array) -> tuple[Array, Any]:
+    def balances(given: Problem, temperatures: Array) -> tuple[Array, NodeHeat]:
         into, heat, losses, _ = evaluate(eqx.combine(given, fixed), temperatures)
         return into + heat, eqx.filter(losses, eqx.is_inexact_array)
 
@@ -246,7 +246,7 @@ def _at_known_root(network: Network, losses: Losses, root: _Root, stiffness: boo
     """The root that was found before, with its first derivatives. Nothing is searched for, neither here nor behind the
     losses."""
 
-    def balances(temperatures: Array) -> tuple[Array, Any]:
+    def balances(temperatures: Array) -> tuple[Array, NodeHeat]:
         with known_roots(root.losses.roots, stiffness):
             heat = losses(temperatures)
         into = network.flows(temperatures, heat).into_nodes
@@ -262,19 +262,21 @@ class _Place(NamedTuple):
     """Temperatures that were found, the floats of the losses there, and whether they are a root."""
 
     temperatures: Float[Array, " node"]
-    found: Any
+    found: NodeHeat
     solved: Bool[Array, ""]
 
 
 @eqx.filter_custom_jvp
-def _known_place(balances: Callable[[Array], tuple[Array, Any]], *, place: _Place) -> tuple[Array, Any]:
+def _known_place(balances: Callable[[Array], tuple[Array, NodeHeat]], *, place: _Place) -> tuple[Array, NodeHeat]:
     """Temperatures and floats of the losses. **Arguments:** `balances`: from temperatures to their residual and to the
     floats of the losses; it closes over nothing."""
     return place.temperatures, place.found
 
 
 @_known_place.def_jvp
-def _known_place_jvp(primals: Any, tangents: Any, *, place: _Place) -> Any:
+def _known_place_jvp(
+    primals: Any, tangents: Any, *, place: _Place
+) -> tuple[tuple[Array, NodeHeat], tuple[Array, NodeHeat]]:
     (balances,), (balances_dot,) = primals, tangents
     select = lambda dot: jnp.where(place.solved, dot, 0.0)
     balances_dot = jax.tree.map(select, balances_dot)
@@ -282,7 +284,7 @@ def _known_place_jvp(primals: Any, tangents: Any, *, place: _Place) -> Any:
     moved, fixed = eqx.partition(balances, moving)
     size = place.temperatures.size
 
-    def along(given: Any, step: Array) -> tuple[Array, Any]:
+    def along(given: Any, step: Array) -> tuple[Array, NodeHeat]:
         evaluate = lambda numbers, temperatures: eqx.combine(numbers, fixed)(temperatures)
         return jax.jvp(evaluate, (moved, place.temperatures), (given, step))[1]
 

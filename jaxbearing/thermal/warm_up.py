@@ -82,7 +82,7 @@ def warm_up(
     limit: Scalar = LIMIT,
     options: IntegratorOptions | None = None,
     jumps: Float[Array, " jump"] | None = None,
-    adjoint: Any = None,
+    adjoint: dfx.AbstractAdjoint | None = None,
 ) -> WarmUp:
     """Temperatures from time 0 on; never raises for a run that fails.
 
@@ -129,7 +129,7 @@ class Balance(NamedTuple):
         heat = self.losses(temperatures, time)
         return heat, self.network(time).flows(temperatures, heat)
 
-    def rates(self, time: Array, state: Array, args: Any) -> Array:
+    def rates(self, time: Array, state: Array, args: None) -> Array:
         """Rates of the state, 1/s; NaN where the losses cannot be computed, so that the step is shortened."""
         del args
         heat, flows = self.flows_at(time, state[:-INTEGRALS])
@@ -165,7 +165,7 @@ def integrate(
     options: IntegratorOptions,
     *,
     jumps: Float[Array, " jump"] | None = None,
-    adjoint: Any = None,
+    adjoint: dfx.AbstractAdjoint | None = None,
     first_step: Scalar | None = None,
     differences: bool = False,
     steps: bool = False,
@@ -198,7 +198,7 @@ def integrate(
         max_steps=options.max_steps,
         event=dfx.Event(too_hot, optx.Newton(EVENT_TOLERANCE, EVENT_TOLERANCE)),
         throw=False,
-        **({} if adjoint is None else {"adjoint": adjoint}),
+        adjoint=dfx.RecursiveCheckpointAdjoint() if adjoint is None else adjoint,
     )
     saved: Any = found.ys
     ends: Any = found.ts
@@ -220,8 +220,8 @@ def integrate(
 
 
 def _with_differences(
-    rates: Callable[[Array, Array, Any], Array], begin: Float[Array, " node"]
-) -> Callable[[Array, Array, Any], Array]:
+    rates: Callable[[Array, Array, None], Array], begin: Float[Array, " node"]
+) -> Callable[[Array, Array, None], Array]:
     """The rates, whose derivative by the temperatures is made of differences. Nothing depends on the energies, and the
     derivative by the time, which the integrator does not ask for, is left out."""
     size, example = begin.size, jnp.concatenate([begin, jnp.zeros(INTEGRALS)])
@@ -249,7 +249,7 @@ def _with_differences(
 
 def _control(options: IntegratorOptions, jumps: Array | None) -> dfx.AbstractStepSizeController:
     tolerance = jnp.asarray(options.tolerance)
-    control: Any = dfx.PIDController(
+    control = dfx.PIDController(
         rtol=tolerance,
         atol=tolerance,
         pcoeff=0.3,
