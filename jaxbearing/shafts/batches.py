@@ -56,22 +56,24 @@ class AbstractBatch(eqx.Module):
         return np.asarray(self.places)
 
     @abc.abstractmethod
-    def rows(self, expansion: Float[Array, " bearing"], at_rest: bool = False) -> Any:
+    def rows(self, expansion: Float[Array, " bearing"], at_rest: bool = False) -> AbstractRow | None:
         """What `initial`, `hold` and `force_at` take: the bearings without friction, for the search.
 
         **Arguments:** `expansion`: of all bearings of the system; `at_rest`: whether nothing turns.
         """
 
     @abc.abstractmethod
-    def initial(self, rows: Any, displacement: Float[Array, "own 5"]) -> RowState:
+    def initial(self, rows: AbstractRow | None, displacement: Float[Array, "own 5"]) -> RowState:
         """First guess of the states of the rows."""
 
     @abc.abstractmethod
-    def hold(self, rows: Any, displacement: Float[Array, "own 5"], state: RowState) -> HeldRow:
+    def hold(self, rows: AbstractRow | None, displacement: Float[Array, "own 5"], state: RowState) -> HeldRow:
         """Energy, force and stiffness of each bearing."""
 
     @abc.abstractmethod
-    def force_at(self, rows: Any, displacement: Float[Array, "own 5"], state: RowState | None) -> Float[Array, "own 5"]:
+    def force_at(
+        self, rows: AbstractRow | None, displacement: Float[Array, "own 5"], state: RowState | None
+    ) -> Float[Array, "own 5"]:
         """The forces of `hold`, with first derivatives. **Arguments:** `state`: none of bearings without elements."""
 
 

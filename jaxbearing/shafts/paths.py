@@ -7,7 +7,7 @@ So are the bearings of a set that differ: `set.front.bearing.2.geometry.n_balls`
 import dataclasses
 import re
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import equinox as eqx
 
@@ -16,6 +16,7 @@ from .._scene import AbstractScene, _replaced
 if TYPE_CHECKING:
     from .scene import ShaftSystem
 
+Bearing = TypeVar("Bearing")
 LISTS = {"bearing": "bearings", "set": "sets", "force": "forces"}
 """First word of a path -> field of `ShaftSystem` that holds what it is about."""
 _BEARING = "scene"
@@ -93,7 +94,7 @@ def _changed(entry: Any, changes: _Changes, above: str) -> Any:
     return _replaced(entry, mine, f"{above}.")
 
 
-def _of_bearings(scenes: tuple[Any, ...], changes: dict[str, Any], above: str) -> tuple[Any, ...]:
+def _of_bearings(scenes: tuple[Bearing, ...], changes: dict[str, Any], above: str) -> tuple[Bearing, ...]:
     """The bearings of a set that differ: a change is of the one that its path numbers, or of all.
 
     **Raises:** `AttributeError` for a number that the set does not have.
@@ -117,7 +118,7 @@ def _number(keys: list[str], count: int) -> int | None:
     return int(given) - 1 if given.isdecimal() and 1 <= int(given) <= count else None
 
 
-def _of_bearing(scene: Any, changes: dict[str, Any]) -> Any:
+def _of_bearing(scene: Bearing, changes: dict[str, Any]) -> Bearing:
     if isinstance(scene, AbstractScene):
         return scene.replace(changes)
     return _replaced(scene, {tuple(path.split(".")): value for path, value in changes.items()})
@@ -161,7 +162,7 @@ def _inside(part: Any, keys: list[str]) -> Any:
     for place, key in enumerate(keys):
         own = [field.name for field in dataclasses.fields(part)] if isinstance(part, eqx.Module) else []
         if key not in own and _BEARING in own:
-            scene: Any = getattr(part, _BEARING)
+            scene = getattr(part, _BEARING)
             rest = keys[place:]
             if not isinstance(scene, tuple):
                 return _inside(scene, rest)

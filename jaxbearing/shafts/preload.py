@@ -4,14 +4,14 @@ Along its axis the mounted set has one unknown for each of its two groups, the a
 forces of the bearings of a group add up to the preload. Half of both displacements together is the closure.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
-from ..bearings.row import RowState
+from ..bearings.row import AbstractRow, RowState
 from ..numerics.once import once
 from .balance import Spring
 from .batches import AbstractBatch, spread
@@ -36,7 +36,7 @@ class Rest(NamedTuple):
     """Bearings of preloaded sets at rest, without expansion by growth, displaced along their axes alone."""
 
     batches: tuple[AbstractBatch, ...]
-    rows: list[Any]
+    rows: list[AbstractRow | None]
 
 
 def at_rest(batches: tuple[AbstractBatch, ...], preloaded: np.ndarray) -> Rest:
@@ -110,7 +110,7 @@ def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearin
     members = np.stack([group.members for group in groups]).astype(float)
     forces = jnp.stack([jnp.asarray(group.force, dtype=float) for group in groups])
     target = jnp.where(forces > 0, forces, SMALL_FORCE)
-    fixed: Any = jax.lax.stop_gradient((rest, target, additional))
+    fixed = jax.lax.stop_gradient((rest, target, additional))
 
     def look(state: _Search) -> _Search:
         held = _held(fixed[0], members.T @ state.place + fixed[2])
@@ -229,7 +229,7 @@ def _mounted(
     first = np.stack([max(both, key=np.sum) for both in sets.values()]).astype(float)
     second = np.stack([(both[0] | both[1]).astype(float) for both in sets.values()]) - first
     signs = first - second
-    fixed: Any = jax.lax.stop_gradient((rest, closure))
+    fixed = jax.lax.stop_gradient((rest, closure))
 
     def look(state: tuple[Array, Array, Array, _Held]) -> tuple[Array, Array, Array, _Held]:
         place, _, trials, _ = state

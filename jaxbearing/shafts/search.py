@@ -14,7 +14,7 @@ displacement of each bearing from the unknowns. Some sets of bearings are preloa
 which adds an unknown and its equation.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import equinox as eqx
 import jax
@@ -22,7 +22,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
-from ..bearings.row import RowState
+from ..bearings.row import AbstractRow, RowState
 from ..numerics.newton import NewtonOptions
 from ..numerics.once import once
 from ..numerics.status import Status
@@ -88,7 +88,9 @@ class _Ports(NamedTuple):
 
 
 @once
-def _held(problem: Problem, rows: list[Any], displacement: Float[Array, "bearing 5"], states: list[RowState]) -> _Ports:
+def _held(
+    problem: Problem, rows: list[AbstractRow | None], displacement: Float[Array, "bearing 5"], states: list[RowState]
+) -> _Ports:
     found = [
         batch.hold(row, displacement[batch.index], own)
         for batch, row, own in zip(problem.batches, rows, states, strict=True)

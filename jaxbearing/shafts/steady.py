@@ -209,7 +209,7 @@ def _bearings(
     position, closure = given
     for batch in problem.batches:
         own = displacement[batch.index]
-        stack: Any = None
+        stack: Solution | None = None
         apart = None
         if isinstance(batch, RollingBatch):
             expansion = problem.expansion[batch.index]

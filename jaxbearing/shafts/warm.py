@@ -15,6 +15,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from ..bearings.bearing import AbstractBearing
 from ..bearings.heat import bearing_heat, bearing_network, heat_capacities, inlet_temperature, rings_of
 from ..bearings.warm import MOST_BROYDEN, at_temperatures, heat_paths, network_notes
 from ..numerics.checks import nan_unless
@@ -26,6 +27,7 @@ from ..thermal.shares import oil_temperatures
 from ..thermal.solve import START_NOTE, ThermalState, solve_network
 from .batches import batches_of, on_shaft
 from .heat import HOUSING_NODE, NODES, SHAFT_NODE, ShaftThermalResult, between_neighbours, flows_along, growth_along
+from .mounting import LinearBearing
 from .preload import Mounted, mount
 from .scene import Place, ShaftSystem
 from .solution import ShaftSolution
@@ -149,7 +151,7 @@ def solve_warm_shaft(system: ShaftSystem, solve: SolveAt) -> ShaftSolution:
     return _answer(system, warm, state)
 
 
-def _without_network(scene: Any) -> Any:
+def _without_network(scene: AbstractBearing | LinearBearing) -> AbstractBearing | LinearBearing:
     return scene if getattr(scene, "thermal", None) is None else dataclasses.replace(scene, thermal=None)
 
 
