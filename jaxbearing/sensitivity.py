@@ -122,7 +122,9 @@ def _wanted(of: str | Iterable[str] | None) -> _Wanted:
 
 
 @rare_garbage_collection()
-def _answer(scene: AbstractScene, throw: bool, options: NewtonOptions, wanted: _Wanted) -> tuple[Any, dict[str, Any]]:
+def _answer(
+    scene: AbstractScene, throw: bool, options: NewtonOptions, wanted: _Wanted
+) -> tuple[AbstractSolution, dict[str, AbstractScene]]:
     if inside_a_program(scene):
         solution, slopes = _in_a_program(scene, options, wanted)
         if throw:
@@ -217,36 +219,38 @@ def _hottest(thermal: ThermalResult) -> Array:
     return jnp.max(jnp.stack([getattr(thermal.temperatures, name) for name in thermal.nodes]))
 
 
-def _slopes(scene: AbstractScene, options: NewtonOptions, roots: tuple[Any, ...], wanted: _Wanted) -> dict[str, Any]:
+def _slopes(
+    scene: AbstractScene, options: NewtonOptions, roots: tuple[Any, ...], wanted: _Wanted
+) -> dict[str, AbstractScene]:
     """Sensitivities of each result, a tree like the numbers of the scene; NaN where the solve failed.
 
     **Arguments:** `roots`: of the scene's solve.
     """
     numbers, rest = eqx.partition(scene, eqx.is_inexact_array)
 
-    def results(numbers: Any) -> tuple[dict[str, Array], Array]:
+    def results(numbers: AbstractScene) -> tuple[dict[str, Array], Array]:
         solution = solution_at(roots, eqx.combine(numbers, rest), options, stiffness=wanted.stiffness)
         return _results(solution, wanted), solution.converged
 
     slopes = _backward if isinstance(scene, EHLLineContact) else _forward
     values, found, converged = slopes(results, numbers)
 
-    def scaled(name: str) -> Any:
+    def scaled(name: str) -> AbstractScene:
         scale = 1.0 if name in ABSOLUTE else values[name]
         return jax.tree.map(lambda slope: jnp.where(converged, slope / scale, jnp.nan), found[name])
 
     return {name: scaled(name) for name in values}
 
 
-_Found = tuple[dict[str, Array], dict[str, Any], Array]
+_Found = tuple[dict[str, Array], dict[str, AbstractScene], Array]
 """Results; derivatives of each by ln of every number, a tree like the numbers; the flag."""
 
 
-def _forward(results: Callable[[Any], tuple[dict[str, Array], Array]], numbers: Any) -> _Found:
+def _forward(results: Callable[[AbstractScene], tuple[dict[str, Array], Array]], numbers: AbstractScene) -> _Found:
     """One number after the other in forward mode: the smallest program (see `programs.differentiated`)."""
     leaves, structure = jax.tree.flatten(numbers)
 
-    def along(place: Array) -> Any:
+    def along(place: Array) -> tuple[dict[str, Array], dict[str, Array], Array]:
         moved = [jnp.where(place == i, leaf, 0.0) for i, leaf in enumerate(leaves)]
         return jax.jvp(results, (numbers,), (jax.tree.unflatten(structure, moved),), has_aux=True)
 
@@ -255,7 +259,7 @@ def _forward(results: Callable[[Any], tuple[dict[str, Array], Array]], numbers: 
     return {name: value[0] for name, value in values.items()}, of_each, converged[0]
 
 
-def _backward(results: Callable[[Any], tuple[dict[str, Array], Array]], numbers: Any) -> _Found:
+def _backward(results: Callable[[AbstractScene], tuple[dict[str, Array], Array]], numbers: AbstractScene) -> _Found:
     """All numbers at once in reverse mode, of a film: its large matrix is then factored once."""
     values, pull_back, converged = jax.vjp(results, numbers, has_aux=True)
     unit = jnp.eye(len(values))
@@ -268,12 +272,14 @@ _kept_slopes = KeptProgram(_slopes, quick=True)
 
 
 @eqx.filter_jit
-def _in_a_program(scene: AbstractScene, options: NewtonOptions, wanted: _Wanted) -> tuple[Any, dict[str, Any]]:
+def _in_a_program(
+    scene: AbstractScene, options: NewtonOptions, wanted: _Wanted
+) -> tuple[AbstractSolution, dict[str, AbstractScene]]:
     solution, roots = solve_with_roots(scene, options)
     return solution, _slopes(scene, options, roots, wanted)
 
 
-def _by_path(tree: Any, scene: AbstractScene) -> dict[str, Float[Array, ""]]:
+def _by_path(tree: AbstractScene, scene: AbstractScene) -> dict[str, Float[Array, ""]]:
     """**Arguments:** `tree`: like that of the numbers of the scene."""
     leaves, _ = jax.tree_util.tree_flatten_with_path(tree)
     path_of = lambda path: scene.path_in_file(jax.tree_util.keystr(path, simple=True, separator="."))

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, overload
 
-from ._scene import AbstractScene
+from ._scene import AbstractHistory, AbstractScene
 from .numerics.arguments import require_choice
 from .numerics.compiling import require_outside
 from .numerics.garbage import rare_garbage_collection
@@ -94,23 +94,23 @@ def simulate(
     scene: AbstractScene,
     duration: float | None = None,
     *,
-    simulation: Any = None,
+    simulation: object = None,
     interval: float | None = None,
     throw: bool = True,
     progress: Progress | None = None,
-    restart: Any = None,
+    restart: object = None,
 ) -> Any: ...
 @rare_garbage_collection()
 def simulate(
     scene: Any,
     duration: float | None = None,
     *,
-    simulation: Any = None,
+    simulation: object = None,
     interval: float | None = None,
     throw: bool = True,
     progress: Progress | None = None,
-    restart: Any = None,
-) -> Any:
+    restart: object = None,
+) -> AbstractHistory:
     """Run a bearing in time from the quasi-static state of its operating point, or a line contact from its steady film.
 
     A bearing with `[thermal]` runs in another way, whatever its family: the run is of its temperatures, from cold, and
@@ -180,7 +180,7 @@ def simulate_batch(
     duration: float,
     over: Mapping[str, Any],
     *,
-    simulation: Any = None,
+    simulation: object = None,
     interval: float = INTERVAL,
     method: Literal["map", "vmap"] = "map",
 ) -> Any:

@@ -14,7 +14,7 @@ Four programs compute the same solution. Which one runs depends on where `solve`
 import dataclasses
 from collections.abc import Callable
 from contextlib import nullcontext
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import equinox as eqx
 import jax
@@ -23,7 +23,7 @@ import numpy as np
 from jax.core import Tracer
 
 from ._checks import Checks
-from ._scene import AbstractScene
+from ._scene import AbstractScene, AbstractSolution, Scene
 from .life.bearing_life import with_life
 from .numerics.checks import check_inputs, gate, nan_unless
 from .numerics.compiling import inside_a_program, is_tracing
@@ -46,6 +46,8 @@ if TYPE_CHECKING:
     from .machines import TwoDisk, TwoDiskSolution
     from .shafts import ShaftSolution, ShaftSystem
 
+Result = TypeVar("Result", bound=AbstractSolution)
+
 
 def require_solvable(scene: object) -> None:
     """**Raises:** `TypeError` if `scene` is not a scene, or if its kind has no steady state."""
@@ -55,15 +57,15 @@ def require_solvable(scene: object) -> None:
 
 
 @rare_garbage_collection()  # the function body runs only while it is traced
-def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
+def _solve_any(scene: AbstractScene, options: NewtonOptions) -> AbstractSolution:
     """All computations from a scene to its solution."""
     return with_checked_inputs(scene, lambda lane: with_life(lane, lane.steady_solution(options)))
 
 
-def with_checked_inputs(scene: AbstractScene, compute: Callable[[Any], Any]) -> Any:
+def with_checked_inputs(scene: Scene, compute: Callable[[Scene], Result]) -> Result:
     """Result of `compute` for a scene, with checks of its inputs. An invalid input ends `compute` at once with NaN."""
     inputs = check_inputs(scene)
-    given: Any = gate(scene, inputs.valid)
+    given = gate(scene, inputs.valid)
     point = getattr(given, scene.operating_point)
     solution = compute(dataclasses.replace(given, **{scene.operating_point: nan_unless(point, inputs.valid)}))
     return dataclasses.replace(
@@ -78,11 +80,11 @@ _solve = eqx.filter_jit(_solve_any)
 _solve_optimised = KeptProgram(_solve_any, quick=False)
 
 
-def _solve_quickly(scene: AbstractScene, options: NewtonOptions) -> Any:
+def _solve_quickly(scene: AbstractScene, options: NewtonOptions) -> AbstractSolution:
     return solve_with_roots(scene, options)[0]
 
 
-def _solve_differentiated(scene: AbstractScene, options: NewtonOptions) -> Any:
+def _solve_differentiated(scene: AbstractScene, options: NewtonOptions) -> AbstractSolution:
     """A solve outside of `jax.jit`, for a scene with numbers that are differentiated or batched."""
     return differentiable(_solve_any, _solve, scene, options)
 
@@ -135,7 +137,7 @@ def solve(
 ) -> Any: ...
 def solve(
     scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None, optimised: bool = False
-) -> Any:
+) -> AbstractSolution:
     """The steady state of a scene: the equilibrium of a bearing or of a shaft on bearings, the traction curves of a
     two-disk machine, or the film of a line contact.
 
@@ -205,12 +207,12 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     numbers = [value if isinstance(value, Tracer) else jax.device_put(value) for value in given]
 
     @jax.jit
-    def compiled(numbers: list[Any]) -> Any:
+    def compiled(numbers: list[Any]) -> AbstractSolution:
         return _solve_any(jax.tree.unflatten(structure, numbers), chosen)
 
     shapes, kept = [np.shape(number) for number in numbers], []
 
-    def answer(numbers: list[Any]) -> Any:
+    def answer(numbers: list[Any]) -> AbstractSolution:
         """Calls the cached program. Calls the `jax.jit` function instead if a number is traced or batched, or if
         programs are not cached."""
         if any(isinstance(number, Tracer) for number in numbers) or [np.shape(one) for one in numbers] != shapes:
@@ -224,7 +226,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     # a changed copy shares its unchanged leaves with this scene: `is` recognises them
     own = jax.tree.unflatten(structure, given)
 
-    def fast(other: AbstractScene | None = None, /, **operation: Any) -> Any:
+    def fast(other: AbstractScene | None = None, /, **operation: Any) -> AbstractSolution:
         if other is None and not operation:
             return answer(numbers)
         if not isinstance(other, AbstractScene | None):
