@@ -15,7 +15,7 @@ from ..numerics.refusals import refusals_of, refuse_all
 from ..numerics.structure import choice, count
 from .parts import check_between
 
-Ends = Callable[[], tuple[Any, Any]]
+Ends = Callable[[], tuple[Scalar, Scalar]]
 ASSUMED_LANDS = 2
 """Number of cage lands, where a scene does not give it."""
 ASSUMED_MATERIAL = "bronze"
@@ -111,12 +111,12 @@ class AbstractCage(Checked):
                 problems[name] = list(refusals_of(_check_limit, name, *limit))
         refuse_all(error for found in problems.values() for error in found)
 
-    def _limits(self, geometry: Any) -> Iterator[tuple[str, Any, Ends, str, str]]:
+    def _limits(self, geometry: Any) -> Iterator[tuple[str, Scalar, Ends, str, str]]:
         """Field, its value, what it must lie between, and these limits in words. Each limit is found by itself, so that
         one is checked also where what another one needs is refused."""
         pitch, bore, outside = geometry.pitch_diameter, self.bore(geometry), self.outside(geometry)
 
-        def neighbours() -> tuple[Any, Any]:
+        def neighbours() -> tuple[Scalar, Scalar]:
             count, diameter = self.row(geometry)
             return 0.0, pitch * math.sin(math.pi / max(count, 2)) - diameter
 

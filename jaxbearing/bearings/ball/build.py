@@ -240,7 +240,9 @@ def build_lubricated(
     return ArchedBallSystem(**parts, spread=_spread(scene))
 
 
-def _guesses(core: BallCore, slips: bool, guess_at: Callable[[BallCore, ArrowPoint], Any]) -> dict[str, Any]:
+def _guesses(
+    core: BallCore, slips: bool, guess_at: Callable[[BallCore, ArrowPoint], BallGuess | BallPlaces]
+) -> dict[str, BallGuess | BallPlaces | Array]:
     """Makes the fields that say where the iteration starts.
 
     Balls that do not slide also get how much heavier the easiest load is, and the start under that."""

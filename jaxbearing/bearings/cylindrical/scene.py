@@ -9,7 +9,7 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 
 import dataclasses
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -62,7 +62,7 @@ _ACROSS = ("radial", "lateral", "tilt", "tilt_lateral")
 """Freedoms of the inner ring that the rollers feel."""
 
 
-def _freedoms(value: Any) -> tuple[str, ...]:
+def _freedoms(value: object) -> tuple[str, ...]:
     """**Raises:** `ValueError` for what are no freedoms of the ring."""
     if isinstance(value, list | tuple) and tuple(map(str, value)) in (("radial",), ("radial", "lateral")):
         return tuple(map(str, value))

@@ -16,6 +16,7 @@ from ..._identity import Identity
 from ..._scene import AbstractHistory
 from ...numerics.status import Status
 from ..cage_stress import CageSection
+from ..operation import AbstractOperation
 from ..solution import RingDisplacement, label, losses_not_modelled
 
 CAGE_ANGLE = "q"
@@ -142,7 +143,7 @@ class History(AbstractHistory):
     reference_speed: Float[Array, ""] = eqx.field(
         metadata=label("rad/s", "speed of the frame of the state at the operating point")
     )
-    operation: Any
+    operation: AbstractOperation
     instants: Any
     energy: Energy
     checks: Mapping[str, Bool[Array, ""]]

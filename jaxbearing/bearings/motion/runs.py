@@ -252,7 +252,7 @@ def _history(
     )
 
 
-def run_checks(scene: AbstractMovingBearing, energy: Energy, excess: Excess) -> dict[str, Any]:
+def run_checks(scene: AbstractMovingBearing, energy: Energy, excess: Excess) -> dict[str, Array]:
     """Warnings of a run: its energy balance, and the range checks that a steady solve makes of the same scene."""
     text = f"the energy balance leaves more than {ENERGY_LIMIT:g} of the drive work open: choose a smaller tolerance"
     found = input_excess(scene) | excess

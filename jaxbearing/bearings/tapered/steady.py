@@ -1,7 +1,7 @@
 """Steady state of a tapered roller bearing: from the scene to the equations, and from the root to the results."""
 
 import dataclasses
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -204,7 +204,7 @@ def _results(
     pressure = line_pressure(scene, system, state)
     modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
     flange = geometry.flange_contact(modulus).hertz_pressure(state.flange_load)
-    more: dict[str, Any] = {} if friction is None else {**_of_friction(friction, state)}
+    more: dict[str, Array | None] = {} if friction is None else {**_of_friction(friction, state)}
     more |= computed_results(TaperedResults, SolvedTapered(system, state, place, friction))
     positive = lambda values: every(jnp.where(values > 0, values, 0.0))  # and no -0.0
     elements = TaperedResults(

@@ -1,7 +1,7 @@
 """Loads and friction of the raceway contacts of moving balls, by the laws of the scene."""
 
 import abc
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -109,7 +109,7 @@ def _film(system: LubricatedBallSystem, contact: PointContact, load: Array, race
     return system.laws.film_state(contact, load, races.mean_speed, races.rolling, system.oil, system.inlet)
 
 
-def _compression(log_load: Array, args: tuple[Any, ...]) -> Array:
+def _compression(log_load: Array, args: tuple[LubricatedBallSystem, PointContact, RaceMotion, Array, Array]) -> Array:
     """Compression less film and approach, m: increasing in ln(load)."""
     system, contact, races, log_stiffness, approach = args
     film = _film(system, contact, jnp.exp(log_load), races).separation

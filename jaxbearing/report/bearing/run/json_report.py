@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 import numpy as np
+from jaxtyping import Array
 
 from ....bearings.motion.history import History, Instant
 from ....numerics.status import Status
@@ -119,7 +120,7 @@ def _by_sector(spread: Sectors) -> dict[str, Any]:
     return {"threshold": spread.threshold, "sector_edges": spread.edges.tolist()} | faces
 
 
-def _spread(values: Any) -> dict[str, float]:
+def _spread(values: Array | np.ndarray) -> dict[str, float]:
     values = np.asarray(values)
     return {
         "mean": float(values.mean()),
@@ -137,7 +138,7 @@ def _stored(history: History) -> dict[str, float]:
     return {name: float(work) / time if time > 0 else math.nan for name, work in works.items()}
 
 
-def _losses(history: History) -> dict[str, Any]:
+def _losses(history: History) -> dict[str, Array | np.ndarray]:
     loss = history.instants.power_loss
     return {name: getattr(loss, name) for name in ("total", *vars(loss)) if getattr(loss, name) is not None}
 
