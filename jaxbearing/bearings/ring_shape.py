@@ -12,7 +12,7 @@ from jax.core import Tracer
 from jaxtyping import Array, Float
 
 from .._scene import label, number, optional_number
-from .._types import Scalar
+from .._types import Scalar, Values
 from ..materials import Material
 from ..mounting.bending import Foundation, RingSection, rectangular_section
 from ..mounting.bent_ring import BentRing, RimLoads, Supports
@@ -316,9 +316,9 @@ def moving_problems(scene: _Shaped, round_races: bool) -> Iterator[str]:
 
 
 def bending_problems(
-    scene: _Shaped, operation: AbstractOperation, inner_diameter: Callable[[], Scalar], width: Scalar | None
+    scene: _Shaped, operation: AbstractOperation, inner_diameter: Callable[[], Values], width: Values | None
 ) -> Iterator[str | ValueError]:
-    """Refusals of rings that bend.
+    """Refusals of rings that bend. The scene may be a stack of scenes, as those of a shaft are.
 
     **Arguments:** `inner_diameter`: returns that of the inner raceway, m; `width`: of a ring for which the scene gives
     none, m.

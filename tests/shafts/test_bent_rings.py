@@ -6,14 +6,16 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from bent_shafts import BEARINGS, HOUSING, SHAFT, SUPPORTS, alone, bent, row_of, straight
+from bent_shafts import BEARINGS, HOUSING, SHAFT, SPEED, SUPPORTS, alone, bent, row_of, straight
 from rings_that_bend import unbalance
+from roller_cases import reference_roller
 from shaft_cases import DEEP_GROOVE, P, axial_forces, pair
 
 import jaxbearing as jb
 from jaxbearing.bearings.ring import shift_matrix
-from jaxbearing.bearings.ring_shape import FlexibleRing
+from jaxbearing.bearings.ring_shape import FlexibleInnerRing, FlexibleRing
 from jaxbearing.shafts import MountedBearing, PointLoad, Preload, Shaft, ShaftSystem, Support
+from jaxbearing.shafts.batches import batches_of
 
 DISPLACED = {
     "ball": [2e-5, 25e-6, 4e-6, 5e-4, 3e-4],
@@ -192,3 +194,17 @@ def test_loads_from_outside_need_a_rigid_support():
         ValueError, match=r"bearing\.A\.outer_ring\.load_angle: expected none beside an elastic support"
     ):
         ShaftSystem(Shaft(0.0), bearings=[dataclasses.replace(place, support=Support(radial=1e8))])
+
+
+def test_sliding_rollers_in_one_batch():
+    """Of two such bearings the forces on the shaft are those of dry ones: a stack of scenes with their rings and
+    widths."""
+    scene = dataclasses.replace(reference_roller(), inner_ring=FlexibleInnerRing(**SHAFT), outer_ring=None)
+    system = ShaftSystem(
+        Shaft(SPEED), bearings=[MountedBearing(name, scene, place) for name, place in (("A", 0.0), ("B", 0.2))]
+    )
+    (batch,) = jax.eval_shape(lambda speed: batches_of(system.places, speed), jnp.asarray(SPEED))
+    assert batch.places == (0, 1)
+    assert batch.scene.cage is not None
+    assert batch.dry.cage is None
+    assert batch.dry.inner_ring.thickness.shape == (2,)
