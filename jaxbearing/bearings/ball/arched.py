@@ -119,7 +119,7 @@ class ArchedBallSystem(AbstractBallEquations):
             pocket_force=pocket,
             pocket=None,
             drag_force=None,
-            fit=jnp.stack([push.axial, push.outward - outward]) / self.ball_scale(),
+            fit=push.balance(outward) / self.ball_scale(),
             rows=() if self.slips else self._slip_rows(motion, load, angle),
             on_ring=on_ring,
             cage_moment=None,
@@ -140,7 +140,7 @@ class ArchedBallSystem(AbstractBallEquations):
         touch = self.touch(shared, state.centre)
         carried = jnp.asarray(self.arcs.senses * state.traction.transverse)
         push, bare = self.push(touch, state.load, carried), self.push(touch, state.load, None)
-        more = jnp.stack([push.axial - bare.axial, push.outward - bare.outward]) / self.ball_scale()
+        more = (push.held - bare.held) / self.ball_scale()
         return state._replace(
             friction=carried, fit=state.fit + more, on_ring=state.on_ring + (push.on_ring - bare.on_ring)
         )

@@ -22,6 +22,7 @@ from ..ring import LENGTH_UNIT, InnerRing, inner_ring
 from ..ring_shape import out_of_round, shaped_parts
 from .arched import ArchedBallSystem
 from .core import FORCE_FLOOR, BallCore
+from .groove_motion import ring_motion
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
 from .kinematics import BallKinematics
 from .pairs import LubricatedBallSystem
@@ -106,6 +107,7 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
     density = jnp.asarray(scene.materials.balls.density)
     attitude, gyroscopic = scene.kinematics.attitude, scene.kinematics.gyroscopic
     slipping = attitude == "linear_slip" or geometry.has_arcs
+    tilts = operation.tilts if exact is None else exact
     return BallCore(
         kinematics=BallKinematics(
             jnp.asarray(operation.inner_speed),
@@ -118,6 +120,7 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
         azimuth=row.azimuth,
         ring=row.ring.asking(_held_load(grooves, row, form, bent.outer)) if row.ring.asks else row.ring,
         held_shift=row.held_shift,
+        ring_motion=ring_motion(row.ring, row.azimuth) if tilts else None,
         out_of_round=form,
         outer=bent.outer,
         inner=bent.inner,
@@ -127,7 +130,6 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
         couple_share=jnp.ones(()),
         multiplicity=row.multiplicity,
         attitude="linear_slip" if slipping else "inner" if attitude == "inner" else "outer",
-        exact=operation.tilts if exact is None else exact,
         common_orbit=scene.kinematics.orbit == "common",
         spread=_spread(scene) if slipping else None,
     )

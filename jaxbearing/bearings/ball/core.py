@@ -270,7 +270,7 @@ class BallCore(AbstractBallSystem):
             return places if self.out_of_round is None else places.at[1].add(self.out_of_round)
         centre = jnp.broadcast_to(self.free_centre(), (2, self.azimuth.shape[0]))
         round_centre = centre if self.out_of_round is None else centre.at[1].add(-self.out_of_round)
-        places = [centre + arm.in_plane for arm in self.inner_arms(shift, round_centre)]
+        places = [centre + arm.in_plane for arm in self.inner_arms(shift, round_centre)[0]]
         if len(places) == 1:
             return places[0]
         front, back = places
@@ -359,7 +359,7 @@ class BallCore(AbstractBallSystem):
             centre=centre,
             motion=motion,
             own_orbit=own_orbit,
-            balance=jnp.stack([push.axial, push.outward - self.outward_force(motion)]),
+            balance=push.balance(self.outward_force(motion)),
             on_ring=push.on_ring,
         )
 
@@ -385,8 +385,9 @@ class BallCore(AbstractBallSystem):
         for the contact angle, up to `STEEPEST`.
         """
         inner, outer = angle
-        steep = jnp.clip(inner, -STEEPEST, STEEPEST)
-        inner = steep if touching is None else jnp.where(touching, inner, steep)
+        rolls = jnp.abs(inner) <= STEEPEST
+        rolls = rolls if touching is None else rolls | touching
+        inner = jnp.where(rolls, inner, STEEPEST * jnp.sign(inner))
         return self.kinematics.rolling(inner, outer, self._attitude(inner, outer))
 
     def _attitude(self, inner: Array, outer: Array) -> Array:

@@ -75,14 +75,13 @@ class BallKinematics(eqx.Module):
 
     def rolling(self, inner_angle: Values, outer_angle: Values, attitude: Values) -> BallMotion:
         """Motion without sliding at the centres of both contacts, for a given attitude. Angles in rad."""
-        inner_cosine, outer_cosine = jnp.cos(inner_angle - attitude), jnp.cos(outer_angle - attitude)
-        inner = (1.0 - self.ratio * jnp.cos(inner_angle)) * outer_cosine
-        outer = (1.0 + self.ratio * jnp.cos(outer_angle)) * inner_cosine
-        orbital = (self.inner_speed * inner + self.outer_speed * outer) / (inner + outer)
+        inner_lever, outer_lever = 1.0 - self.ratio * jnp.cos(inner_angle), 1.0 + self.ratio * jnp.cos(outer_angle)
+        inner, outer = inner_lever * jnp.cos(outer_angle - attitude), outer_lever * jnp.cos(inner_angle - attitude)
+        both = inner + outer
+        orbital = (self.inner_speed * inner + self.outer_speed * outer) / both
         # (orbital - outer_speed) a_o / c_o without the difference of the speeds
         relative = self.inner_speed - self.outer_speed
-        both = (1.0 - self.ratio * jnp.cos(inner_angle)) * (1.0 + self.ratio * jnp.cos(outer_angle))
-        spin = relative * both / (self.ratio * (inner + outer))
+        spin = relative * inner_lever * outer_lever / (self.ratio * both)
         return BallMotion(orbital, spin, jnp.broadcast_to(attitude, spin.shape), jnp.zeros_like(spin))
 
     def held(self, orbital_speed: Values, inner_angle: Values, outer_angle: Values, attitude: Values) -> BallMotion:

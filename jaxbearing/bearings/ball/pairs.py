@@ -66,7 +66,7 @@ class LubricatedBallSystem(AbstractBallEquations):
         if self.slips or self.common_orbit:
             orbit = self.orbit(shared[d] if self.global_orbit else own["orbit"])
         pocket = self.friction_scale() * own["outward"] if "outward" in own else None
-        turned = self.ring_frame(shared[:d]).turned if self.exact else None
+        turned = None if self.ring_motion is None else self.ring_motion.frame(shared[:d]).turned
         seen = inner if turned is None else inner - turned  # by the tilted race
         load, outer, motion, friction, orbit_residual = self._contacts(log_load, inner, seen, orbit, own, pocket)
         angle, direction = jnp.stack([seen, outer]), jnp.stack([inner, outer])
@@ -80,16 +80,16 @@ class LubricatedBallSystem(AbstractBallEquations):
         if film is None:
             film = self.laws.film_state(contact, load, races.mean_speed, races.rolling, self.oil, self.inlet)
         fit, centre, arm, on_ring = self._fit(load, direction, film.separation, shared)
-        axial, radial, moment = self.with_friction(load, direction, friction)
+        forces, moment = self.forces(load, direction, friction)
         sideways = ()
         if arm.along is not None:
             # a film thicker than the groove's radius is larger than the ball's puts the ball beyond the groove centre
             forward = arm.in_plane[0] * jnp.sin(inner) + arm.in_plane[1] * jnp.cos(inner) > 0
             within = arm.length * arm.share
-            sideways = (load[0] * arm.along / jnp.where(forward, within, -within),)
-        on_ring = on_ring((jnp.stack([axial[0], radial[0], *sideways]),), moment)
+            sideways = ((load[0] * arm.along / jnp.where(forward, within, -within))[None],)
+        on_ring = on_ring((jnp.concatenate([forces[:, 0], *sideways]),), moment)
         if self.bent:
-            on_ring = self.on_both(on_ring, radial[1], radial[0])
+            on_ring = self.on_both(on_ring, forces[1, 1], forces[1, 0])
         if pocket is not None and self.cage is not None and self.cage.guidance == "inner_ring":
             on_ring = on_ring + self._through_land(pocket)
         return BallsState(

@@ -28,6 +28,7 @@ from .contact_results import ball_results, contacts_at
 from .core import BallCore, BallState
 from .equations import AbstractBallEquations
 from .friction import mixed_state
+from .groove_motion import ring_motion
 from .pairs import LubricatedBallSystem
 from .rolling import constraint_torques, rolling_balance, rolling_resistance
 from .scene import BallBearing
@@ -276,12 +277,14 @@ def _released(scene: BallBearing, system: Balls, result: NewtonResult) -> tuple[
     """The equations and the unknowns of all balls, also where one was solved for all, with all five freedoms."""
     count = scene.geometry.n_balls
     azimuth = azimuths(scene.geometry, count)
+    released = system.ring.released(system.load_scale())
     full = dataclasses.replace(
         system,
         directions=ring_directions(azimuth, system.grooves.turning),
         azimuth=azimuth,
-        ring=system.ring.released(system.load_scale()),
+        ring=released,
         held_shift=jnp.zeros((system.arcs.coordinates, count)),
+        ring_motion=ring_motion(released, azimuth) if system.exact else None,
         multiplicity=1,
     )
     globals_ = system.ring.released_unknowns(result.point.globals)

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from ...numerics.safe import safe_norm
@@ -13,11 +13,14 @@ from ..elastic_ring import ElasticRing
 from ..ring import LENGTH_UNIT, TILTS, InnerRing
 from ..rings import AbstractBetweenRings
 from .arcs import Arcs, added
-from .groove_motion import RingFrame, inner_arm, length_of, ring_frame
+from .groove_motion import RingMotion, conjugate_loads, inner_arm, length_of
 from .gyroscopic import NO_LOAD, AbstractGyroscopic
 from .kinematics import BallKinematics, BallMotion
 
 Attitude = Literal["outer", "inner", "linear_slip", "min_power", "equilibrium"]
+
+
+_OUTWARD = np.asarray([[0.0], [1.0]])
 
 
 class Grooves(NamedTuple):
@@ -71,14 +74,22 @@ class Grooves(NamedTuple):
 class InnerArm(NamedTuple):
     """Vectors from the ball centres to the nearest inner groove centres, m.
 
-    Components in the half-plane of the ball (axial, outward) and along the orbit, and the distance. `turned` is the
-    rotation of the groove by the tilt (`RingFrame.turned`). It and the component along the orbit are `None` where the
-    ring cannot tilt."""
+    Components in the half-plane of the ball (axial, outward) and, where the ring may tilt, along the orbit; and the
+    distance. `turned` is the rotation of the groove by the tilt (`RingFrame.turned`), and `None` where the ring cannot
+    tilt."""
 
-    in_plane: Float[Array, "2 ball"]
-    along: Float[Array, " ball"] | None
+    vector: Float[Array, "component ball"]
     length: Float[Array, " ball"]
     turned: Float[Array, " ball"] | None
+
+    @property
+    def in_plane(self) -> Float[Array, "2 ball"]:
+        return self.vector[:2]
+
+    @property
+    def along(self) -> Float[Array, " ball"] | None:
+        """Component along the orbit, m; `None` where the ring cannot tilt."""
+        return None if self.turned is None else self.vector[2]
 
     @property
     def share(self) -> Float[Array, " ball"]:
@@ -87,37 +98,46 @@ class InnerArm(NamedTuple):
 
 
 OnRing: TypeAlias = Callable[
-    [tuple[Float[Array, "component ball"], ...], Float[Array, " ball"]], Float[Array, "freedom ball"]
+    [tuple[Float[Array, "component ball"], ...], Float[Array, " ball"] | None], Float[Array, "freedom ball"]
 ]
 """Contributions of every ball to the forces on the ring's freedoms, N (moments in units of R_i), from its forces on the
-arcs of the ring, axial, outward and, of an `exact` system, along the orbit, N, and its moment in the half-plane, N m.
-"""
+arcs of the ring, axial, outward and, of an `exact` system, along the orbit, N, and its moment in the half-plane, N m
+(`None`: no friction)."""
 
 
 class Touch(NamedTuple):
     """Contacts of the balls for given places of their centres, before any load is known.
 
-    - `apart`: distances of the groove centres from the ball centre, m.
+    - `apart`: distances of the groove centres from the ball centre, m; `normals`: unit vectors along them, from the
+      ball to the inner ring and from the outer ring to the ball: axial, outward and, of an inner arm of an `exact`
+      system, along the orbit.
     - `direction`: of the normal forces on the ball, from the radius towards the axis, in the fixed frame, rad; `angle`:
       contact angles, on the inner race against the tilted ring.
-    - `arms`: from the ball centres to the inner groove centres; `on_ring`: of `AbstractBallSystem.reach`.
+    - `on_ring`: of `AbstractBallSystem.reach`.
     """
 
     apart: Float[Array, "contact ball"]
+    normals: tuple[Float[Array, "component ball"], ...]
     direction: Float[Array, "contact ball"]
     angle: Float[Array, "contact ball"]
-    arms: tuple[InnerArm, ...]
     on_ring: OnRing
 
 
 class Push(NamedTuple):
-    """Forces of the contacts: on the outer ring less those on the inner one, axial and outward, N, and what they
-    contribute to the forces on the rings, N: on the freedoms of the inner one, and the radial forces on rings that
-    bend (`AbstractBetweenRings`)."""
+    """Forces of the contacts, N.
 
-    axial: Float[Array, " ball"]
-    outward: Float[Array, " ball"]
+    - `held`: axial and outward, on the outer ring less those on the inner one.
+    - `on_ring`: contributions to the forces on the rings: on the freedoms of the inner one, and the radial forces on
+      rings that bend (`AbstractBetweenRings`).
+    """
+
+    held: Float[Array, "2 ball"]
     on_ring: Float[Array, "row ball"]
+
+    def balance(self, outward: Float[Array, " ball"]) -> Float[Array, "2 ball"]:
+        """Left side minus right side of the balances of forces on the balls, N. **Arguments:** `outward`: all other
+        forces on them, N."""
+        return self.held - outward[None] * _OUTWARD
 
 
 class AbstractBallSystem(AbstractBetweenRings):
@@ -126,11 +146,13 @@ class AbstractBallSystem(AbstractBetweenRings):
     Ball centres count from the centre of the outer groove at the azimuth of the ball, which moves outwards by the
     deflection of the outer ring there, as the inner groove does by that of the inner ring.
 
-    `directions[f]` are the changes of the coordinates of the inner groove (`arcs`; of one arc its centre, axial and
-    radial) at every ball for a unit of freedom f, to first order; the lever of the `ring` is R_i. `held_shift`: their
-    changes by what the ring is held at, m. `exact`: whether the grooves move with the exact rotation of the ring
-    (`groove_motion`). `out_of_round`: displacement towards each ball of races that are not round, m, and `outer`,
-    `inner`: the rings if they bend; `None` where they are round and rigid.
+    - `directions[f]`: changes of the coordinates of the inner groove (`arcs`; of one arc its centre, axial and radial)
+      at every ball for a unit of freedom f, to first order; the lever of the `ring` is R_i.
+    - `held_shift`: changes of these by what the ring is held at, m.
+    - `ring_motion`: the motion of the ring as the balls see it, of grooves that move with its exact rotation
+      (`groove_motion`); `None`: to first order.
+    - `out_of_round`: displacement towards each ball of races that are not round, m; `outer`, `inner`: the rings if they
+      bend; `None` where they are round and rigid.
     """
 
     kinematics: BallKinematics
@@ -139,6 +161,7 @@ class AbstractBallSystem(AbstractBetweenRings):
     azimuth: Float[Array, " ball"]
     ring: InnerRing
     held_shift: Float[Array, "p ball"]
+    ring_motion: RingMotion | None
     mass: Float[Array, ""]
     inertia: Float[Array, ""]
     gyroscopic: AbstractGyroscopic | None
@@ -150,7 +173,11 @@ class AbstractBallSystem(AbstractBetweenRings):
     multiplicity: int = eqx.field(static=True)
     """Balls that each ball stands for."""
     attitude: Attitude = eqx.field(static=True)
-    exact: bool = eqx.field(static=True)
+
+    @property
+    def exact(self) -> bool:
+        """True if the grooves move with the exact rotation of the ring."""
+        return self.ring_motion is not None
 
     @property
     def ball_count(self) -> int:
@@ -170,10 +197,6 @@ class AbstractBallSystem(AbstractBetweenRings):
         moved = LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shift, self.directions)
         return self.grooves.of_ring + moved + self.held_shift
 
-    def ring_frame(self, shift: Float[Array, "freedom ball"]) -> RingFrame:
-        """The displaced ring of an `exact` system, for displacements in units of `LENGTH_UNIT`."""
-        return ring_frame(self.ring.moved(shift) * self.ring.units[:, None], self.azimuth)
-
     def from_round(self, centre: Float[Array, "2 ball"], shared: Float[Array, "p ball"]) -> Float[Array, "2 ball"]:
         """Ball centres (axial, radial), m, counted from the centre of the outer groove, as they are for rings that are
         round and rigid."""
@@ -183,19 +206,29 @@ class AbstractBallSystem(AbstractBetweenRings):
             centre = jnp.stack([centre[0], centre[1] - self.out_of_round])
         return centre
 
-    def inner_arms(self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]) -> tuple[InnerArm, ...]:
-        """From ball centres of `from_round`, m, to the centres of each inner arc."""
-        if not self.exact:
+    def inner_arms(
+        self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]
+    ) -> tuple[tuple[InnerArm, ...], OnRing]:
+        r"""From ball centres of `from_round`, m, to the centres of each inner arc; and what forces on the arcs
+        contribute to those on the ring's freedoms.
+
+        The contributions are conjugate to the displacements: force times the motion of the nearest groove centre,
+        moment times the turning of the groove. To second order the moment is
+        $R_i(p_x\cos t\cos\psi - p_r\sin t\cos^2\psi)$.
+        """
+        if self.ring_motion is None:
             arms = [groove - centre for groove in self.arcs.inner_centres(self.groove_centres(shift))]
-            return tuple(InnerArm(arm, None, safe_norm(arm[0], arm[1]), None) for arm in arms)
-        grooves, frame = self.grooves, self.ring_frame(shift)
+            return tuple(InnerArm(arm, safe_norm(arm[0], arm[1]), None) for arm in arms), self._to_first_order
+        grooves, motion = self.grooves, self.ring_motion
+        frame = motion.frame(shift)
         place = centre - grooves.rest
-        found = []
-        for side in self.arcs.inner_sides:
-            offset = 0.0 if self.arcs.inner is None else side * self.arcs.inner
-            arm = inner_arm(frame, place, grooves.lever, offset)
-            found.append(InnerArm(arm[:2], arm[2], length_of(arm), frame.turned))
-        return tuple(found)
+        offsets = [0.0 if self.arcs.inner is None else side * self.arcs.inner for side in self.arcs.inner_sides]
+        found = [inner_arm(frame, place, grooves.lever, offset) for offset in offsets]
+
+        def on_ring(forces: tuple[Array, ...], moment: Array | None) -> Array:
+            return self.multiplicity * motion.on_freedoms(conjugate_loads(frame, found, forces, moment))
+
+        return tuple(InnerArm(arm.vector, length_of(arm.vector), frame.turned) for arm in found), on_ring
 
     def centrifugal(self, orbital_speed: Array) -> Array:
         """N, of balls on the pitch circle."""
@@ -206,20 +239,27 @@ class AbstractBallSystem(AbstractBetweenRings):
         spin = motion.spin_speed * motion.orbital_speed * jnp.sin(motion.attitude)
         return self.couple_share * self.inertia * spin
 
-    def with_friction(
+    def forces(
         self,
         load: Float[Array, "contact ball"],
-        angle: Float[Array, "contact ball"],
+        direction: Float[Array, "contact ball"],
         friction: Float[Array, "contact ball"] | None,
-    ) -> tuple[Array, Array, Array]:
-        """Axial and radial force (all contacts) and moment (of the inner ones, about their groove centres) that normal
-        loads and the friction that carries the couple make on the ring, N and N m."""
-        sine, cosine = jnp.sin(angle), jnp.cos(angle)
-        axial, radial = load * sine, load * cosine
+    ) -> tuple[Float[Array, "2 contact ball"], Float[Array, " ball"] | None]:
+        """Axial and outward forces of normal loads and of the friction that carries the couple, N, and its moment on
+        the inner ring (`couple_forces`; `None` without friction). **Arguments:** `direction`: of the loads, rad."""
+        pressed = load[None] * jnp.stack([jnp.sin(direction), jnp.cos(direction)])
         if friction is None:
-            return axial, radial, jnp.zeros_like(load[0])
+            return pressed, None
+        dragged, moment = self.couple_forces(direction, friction)
+        return pressed + dragged, moment
+
+    def couple_forces(
+        self, direction: Float[Array, "contact ball"], friction: Float[Array, "contact ball"]
+    ) -> tuple[Float[Array, "2 contact ball"], Float[Array, " ball"]]:
+        """Axial and outward forces of the friction that carries the couple, N, and the moment of that on the inner ring
+        about the groove centres, N m. **Arguments:** `direction`: of the normal forces, rad."""
         moment = -self.arcs.on_inner(friction) * self.grooves.groove_arm
-        return axial + friction * cosine, radial - friction * sine, moment
+        return friction[None] * jnp.stack([jnp.cos(direction), -jnp.sin(direction)]), moment
 
     def couple_friction(
         self, motion: BallMotion, load: Float[Array, "contact ball"]
@@ -238,71 +278,45 @@ class AbstractBallSystem(AbstractBetweenRings):
     def reach(
         self, shared: Float[Array, "p ball"], centre: Float[Array, "2 ball"]
     ) -> tuple[tuple[InnerArm, ...], OnRing]:
-        r"""From ball centres, counted from the outer groove centre (axial, radial), m, to the inner arcs' centres;
-        and what forces there contribute to those on the ring's freedoms.
-
-        The contributions are conjugate to the displacements: force times the motion of the nearest groove centre,
-        moment times the turning of the groove. To second order the moment is
-        $R_i(p_x\cos t\cos\psi - p_r\sin t\cos^2\psi)$.
-        """
-        shift, centre = shared[: len(self.freedoms)], self.from_round(centre, shared)
-        if not self.exact:
-            return self.inner_arms(shift, centre), self._to_first_order
-
-        def move(shift: Array) -> tuple[Array, tuple[InnerArm, ...]]:
-            arms, parts = self.inner_arms(shift, centre), []
-            for arm in arms:
-                assert arm.along is not None
-                parts += [arm.in_plane, arm.along[None]]
-            turned = arms[0].turned
-            assert turned is not None
-            return jnp.concatenate([*parts, turned[None]]), arms
-
-        _, pull, arms = jax.vjp(move, shift, has_aux=True)
-
-        def on_ring(forces: tuple[Array, ...], moment: Array) -> Array:
-            return (self.multiplicity / LENGTH_UNIT) * pull(jnp.concatenate([*forces, moment[None]]))[0]
-
-        return arms, on_ring
+        """From ball centres, counted from the outer groove centre (axial, radial), m, to the inner arcs' centres;
+        and what forces there contribute to those on the ring's freedoms."""
+        return self.inner_arms(shared[: len(self.freedoms)], self.from_round(centre, shared))
 
     def touch(self, shared: Float[Array, "p ball"], centre: Float[Array, "2 ball"]) -> Touch:
         """The contacts of balls whose centres are known, m from the middle of the outer arcs (axial, radial)."""
         arms, on_ring = self.reach(shared, centre)
         rests = self.arcs.from_outer(centre)
-        apart = jnp.stack([*(arm.length for arm in arms), *(safe_norm(rest[0], rest[1]) for rest in rests)])
-        leaning = [*(arm.in_plane for arm in arms), *rests]
-        direction = angle = jnp.stack([jnp.arctan2(one[0], one[1]) for one in leaning])
-        for k, arm in enumerate(arms):
-            if arm.turned is not None:
-                angle = angle.at[k].add(-arm.turned)
-        return Touch(apart, direction, angle, arms, on_ring)
+        lengths = [*(arm.length for arm in arms), *(safe_norm(rest[0], rest[1]) for rest in rests)]
+        leaning = [*(arm.vector for arm in arms), *rests]
+        across, outward = jnp.stack([one[:2] for one in leaning], axis=1)
+        direction = angle = jnp.arctan2(across, outward)
+        if arms[0].turned is not None:
+            angle = direction - arms[0].turned[None] * np.maximum(self.arcs.senses, 0.0)
+        normals = tuple(one / length[None] for one, length in zip(leaning, lengths, strict=True))
+        return Touch(jnp.stack(lengths), normals, direction, angle, on_ring)
 
     def push(
         self, touch: Touch, load: Float[Array, "contact ball"], friction: Float[Array, "contact ball"] | None
     ) -> Push:
         """The forces of all contacts. **Arguments:** `load`, N; `friction`: of `couple_friction`, N."""
-        pressing = load
-        for k, arm in enumerate(touch.arms):
-            if arm.turned is not None:
-                pressing = pressing.at[k].multiply(arm.share)
-        axial, radial, moment = self.with_friction(pressing, touch.direction, friction)
-        forces = []
-        for k, arm in enumerate(touch.arms):
-            sideways = () if arm.along is None else (load[k] * arm.along / arm.length,)
-            forces.append(jnp.stack([axial[k], radial[k], *sideways]))
-        (pushed, held), (raised, lowered) = self.arcs.by_race(axial), self.arcs.by_race(radial)
-        on_ring = touch.on_ring(tuple(forces), moment)
-        on_ring = self.on_both(on_ring, lowered, raised)
-        return Push(held - pushed, lowered - raised, on_ring)
+        forces, moment = [load[k][None] * normal for k, normal in enumerate(touch.normals)], None
+        if friction is not None:
+            dragged, moment = self.couple_forces(touch.direction, friction)
+            forces = [force.at[:2].add(dragged[:, k]) for k, force in enumerate(forces)]
+        first_outer = self.arcs.first_outer
+        inner, outer = added(forces[:first_outer])[:2], added(forces[first_outer:])
+        on_ring = touch.on_ring(tuple(forces[:first_outer]), moment)
+        on_ring = self.on_both(on_ring, outer[1], inner[1])
+        return Push(outer - inner, on_ring)
 
-    def _to_first_order(self, forces: tuple[Array, ...], moment: Array) -> Array:
+    def _to_first_order(self, forces: tuple[Array, ...], moment: Array | None) -> Array:
         if not self.freedoms:
             return jnp.zeros((0, self.azimuth.shape[0]))
         force = self._on_coordinates(forces)
         rows = []
         for direction, name in zip(self.directions, self.freedoms, strict=True):
             row = jnp.sum(force * direction, axis=0)
-            if name in TILTS:
+            if name in TILTS and moment is not None:
                 # the tilt turns the axial direction of the groove's centre
                 row = row + moment * direction[0] / self.grooves.lever
             rows.append(self.multiplicity * row)

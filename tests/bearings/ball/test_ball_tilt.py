@@ -13,7 +13,7 @@ import pytest
 import jaxbearing as jb
 from jaxbearing.bearings.ball.checks import missing_thrust
 from jaxbearing.bearings.ball.geometry import BallGeometry
-from jaxbearing.bearings.ball.groove_motion import inner_arm, length_of, ring_frame
+from jaxbearing.bearings.ball.groove_motion import conjugate_loads, half_planes, inner_arm, length_of, ring_frame
 from jaxbearing.bearings.ball.rating import linear_tilt_loads
 from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
 from jaxbearing.bearings.ball.steady import overload
@@ -50,7 +50,8 @@ ARMS = [
 @jax.jit
 def arms(ring, azimuth, centre, lever, side=0.0):
     """From balls to the inner groove, and their lengths."""
-    arm = inner_arm(ring_frame(ring, azimuth), centre, lever, side)
+    seen = jnp.einsum("ijn,jn->in", half_planes(azimuth), jnp.broadcast_to(ring, (5, azimuth.size)))
+    arm = inner_arm(ring_frame(seen), centre, lever, side).vector
     return arm, length_of(arm)
 
 
@@ -94,6 +95,38 @@ def test_closed_form_in_the_plane_of_the_moment(tilt):
     found = np.asarray(arms(ring, np.zeros(1), np.asarray([[0.0], [-apart]]), lever)[1]) - apart
     expected = np.sqrt(apart**2 + 4.0 * lever * outer * np.sin(0.5 * tilt) ** 2) - apart
     np.testing.assert_allclose(found, [expected], rtol=1e-11, atol=1e-17)
+
+
+@pytest.mark.parametrize("tilt", [(0.0, 0.0), (1e-9, -2e-9), (3e-5, 1e-5), (6e-3, -2e-3), (-0.2, 0.3)])
+@pytest.mark.parametrize("moment", [None, -0.7])
+def test_loads_do_the_work_of_the_forces_on_the_grooves(tilt, moment):
+    """The formulas against a reverse pass through the arms of two circles, and so their derivatives."""
+    lever, offsets = 0.0194, (2.3e-4, -2.3e-4)
+    centre = jnp.asarray([[1e-5, -2e-5, 4e-5], [-3.1e-4, -3.4e-4, -2.8e-4]])
+    shift = jnp.asarray([[2e-5, 1e-5, -3e-5], [3e-5, -1e-5, 2e-5], [-1e-5, 4e-5, 1e-5]])
+    forces = [jnp.asarray([[300.0, -200.0, 10.0], [500.0, 900.0, -40.0], [0.2, -0.1, 3.0]]), jnp.full((3, 3), -80.0)]
+    turning = None if moment is None else jnp.full(3, moment)
+    displaced = jnp.concatenate([shift, jnp.asarray(tilt)[:, None] * jnp.ones((2, 3))])
+
+    def work(displaced):
+        frame = ring_frame(displaced)
+        arms = [inner_arm(frame, centre, lever, offset) for offset in offsets]
+        done = sum(jnp.sum(arm.vector * force) for arm, force in zip(arms, forces, strict=True))
+        return done if turning is None else done + jnp.sum(frame.turned * turning)
+
+    def loads(displaced):
+        frame = ring_frame(displaced)
+        return conjugate_loads(frame, [inner_arm(frame, centre, lever, offset) for offset in offsets], forces, turning)
+
+    def along(function):
+        return jax.jit(lambda x: jax.jvp(function, (x,), (way,)))(displaced)
+
+    way = jnp.asarray([[1.0], [-0.5], [0.3], [20.0], [-35.0]]) * jnp.ones((1, 3))
+    (expected, expected_slope), (found, slope) = along(jax.grad(work)), along(loads)
+    unit = np.array([1.0, 1.0, 1.0, 0.02, 0.02])[:, None]
+    np.testing.assert_allclose(found / unit, expected / unit, rtol=1e-13, atol=1e-10)
+    # of a slope 1e6 N/m of the displacements; where the tilt is near its floor, both ways lose digits of 1e-7 of it
+    np.testing.assert_allclose(slope / unit, expected_slope / unit, rtol=1e-9, atol=1e-3)
 
 
 # moment, N m: tilt and largest load, exact and to first order

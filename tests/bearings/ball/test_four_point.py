@@ -17,7 +17,7 @@ import jaxbearing as jb
 from jaxbearing.bearings.ball.build import build_core
 from jaxbearing.bearings.ball.core import FORCE_FLOOR, BallCore
 from jaxbearing.bearings.ball.geometry import BallGeometry
-from jaxbearing.bearings.ball.groove_motion import inner_arm, length_of, ring_frame
+from jaxbearing.bearings.ball.groove_motion import half_planes, inner_arm, length_of, ring_frame
 from jaxbearing.bearings.ball.kinematics import BallKinematics
 from jaxbearing.bearings.ball.linear_slip import linear_slip, slip_weights
 from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
@@ -95,9 +95,9 @@ def test_exact_distances():
     lever, apart = G4.groove_circle_radius, G4.arcs.inner
     ring = jnp.asarray([20e-6, 30e-6, -15e-6, 4e-3, -2.5e-3])
     for azimuth, side, length in printed:
-        frame = ring_frame(ring[:, None], jnp.asarray([azimuth]))
+        frame = ring_frame(jnp.einsum("ijn,j->in", half_planes(jnp.asarray([azimuth])), ring))
         arm = inner_arm(frame, jnp.asarray([[3e-6], [-3.6e-4]]), lever, side * apart)
-        np.testing.assert_allclose(length_of(arm)[0], length, rtol=1e-11)
+        np.testing.assert_allclose(length_of(arm.vector)[0], length, rtol=1e-11)
 
 
 # geometry, loads, centrifugal force, displacements, {ball: (Q_i, Q_o, alpha_i, alpha_o)} with both sides of a ring
