@@ -178,7 +178,7 @@ def with_films(scene: BallBearing, core: BallCore) -> BallCore:
     geometry, motion, angle = scene.geometry, core.kinematics, core.grooves.free_angle
     contacts = geometry.free_contacts(reduced_modulus(scene.materials.rings, scene.materials.balls)).shaped()
     rolling = motion.rolling(angle, angle, motion.outer_control(angle))
-    speed = jnp.stack([motion.inner_race(rolling, angle).mean_speed, motion.outer_race(rolling, angle).mean_speed])
+    speed = motion.races(jax.tree.map(jnp.atleast_1d, rolling), jnp.full((2, 1), angle)).mean_speed[:, 0]
     inlet = jax.tree.map(lambda leaf: leaf[:, 0] if jnp.ndim(leaf) == 2 else leaf, oil_of_races(scene))
     film = lambda load: laws.film_state(contacts, load * jnp.ones(2), speed, jnp.zeros(2), oil, inlet).separation
     load = core.ball_scale() + _pressed_load(core.grooves, film)

@@ -38,10 +38,9 @@ def ball_results(
     ellipse = contact.ellipse(load)
     pressure = jnp.where(load > 0, ellipse.pressure, 0.0)
     arcs, first = system.arcs, (0, system.arcs.first_outer)
-    over = (kinematics.inner_race, kinematics.outer_race)
-    races = [over[race](motion, angle[k]) for k, race in enumerate(arcs.races)]
+    races = kinematics.races(motion, angle, arcs.senses)
     rolling = jnp.abs(kinematics.inner_speed - kinematics.outer_speed) / kinematics.ratio
-    ratios = [race.spin / jnp.sqrt(jnp.square(race.roll) + jnp.square(1e-12 * rolling) + 1e-24) for race in races]
+    ratios = races.spin / jnp.sqrt(jnp.square(races.roll) + jnp.square(1e-12 * rolling) + 1e-24)
     more |= computed_results(BallResults, SolvedBalls(system, state, films))
     more |= _second(arcs, load, angle, pressure, ratios)
     others: dict[str, Any] = {name: None if one is None else _every(scene, one) for name, one in more.items()}
@@ -73,11 +72,11 @@ def _places(arcs: Arcs) -> tuple[str, ...]:
     return tuple(names[side].format(RACEWAYS[race]) for race, side in zip(arcs.races, arcs.sides, strict=True))
 
 
-def _second(arcs: Arcs, load: Array, angle: Array, pressure: Array, ratios: list[Array]) -> dict[str, Array | None]:
+def _second(arcs: Arcs, load: Array, angle: Array, pressure: Array, ratios: Array) -> dict[str, Array | None]:
     """Results of the contacts on the flanks for thrust along -e_x, of rings that have them."""
     if arcs.single:
         return {}
-    spins = jnp.abs(jnp.stack(ratios))
+    spins = jnp.abs(ratios)
     named = arcs.named({"load": load, "contact_angle": angle, "pressure": pressure, "spin_to_roll": spins})
     carrying = jnp.sum(load > LOADED * jnp.max(load), axis=0, dtype=float)
     return {"loaded_contacts": carrying, **{name: one for name, one in named.items() if name.endswith("_second")}}

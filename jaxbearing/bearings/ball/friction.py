@@ -211,12 +211,10 @@ def _least_power(system: AbstractLubricatedBallSystem, state: BallsState) -> Arr
 
         def power(part: Array) -> Array:
             rolling = motion.rolling(angle[0], angle[1], low + part * (high - low))
-            races = [motion.inner_race(rolling, angle[0]), motion.outer_race(rolling, angle[1])]
-            spin = jnp.stack([race.spin for race in races])
-            speed = jnp.stack([race.mean_speed for race in races])
-            sliding = Sliding(jnp.zeros_like(spin), None, spin)
-            shear = balls.laws.shear(contact, load, film, speed, sliding, balls.oil)
-            return jnp.sum(shear.moment * spin, axis=0)
+            races = motion.races(rolling, angle)
+            sliding = Sliding(jnp.zeros_like(races.spin), None, races.spin)
+            shear = balls.laws.shear(contact, load, film, races.mean_speed, sliding, balls.oil)
+            return jnp.sum(shear.moment * races.spin, axis=0)
 
         rise = jax.jvp(power, (part,), (jnp.ones_like(part),))[1]
         return rise / (balls.friction_scale() * balls.spin_unit() * motion.ball_diameter)

@@ -3,10 +3,15 @@
 from typing import NamedTuple
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from ..._types import Values
+
+PAIR = np.asarray([[1.0], [-1.0]])
+"""Senses of one contact on each race, see `BallKinematics.races`."""
 
 
 class BallMotion(NamedTuple):
@@ -118,18 +123,35 @@ class BallKinematics(eqx.Module):
 
     def inner_race(self, motion: BallMotion, angle: Values) -> RaceMotion:
         """Relative motion on the inner race at a contact angle, rad."""
-        slow = self.inner_speed - motion.orbital_speed
-        race = slow * 0.5 * self.pitch_diameter * (1.0 - self.ratio * jnp.cos(angle))
-        ball = 0.5 * motion.spin_speed * self.ball_diameter * jnp.cos(angle - motion.attitude)
-        spin = slow * jnp.sin(angle) + motion.spin_speed * jnp.sin(angle - motion.attitude)
-        roll = motion.spin_speed * jnp.cos(angle - motion.attitude) + slow * jnp.cos(angle)
-        return RaceMotion(race, ball, ball - race, -0.5 * motion.transverse * self.ball_diameter, spin, roll)
+        return self._over(motion, angle, 1.0, self.inner_speed)
 
     def outer_race(self, motion: BallMotion, angle: Values) -> RaceMotion:
         """Relative motion on the outer race at a contact angle, rad."""
-        fast = motion.orbital_speed - self.outer_speed
-        race = fast * 0.5 * self.pitch_diameter * (1.0 + self.ratio * jnp.cos(angle))
-        ball = 0.5 * motion.spin_speed * self.ball_diameter * jnp.cos(angle - motion.attitude)
-        spin = fast * jnp.sin(angle) - motion.spin_speed * jnp.sin(angle - motion.attitude)
-        roll = fast * jnp.cos(angle) - motion.spin_speed * jnp.cos(angle - motion.attitude)
-        return RaceMotion(race, ball, race - ball, -0.5 * motion.transverse * self.ball_diameter, spin, roll)
+        return self._over(motion, angle, -1.0, self.outer_speed)
+
+    def races(
+        self, motion: BallMotion, angle: Float[Array, "contact ball"], senses: Float[np.ndarray, "contact 1"] = PAIR
+    ) -> RaceMotion:
+        """Relative motion at every contact of balls.
+
+        **Arguments:** `angle`: contact angles, rad; `senses`: 1 of a contact on the inner race, -1 on the outer one; by
+        default those of one contact on each.
+        """
+        ring = jnp.where(senses > 0, self.inner_speed, self.outer_speed)
+        return self._over(jax.tree.map(lambda one: one[None], motion), angle, senses, ring)
+
+    def _over(
+        self, motion: BallMotion, angle: Values, sense: float | Float[np.ndarray, "contact 1"], ring_speed: Array
+    ) -> RaceMotion:
+        drive = sense * (ring_speed - motion.orbital_speed)
+        race = drive * 0.5 * self.pitch_diameter * (1.0 - sense * self.ratio * jnp.cos(angle))
+        along, across = (motion.spin_speed * turn(angle - motion.attitude) for turn in (jnp.cos, jnp.sin))
+        ball = 0.5 * self.ball_diameter * along
+        return RaceMotion(
+            race_speed=race,
+            ball_speed=ball,
+            rolling=sense * (ball - race),
+            transverse=jnp.broadcast_to(-0.5 * motion.transverse * self.ball_diameter, ball.shape),
+            spin=drive * jnp.sin(angle) + sense * across,
+            roll=drive * jnp.cos(angle) + sense * along,
+        )

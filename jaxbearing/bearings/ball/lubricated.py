@@ -3,7 +3,6 @@
 import abc
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
@@ -106,9 +105,7 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
 
     def races_of(self, motion: BallMotion, angle: Float[Array, "contact ball"]) -> RaceMotion:
         """Motion of the balls over the race at each contact."""
-        over = (self.kinematics.inner_race, self.kinematics.outer_race)
-        each = [over[race](motion, angle[k]) for k, race in enumerate(self.arcs.races)]
-        return jax.tree.map(lambda *values: jnp.stack(values), *each)
+        return self.kinematics.races(motion, angle, self.arcs.senses)
 
     def _through_land(self, pocket: Float[Array, " ball"]) -> Float[Array, "row ball"]:
         """Gives the contributions of the pockets' outward friction, N, to the forces on the rings.

@@ -22,7 +22,7 @@ from .core import orbit_totals
 from .equations import AbstractBallEquations, OfContacts
 from .kinematics import BallMotion
 from .state import BallGuess, BallsState
-from .system import InnerArm, OnRing
+from .system import InnerArm, OnRing, unit_normals
 
 ROLLING_PASSES = 5
 """Newton steps for the orbital speed of a ball that rolls without sliding, with the outer contact angle that goes with
@@ -70,21 +70,18 @@ class LubricatedBallSystem(AbstractBallEquations):
         seen = inner if turned is None else inner - turned  # by the tilted race
         load, outer, motion, friction, orbit_residual = self._contacts(log_load, inner, seen, orbit, own, pocket)
         angle, direction = jnp.stack([seen, outer]), jnp.stack([inner, outer])
-        races = jax.tree.map(
-            lambda a, b: jnp.stack([a, b]),
-            self.kinematics.inner_race(motion, seen),
-            self.kinematics.outer_race(motion, outer),
-        )
+        races = self.races_of(motion, angle)
         cosine = jnp.cos(angle)
         contact = self.geometry.contacts(cosine[0], cosine[1], self.reduced_modulus).shaped()
         if film is None:
             film = self.laws.film_state(contact, load, races.mean_speed, races.rolling, self.oil, self.inlet)
-        fit, centre, arm, on_ring = self._fit(load, direction, film.separation, shared)
-        forces, moment = self.forces(load, direction, friction)
+        normal = unit_normals(direction)
+        fit, centre, arm, on_ring = self._fit(load, outer - inner, normal, film.separation, shared)
+        forces, moment = self.forces(load, normal, friction)
         sideways = ()
         if arm.along is not None:
             # a film thicker than the groove's radius is larger than the ball's puts the ball beyond the groove centre
-            forward = arm.in_plane[0] * jnp.sin(inner) + arm.in_plane[1] * jnp.cos(inner) > 0
+            forward = jnp.sum(arm.in_plane * normal[:, 0], axis=0) > 0
             within = arm.length * arm.share
             sideways = ((load[0] * arm.along / jnp.where(forward, within, -within))[None],)
         on_ring = on_ring((jnp.concatenate([forces[:, 0], *sideways]),), moment)
@@ -185,24 +182,24 @@ class LubricatedBallSystem(AbstractBallEquations):
         return jax.lax.fori_loop(0, ROLLING_PASSES, better, start)
 
     def _fit(
-        self, load: Array, angle: Array, film: Array, shared: Array
+        self, load: Array, turned: Array, normal: Array, film: Array, shared: Array
     ) -> tuple[Float[Array, "2 ball"], Float[Array, "2 ball"], InnerArm, OnRing]:
         """Misfit of the centres, along the inner contact's normal, as a logarithm, and across it; ball centres, from
-        the outer groove centre, m, the arms from them to the inner groove, and what forces there do. `angle`: of the
-        normal forces."""
+        the outer groove centre, m, the arms from them to the inner groove, and what forces there do.
+
+        **Arguments:** `turned`: angle from the inner to the outer normal, rad; `normal`: of `unit_normals`."""
         grooves = self.grooves
         if not self.slips:
             film = self.film_share * film
         compression = jnp.cbrt(jnp.square(load / grooves.stiffness[:, None]))
         reach = grooves.offset[1] + compression[1] - film[1]
-        centre = reach[None] * jnp.stack([jnp.sin(angle[1]), jnp.cos(angle[1])])
+        centre = reach[None] * normal[:, 1]
         (arm,), on_ring = self.reach(shared, centre)
         # the arm laid into the half-plane
         groove = centre + (arm.in_plane / arm.share[None] if self.exact else arm.in_plane)
-        turned = angle[1] - angle[0]
         cosine, sine = jnp.cos(turned), jnp.sin(turned)
-        along = groove[0] * jnp.sin(angle[0]) + groove[1] * jnp.cos(angle[0])
-        across = groove[0] * jnp.cos(angle[0]) - groove[1] * jnp.sin(angle[0])
+        along = jnp.sum(groove * normal[:, 0], axis=0)
+        across = groove[0] * normal[1, 0] - groove[1] * normal[0, 0]
         opening = grooves.offset[0] + grooves.offset[1] * cosine - along
         # all terms of both sides are positive, also of contacts whose normals make an obtuse angle
         same, against = jnp.maximum(cosine, 0.0), jnp.maximum(-cosine, 0.0)

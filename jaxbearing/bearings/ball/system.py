@@ -140,6 +140,12 @@ class Push(NamedTuple):
         return self.held - outward[None] * _OUTWARD
 
 
+def unit_normals(direction: Float[Array, "contact ball"]) -> Float[Array, "2 contact ball"]:
+    """Axial and outward components of the normals in the half-planes. **Arguments:** `direction`: from the radius
+    towards the axis, rad."""
+    return jnp.stack([jnp.sin(direction), jnp.cos(direction)])
+
+
 class AbstractBallSystem(AbstractBetweenRings):
     """Balls between two grooved rings.
 
@@ -242,24 +248,24 @@ class AbstractBallSystem(AbstractBetweenRings):
     def forces(
         self,
         load: Float[Array, "contact ball"],
-        direction: Float[Array, "contact ball"],
+        normal: Float[Array, "2 contact ball"],
         friction: Float[Array, "contact ball"] | None,
     ) -> tuple[Float[Array, "2 contact ball"], Float[Array, " ball"] | None]:
         """Axial and outward forces of normal loads and of the friction that carries the couple, N, and its moment on
-        the inner ring (`couple_forces`; `None` without friction). **Arguments:** `direction`: of the loads, rad."""
-        pressed = load[None] * jnp.stack([jnp.sin(direction), jnp.cos(direction)])
+        the inner ring (`couple_forces`; `None` without friction). **Arguments:** `normal`: of `unit_normals`."""
+        pressed = load[None] * normal
         if friction is None:
             return pressed, None
-        dragged, moment = self.couple_forces(direction, friction)
+        dragged, moment = self.couple_forces(normal, friction)
         return pressed + dragged, moment
 
     def couple_forces(
-        self, direction: Float[Array, "contact ball"], friction: Float[Array, "contact ball"]
+        self, normal: Float[Array, "2 contact ball"], friction: Float[Array, "contact ball"]
     ) -> tuple[Float[Array, "2 contact ball"], Float[Array, " ball"]]:
         """Axial and outward forces of the friction that carries the couple, N, and the moment of that on the inner ring
-        about the groove centres, N m. **Arguments:** `direction`: of the normal forces, rad."""
+        about the groove centres, N m. **Arguments:** `normal`: of `unit_normals`."""
         moment = -self.arcs.on_inner(friction) * self.grooves.groove_arm
-        return friction[None] * jnp.stack([jnp.cos(direction), -jnp.sin(direction)]), moment
+        return friction[None] * jnp.stack([normal[1], -normal[0]]), moment
 
     def couple_friction(
         self, motion: BallMotion, load: Float[Array, "contact ball"]
@@ -301,7 +307,7 @@ class AbstractBallSystem(AbstractBetweenRings):
         """The forces of all contacts. **Arguments:** `load`, N; `friction`: of `couple_friction`, N."""
         forces, moment = [load[k][None] * normal for k, normal in enumerate(touch.normals)], None
         if friction is not None:
-            dragged, moment = self.couple_forces(touch.direction, friction)
+            dragged, moment = self.couple_forces(unit_normals(touch.direction), friction)
             forces = [force.at[:2].add(dragged[:, k]) for k, force in enumerate(forces)]
         first_outer = self.arcs.first_outer
         inner, outer = added(forces[:first_outer])[:2], added(forces[first_outer:])

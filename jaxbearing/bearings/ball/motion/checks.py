@@ -66,5 +66,4 @@ def _mean_speeds(
     geometry, operation = scene.geometry, scene.operation
     sizes = (operation.outer_speed, geometry.pitch_diameter, geometry.ball_diameter)
     kinematics = BallKinematics(inner_speed, *(jnp.asarray(size) for size in sizes))
-    races = kinematics.inner_race(motion, inner_angle), kinematics.outer_race(motion, outer_angle)
-    return jnp.stack([race.mean_speed for race in races])
+    return kinematics.races(motion, jnp.stack([inner_angle, outer_angle])).mean_speed
