@@ -54,7 +54,8 @@ def half_planes(azimuth: Float[Array, " ball"]) -> Float[Array, "5 5 ball"]:
     **Arguments:** `azimuth`: $\psi$ of the balls, rad.
     """
     cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
-    return _AXIAL[:, :, None] + _IN_PLANE[:, :, None] * cosine[None, None] + _ACROSS[:, :, None] * sine[None, None]
+    turned = _IN_PLANE[:, :, None] * cosine[None, None] + _ACROSS[:, :, None] * sine[None, None]
+    return jnp.asarray(_AXIAL[:, :, None] + turned)
 
 
 class RingFrame(NamedTuple):

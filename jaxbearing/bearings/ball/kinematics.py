@@ -141,8 +141,9 @@ class BallKinematics(eqx.Module):
         return self._over(jax.tree.map(lambda one: one[None], motion), angle, senses, ring)
 
     def _over(
-        self, motion: BallMotion, angle: Values, sense: float | Float[np.ndarray, "contact 1"], ring_speed: Array
+        self, motion: BallMotion, angle: Values, side: float | Float[np.ndarray, "contact 1"], ring_speed: Array
     ) -> RaceMotion:
+        sense = jnp.asarray(side)
         drive = sense * (ring_speed - motion.orbital_speed)
         race = drive * 0.5 * self.pitch_diameter * (1.0 - sense * self.ratio * jnp.cos(angle))
         along, across = (motion.spin_speed * turn(angle - motion.attitude) for turn in (jnp.cos, jnp.sin))
