@@ -10,13 +10,14 @@ Mathematics 630; the measure of convergence is that of Bates and Watts (1981), T
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from jaxbearing._types import Scalar
 from jaxbearing.numerics.batching import in_turn
 from jaxbearing.programs import KeptProgram
 
@@ -68,7 +69,7 @@ def begun(
     u: Float[Array, " parameter"],
     residual: Float[Array, " point"],
     jacobian: Float[Array, "point parameter"],
-    offset: Any = OFFSET,
+    offset: Scalar = OFFSET,
 ) -> State:
     """The state at the first unknowns. The first region holds the Gauss-Newton step of a linear model."""
     columns = jnp.linalg.norm(jacobian, axis=0)
@@ -131,7 +132,7 @@ def judged(
     step: Step,
     residual: Float[Array, " point"],
     jacobian: Float[Array, "point parameter"],
-    offset: Any = OFFSET,
+    offset: Scalar = OFFSET,
 ) -> State:
     """The state after a step, whose residual and Jacobian are known; a step that makes the loss larger, or for which
     the model has no value, is not taken."""
@@ -163,7 +164,7 @@ def judged(
 
 
 def minimised(
-    evaluate: Callable[[Array], tuple[Array, Array]], u: Float[Array, " parameter"], most: int, offset: float = OFFSET
+    evaluate: Callable[[Array], tuple[Array, Array]], u: Float[Array, " parameter"], most: int, offset: Scalar = OFFSET
 ) -> State:
     """The end of a search from `u` inside a program.
 
@@ -187,7 +188,7 @@ def _spectrum(state: State) -> tuple[Array, Array, Array, Array]:
     return eigenvalues, vectors, along, eigenvalues > FLAT * jnp.max(eigenvalues)
 
 
-def _at_minimum(state: State, offset: Any) -> Bool[Array, ""]:
+def _at_minimum(state: State, offset: Scalar) -> Bool[Array, ""]:
     """True if the next Gauss-Newton step would change nothing that counts."""
     eigenvalues, _, along, seen = _spectrum(state)
     safe = jnp.where(seen, eigenvalues, 1.0)

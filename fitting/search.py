@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float
 from scipy import stats
 
+from jaxbearing._types import Values
 from jaxbearing.contacts import ReeEyring, deborah_number, viscous_function_for
 from jaxbearing.lubricants import ExponentialRheology
 from jaxbearing.machines import DiskState, TwoDisk
@@ -64,7 +65,9 @@ def filled(count: int) -> int:
     return max(SMALLEST_BATCH, 1 << (count - 1).bit_length())
 
 
-def _state(scene: TwoDisk, slide_to_roll: Any, entrainment_speed: Any, temperature: Any, load: Any) -> DiskState:
+def _state(
+    scene: TwoDisk, slide_to_roll: Values, entrainment_speed: Values, temperature: Values, load: Values
+) -> DiskState:
     state = scene.state(slide_to_roll, entrainment_speed, temperature, load=load)
     return jax.tree.map(lambda leaf: jnp.broadcast_to(leaf, state.film.shape), state)
 

@@ -28,7 +28,7 @@ class Identity(eqx.Module):
         return dict(self.words) | {path: np.asarray(value).tolist() for path, value in self.numbers.items()}
 
 
-def identity_of(scene: Any, free: Collection[str]) -> Identity:
+def identity_of(scene: object, free: Collection[str]) -> Identity:
     """The identity of a scene. **Arguments:** `free`: paths that are no part of it."""
     numbers: dict[str, Any] = {}
     words: list[tuple[str, str]] = []

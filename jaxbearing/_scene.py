@@ -25,7 +25,7 @@ Scene = TypeVar("Scene", bound="AbstractScene")
 OF_A_BATCH = "this is a batch of solutions: take one lane of it first, jax.tree.map(lambda leaf: leaf[lane], solution)"
 
 
-def number(default: Any = dataclasses.MISSING, *, bound: str = "finite", **kwargs: Any) -> Any:
+def number(default: object = dataclasses.MISSING, *, bound: str = "finite", **kwargs: Any) -> Any:
     """Field of a scene that holds one number, converted to a float64 leaf. Further arguments: those of
     `numerics.checks.bounded`."""
     if default is not dataclasses.MISSING:
@@ -69,7 +69,7 @@ class AbstractScene(Shown):
         """
         raise TypeError(f"cannot simulate a {type(self).__name__}: its class has no method simulated")
 
-    def simulated_batch(self, duration: float, over: Mapping[str, Any], **settings: Any) -> "AbstractHistory":
+    def simulated_batch(self, duration: float, over: Mapping[str, object], **settings: Any) -> "AbstractHistory":
         """Many runs in time; `jaxbearing.simulate_batch` says what it takes.
 
         **Raises:** `TypeError` for a kind of scene whose runs are no programs.
@@ -83,7 +83,7 @@ class AbstractScene(Shown):
         """
         raise TypeError(f"cannot simulate a {type(self).__name__}: its class has no method check_restart")
 
-    def replace(self: Scene, changes: Any) -> Scene:
+    def replace(self: Scene, changes: object) -> Scene:
         """A copy with other values; keys are dotted paths, values SI numbers (or parts).
 
         **Raises:** `AttributeError` for a path that the scene does not have; `TypeError` for what is no mapping.
@@ -117,7 +117,7 @@ class AbstractSolution(Shown):
     """Interface of all results of a solve: `status`; `checks`, text -> True if an input is out of its
     bound or a law is used beyond its range; `notes`, what the model assumed or left out."""
 
-    status: eqx.AbstractVar[Any]
+    status: eqx.AbstractVar[Int[Array, "..."]]
     checks: eqx.AbstractVar[Mapping[str, Bool[Array, ""]]]
     notes: eqx.AbstractVar[tuple[str, ...]]
 
@@ -206,7 +206,7 @@ class AbstractHistory(AbstractSolution):
         return f"{why}: {cause}the run stopped at {where}{state}; what was computed until then is kept"
 
 
-def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -> Any:
+def _replaced(part: object, changes: dict[tuple[str, ...], Any], above: str = "") -> Any:
     """The part rebuilt once with all changes, so that what is validated is the result and no state in between."""
     fields = {field.name: field for field in dataclasses.fields(part)} if isinstance(part, eqx.Module) else {}
     new: dict[str, Any] = {}

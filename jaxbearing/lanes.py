@@ -61,7 +61,7 @@ class LaneProgram:
         self,
         make: Callable[[Any, Any], AbstractScene],
         base: Any,
-        example: Any,
+        example: object,
         *,
         method: Method = "map",
         lanes: int,
@@ -93,7 +93,7 @@ class LaneProgram:
         return jax.tree.map(lambda leaf: jax.ShapeDtypeStruct(leaf.shape[1:], leaf.dtype), found)
 
     def __call__(
-        self, inputs: Any, active: np.ndarray, progress: Callable[[int], None] = lambda lanes: None
+        self, inputs: object, active: np.ndarray, progress: Callable[[int], None] = lambda lanes: None
     ) -> AbstractSolution:
         """Solutions of as many lanes as there are.
 
@@ -121,7 +121,7 @@ class LaneProgram:
                 done.append(block)
         return jax.tree.map(lambda *parts: np.concatenate(parts), *done)
 
-    def _filled(self, inputs: Any, active: np.ndarray, start: int) -> tuple[Any, np.ndarray, Any]:
+    def _filled(self, inputs: object, active: np.ndarray, start: int) -> tuple[Any, np.ndarray, Any]:
         """Gives what the lanes of one call share, which of them are solved, and their inputs. The last block is filled
         up with lanes that are not solved."""
 
@@ -137,7 +137,7 @@ class LaneProgram:
         """Leaves and structure of all arguments of `_lanes`, from what `_filled` gives."""
         return jax.tree.flatten((*self._static, *given))
 
-    def _block(self, device: Any, inputs: Any, active: np.ndarray, start: int) -> AbstractSolution:
+    def _block(self, device: object, inputs: object, active: np.ndarray, start: int) -> AbstractSolution:
         """Lanes of one call."""
         given = self._filled(inputs, active, start)
         if device not in self._compiled:
@@ -145,7 +145,7 @@ class LaneProgram:
         count = min(self.lanes, len(active) - start)
         return jax.tree.map(lambda leaf: np.asarray(leaf)[:count], self._compiled[device](given))
 
-    def _prepared(self, device: Any, given: Any) -> Callable[[Any], Any]:
+    def _prepared(self, device: Any, given: object) -> Callable[[Any], Any]:
         """The program for a device, of what `_filled` gives: kept, or compiled here."""
         leaves, structure = self._flat(given)
         kept = self._kept.ready(structure, leaves) if len(self.devices) == 1 else None
@@ -160,7 +160,7 @@ class LaneProgram:
 
 
 def _lane(
-    make: Callable[[Any, Any], AbstractScene], options: NewtonOptions | None, shared: Any, inputs: Any
+    make: Callable[[Any, Any], AbstractScene], options: NewtonOptions | None, shared: object, inputs: object
 ) -> AbstractSolution:
     return solve(make(shared, inputs), throw=False, options=options)
 
@@ -169,16 +169,16 @@ def _lanes(
     make: Callable[[Any, Any], AbstractScene],
     method: Method,
     options: NewtonOptions | None,
-    shared: Any,
+    shared: object,
     active: Bool[Array, " lane"],
-    inputs: Any,
+    inputs: object,
 ) -> AbstractSolution:
     """Solutions of all lanes of one call."""
     one = functools.partial(_lane, make, options)
     first = jax.tree.map(lambda leaf: jax.ShapeDtypeStruct(leaf.shape[1:], leaf.dtype), inputs)
     empty = _without_result(jax.eval_shape(one, shared, first))
 
-    def lane(shared: Any, active: Array, inputs: Any) -> AbstractSolution:
+    def lane(shared: object, active: Array, inputs: object) -> AbstractSolution:
         return jax.lax.cond(active, lambda: one(shared, inputs), lambda: empty)
 
     if method == "map":

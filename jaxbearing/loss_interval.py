@@ -117,7 +117,7 @@ def numbers_among(scene: AbstractScene, given: Mapping[str, Distribution]) -> di
     return {path: one for path, one in given.items() if _is_number(_value_at(scene, path))}
 
 
-def _value_at(scene: Any, path: str) -> Any:
+def _value_at(scene: object, path: str) -> Any:
     for name in path.split("."):
         scene = getattr(scene, name, None)
     return scene

@@ -115,7 +115,7 @@ def _number(name: str, value: Any) -> Array | np.ndarray:
     return as_float(value)
 
 
-def _five(displacement: Any) -> Array | np.ndarray:
+def _five(displacement: object) -> Array | np.ndarray:
     """The five displacements as an array. **Raises:** `ValueError` for something else."""
     expected = f"displacement must have five numbers, {', '.join(RING_FREEDOMS)}"
     if isinstance(displacement, RingDisplacement):
@@ -171,9 +171,9 @@ def _react_any(
 _react = eqx.filter_jit(_react_any)
 
 
-def _react_quickly(*given: Any) -> Solution:
+def _react_quickly(*given: object) -> Solution:
     return solved(_react_any, *given)[0]
 
 
-def _react_differentiated(*given: Any) -> Solution:
+def _react_differentiated(*given: object) -> Solution:
     return differentiable(_react_any, _react, *given)

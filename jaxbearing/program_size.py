@@ -30,7 +30,7 @@ class CompileReport(NamedTuple):
     quick: float | None
 
 
-def compile_report(scene: Any, compile: bool = True) -> CompileReport:
+def compile_report(scene: object, compile: bool = True) -> CompileReport:
     """Traces, lowers and compiles the solve of a scene anew, whatever is compiled or kept already.
 
     **Arguments:** `compile`: whether to compile too, which takes seconds; without it only the counts are found.

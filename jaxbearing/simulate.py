@@ -178,7 +178,7 @@ def _require_moving(scene: object, method: str) -> None:
 def simulate_batch(
     scene: Any,
     duration: float,
-    over: Mapping[str, Any],
+    over: Mapping[str, object],
     *,
     simulation: object = None,
     interval: float = INTERVAL,

@@ -1,11 +1,12 @@
 """The fitted model between the measured points."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array
 
+from jaxbearing._types import Values
 from jaxbearing.machines import TwoDisk
 from jaxbearing.programs import KeptProgram
 
@@ -76,7 +77,7 @@ def _filled(parts: list[np.ndarray]) -> Array:
     return jnp.asarray(np.concatenate([*parts, *[parts[-1]] * (_TOGETHER - len(parts))]))
 
 
-def _coefficients(scene: TwoDisk, slide: Any, speed: Any, temperature: Any, load: Any) -> Array:
+def _coefficients(scene: TwoDisk, slide: Values, speed: Values, temperature: Values, load: Values) -> Array:
     state = scene.state(slide, speed, temperature, load=load)
     return scene.traction(state).rolling / state.load
 

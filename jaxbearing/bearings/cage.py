@@ -135,7 +135,7 @@ class AbstractCage(Checked):
         )
 
 
-def _check_limit(name: str, value: Any, ends: Ends, below: str, above: str) -> None:
+def _check_limit(name: str, value: Scalar, ends: Ends, below: str, above: str) -> None:
     limits = ends()
     if numbers_or_none(value, *limits) is not None:
         check_between(f"cage.{name}", value, *limits, below, above)

@@ -17,6 +17,7 @@ from ..numerics.checks import array_module, label
 
 if TYPE_CHECKING:
     from .bearing import AbstractBearing
+    from .operation import AbstractOperation
     from .solution import CageState
 else:
     AbstractBearing = Any
@@ -39,7 +40,9 @@ class KinematicFrequencies(eqx.Module):
     )
 
 
-def frequencies_of_motion(operation: Any, elements: Any, cage: "CageState | None") -> KinematicFrequencies:
+def frequencies_of_motion(
+    operation: "AbstractOperation", elements: Any, cage: "CageState | None"
+) -> KinematicFrequencies:
     r"""Frequencies of the motion that was solved: with its contact angles and its slip.
 
     $f_c = |\omega_c|/2\pi$, $f_o = Z|\omega_c - \omega_o|/2\pi$, $f_i = Z|\omega_i - \omega_c|/2\pi$,

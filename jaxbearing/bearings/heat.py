@@ -46,9 +46,16 @@ OUTSIDE = {1: ("bearing",), 4: ("inner_ring", "outer_ring"), 6: ("shaft", "housi
 GUIDED = {"inner": "inner_ring", "outer": "outer_ring", "both": "both"}
 
 
-def inlet_temperature(scene: Any) -> Values:
+def thermal_of(scene: AbstractBearing) -> Thermal:
+    """The thermal network of a scene that has one."""
+    thermal: Thermal | None = scene.thermal
+    assert thermal is not None
+    return thermal
+
+
+def inlet_temperature(scene: AbstractBearing) -> Values:
     """Temperature at which oil enters the network, K."""
-    own = scene.thermal.oil_inlet
+    own = thermal_of(scene).oil_inlet
     return scene.operation.oil_temperature if own is None else own
 
 
@@ -66,9 +73,9 @@ def has_flow(scene: AbstractBearing) -> bool:
     return scene.oil.heat_capacity is not None and scene.oil.density is not None
 
 
-def bearing_network(scene: Any) -> Network:
+def bearing_network(scene: AbstractBearing) -> Network:
     """Nodes, oil flow and ambient of a scene; conductances that depend on the solution come with it."""
-    thermal: Thermal = scene.thermal
+    thermal = thermal_of(scene)
     ways: dict[str, Scalar | CylindricalHousing] = dict.fromkeys(OUTSIDE[thermal.nodes], 0.0)
     if thermal.housing_diameter is not None:
         size = (thermal.housing_diameter, thermal.factor.ambient * thermal.housing_area)
@@ -125,7 +132,7 @@ def bearing_heat(
     )
 
 
-def _given_shares(scene: AbstractBearing, thermal: Thermal) -> dict[str, dict[str, Any]]:
+def _given_shares(scene: AbstractBearing, thermal: Thermal) -> dict[str, dict[str, Scalar | None]]:
     """Shares of the scene as `loss_shares` takes them."""
     rings, found = rings_of(scene), {}
     second = {
@@ -286,9 +293,9 @@ def unknown_capacities(scene: AbstractBearing) -> tuple[str, ...]:
     return tuple(name for name, value in _capacities(scene) if value is None)
 
 
-def _capacities(scene: Any) -> list[tuple[str, Scalar | None]]:
+def _capacities(scene: AbstractBearing) -> list[tuple[str, Scalar | None]]:
     """Name and heat capacity, J/K, of each node; `None` for what is not known."""
-    thermal: Thermal = scene.thermal
+    thermal = thermal_of(scene)
     parts: dict[str, Scalar] = _own_capacities(scene)
     parts |= {name: value for name, value in vars(thermal.capacity).items() if value is not None}
     inside = [parts.get(name) for name in NODES[4]]

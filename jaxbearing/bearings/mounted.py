@@ -73,7 +73,7 @@ def mounting_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
     yield from refusals_of(check_walls, scene)
     if temperatures is None and scene.thermal is None:
         return
-    materials: dict[str, Any] = {
+    materials: dict[str, Material | None] = {
         "materials.rings": scene.materials.rings,
         f"materials.{scene.element}s": getattr(scene.materials, f"{scene.element}s"),
         "fits.shaft_material": fits.shaft_material if fits.on_shaft else None,

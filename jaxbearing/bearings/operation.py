@@ -47,7 +47,7 @@ HELD_FIELDS = {
 """Freedom of the inner ring -> the field that holds its given displacement."""
 
 
-def _as_displacement(value: Any) -> HeldDisplacement | None:
+def _as_displacement(value: object) -> HeldDisplacement | None:
     """**Raises:** `ValueError` for something that holds no displacements."""
     if isinstance(value, Mapping):
         unknown = set(value) - {"axial", "radial", "lateral"}

@@ -77,7 +77,7 @@ def drag_density(
     return mixture_density(fraction, oil.density.density(temperature), air_density(temperature))
 
 
-def check_between(name: str, value: Any, low: Any, high: Any, below: str, above: str) -> None:
+def check_between(name: str, value: Scalar, low: Scalar, high: Scalar, below: str, above: str) -> None:
     """**Arguments:** lengths, m, known or traced; `below`, `above`: what the limits are, in words.
 
     **Raises:** `ValueError` where a known dimension lies on a limit or beyond.
@@ -90,7 +90,7 @@ def check_between(name: str, value: Any, low: Any, high: Any, below: str, above:
     )
 
 
-def check_row_fits(count: int, diameter: Any, pitch_diameter: Any, element: str = "roller") -> None:
+def check_row_fits(count: int, diameter: Scalar, pitch_diameter: Scalar, element: str = "roller") -> None:
     """**Raises:** `ValueError` where the rolling elements do not fit on the pitch circle."""
     name = f"geometry.n_{element}s"
     if count < 1:

@@ -26,7 +26,7 @@ LAMINAE = 30
 """Laminae of a roller in the reference life where a scene does not say."""
 
 
-def cleanliness_named(given: Any) -> Any:
+def cleanliness_named(given: object) -> Any:
     """The contamination class of an ISO 4406 code of circulating oil, "-/17/14", "20/17/14" or "17/14".
 
     It is the cleanest one whose numbers at 6 and 14 um are both at least those of the code. Anything else is returned

@@ -18,6 +18,7 @@ from ..numerics.status import Status
 from ..thermal.result import ThermalResult
 from .frequencies import KinematicFrequencies, frequencies_of_motion
 from .growth import FitResult
+from .operation import AbstractOperation
 from .ring_deflection import InnerRingDeflection, RingDeflection
 from .supplied import SupplyResult
 
@@ -72,7 +73,7 @@ class CageState(eqx.Module):
     attitude_angle: Float[Array, ""] = eqx.field(metadata=label("rad", "angle between land load and line of centres"))
 
 
-def losses_not_modelled(loss: Any) -> tuple[str, ...]:
+def losses_not_modelled(loss: eqx.Module) -> tuple[str, ...]:
     """Names of the losses that this scene does not model (`None`) and of those that no scene of its kind models.
 
     **Arguments:** `loss`: a `PowerLoss`, `BallPowerLoss` or `TaperedPowerLoss`.
@@ -141,11 +142,11 @@ class FailureCause(NamedTuple):
     numbers: Float[Array, "..."]
 
 
-Point = TypeVar("Point")
+Point = TypeVar("Point", bound=AbstractOperation)
 """Class of the operating point of a bearing family."""
-Elements = TypeVar("Elements")
+Elements = TypeVar("Elements", bound=eqx.Module)
 """Class of the results of the rolling elements."""
-Losses = TypeVar("Losses")
+Losses = TypeVar("Losses", bound=eqx.Module)
 """Class of the power losses."""
 
 
@@ -269,8 +270,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
         """One sentence on a failed search for temperatures."""
         thermal = self.thermal
         assert thermal is not None
-        operation: Any = self.operation
-        status, speed = Status(int(self.status)), float(np.asarray(operation.inner_speed)) * 30.0 / np.pi
+        status, speed = Status(int(self.status)), float(np.asarray(self.operation.inner_speed)) * 30.0 / np.pi
         ending = f"{thermal.ending(status)}, inner ring at {speed:.6g} rpm"
         if status == Status.THERMAL_RUNAWAY:
             return ending

@@ -25,7 +25,7 @@ from ..thermal.result import HeatPaths, NodeTemperatures, ThermalResult, named
 from ..thermal.settings import Thermal
 from ..thermal.shares import oil_temperatures
 from ..thermal.solve import START_NOTE, UNSTABLE, ThermalState, solve_network
-from .heat import OUTSIDE, bearing_heat, bearing_network, heat_capacities, rings_of
+from .heat import OUTSIDE, bearing_heat, bearing_network, heat_capacities, rings_of, thermal_of
 from .mounted import check_walls
 from .solution import Solution
 
@@ -112,9 +112,9 @@ def _lacking_of_materials(scene: AbstractBearing, thermal: Thermal) -> Iterator[
                 yield f"{path}: found nothing, {needed}, e.g. '{example}'"
 
 
-def at_temperatures(scene: Any, temperatures: Float[Array, " node"]) -> Any:
+def at_temperatures(scene: Bearing, temperatures: Float[Array, " node"]) -> Bearing:
     """The scene without its thermal network, with oil and parts at the node temperatures, K."""
-    nodes = scene.thermal.node_names
+    nodes = thermal_of(scene).node_names
     oil = oil_temperatures(nodes, temperatures, **rings_of(scene))
     parts = None
     if scene.fits is not None:
@@ -126,21 +126,23 @@ def at_temperatures(scene: Any, temperatures: Float[Array, " node"]) -> Any:
     return dataclasses.replace(scene, thermal=None, temperatures=parts, oil_temperatures=oil)
 
 
-def heat_at(scene: Any, temperatures: Float[Array, " node"], solve: Callable[[AbstractBearing], Solution]) -> NodeHeat:
+def heat_at(
+    scene: AbstractBearing, temperatures: Float[Array, " node"], solve: Callable[[AbstractBearing], Solution]
+) -> NodeHeat:
     """Heat into the nodes, for the bearing solved at these node temperatures, K. Its field `other` is the solution.
 
     **Arguments:** `solve`: function that solves a scene that has neither a thermal network nor fits.
     """
     lane = at_temperatures(scene, temperatures)
-    return bearing_heat(lane, scene.thermal, lane.solved_running(solve), temperatures)
+    return bearing_heat(lane, thermal_of(scene), lane.solved_running(solve), temperatures)
 
 
-def solve_warm(scene: Any, solve: Callable[[AbstractBearing], Solution]) -> Solution:
+def solve_warm(scene: AbstractBearing, solve: Callable[[AbstractBearing], Solution]) -> Solution:
     """The solution at the temperatures at which the heat balance of every node closes.
 
     **Arguments:** `solve`: function that solves a scene that has neither a thermal network nor fits.
     """
-    thermal: Thermal = scene.thermal
+    thermal = thermal_of(scene)
     network, nodes = bearing_network(scene), len(thermal.node_names)
 
     def losses(temperatures: Array) -> NodeHeat:
@@ -230,9 +232,9 @@ def thermal_notes(scene: AbstractBearing) -> tuple[str, ...]:
     return f"thermal: {START_NOTE}", *network_notes(scene)
 
 
-def network_notes(scene: Any) -> tuple[str, ...]:
+def network_notes(scene: AbstractBearing) -> tuple[str, ...]:
     """Notes for the user: what the network assumes."""
-    thermal: Thermal = scene.thermal
+    thermal = thermal_of(scene)
     said: list[str] = []
     outside = [f"{node}_ambient" for node in OUTSIDE[thermal.nodes]]
     if thermal.housing_diameter is None and _computed(thermal, *outside):

@@ -3,9 +3,10 @@
 import dataclasses
 import functools
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from jaxtyping import Array
 
 from fitting.holding import AbstractSearch, Held, Settled
 from fitting.levenberg import minimised_outside
@@ -64,7 +65,7 @@ class Problem(NamedTuple):
         """Matrix from unknowns to coordinates."""
         return np.diag(self.free.astype(float))
 
-    def natural(self, u: Any) -> np.ndarray:
+    def natural(self, u: Array | np.ndarray) -> np.ndarray:
         """Coordinates of unknowns, of one lane or of several."""
         return self.base + np.where(self.free, np.asarray(u), 0.0)
 
@@ -238,14 +239,14 @@ class Search(AbstractSearch):
         values, slopes = self.predicted(np.asarray(coordinates)[None])
         return values[0], slopes[0]
 
-    def slopes(self, problem: Problem, u: Any) -> tuple[np.ndarray, np.ndarray]:
+    def slopes(self, problem: Problem, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         residual, jacobian = self.at(problem, u)
         used = problem.weight > 0
         size = problem.scale * self.bend
         rows = self.with_priors(residual[used][None] / size, jacobian[used][None] / size, problem.natural(u)[None])
         return rows[0][0], rows[1][0]
 
-    def variance(self, problem: Problem, u: Any, free: np.ndarray) -> float:
+    def variance(self, problem: Problem, u: np.ndarray, free: np.ndarray) -> float:
         """Variance of the errors over the squares of the deviations."""
         residual, slopes = self.at(problem, u)
         used = problem.weight > 0
@@ -261,7 +262,7 @@ class Search(AbstractSearch):
         degrees = max(len(residual) - self._told(slopes / scale, free), 1.0)
         return float(np.sum(np.square(residual)) / degrees)
 
-    def spread(self, problem: Problem, u: Any, free: np.ndarray) -> Spread:
+    def spread(self, problem: Problem, u: np.ndarray, free: np.ndarray) -> Spread:
         """Uncertainty of the free fields: the priors count as measurements of the fields themselves."""
         _, jacobian = self.at(problem, u)
         size = np.sqrt(self.variance(problem, u, free))
@@ -285,7 +286,7 @@ class Search(AbstractSearch):
         covariance = spread(rows[0], found.held.free, 1.0, self.options.level).covariance
         return np.where(np.isfinite(covariance), covariance, 0.0)
 
-    def undetermined(self, problem: Problem, u: Any, held: Held) -> tuple[int, str] | None:
+    def undetermined(self, problem: Problem, u: np.ndarray, held: Held) -> tuple[int, str] | None:
         found = self.spread(problem, u, held.free)
         if found.degrees < 0:
             index = int(np.flatnonzero(held.free)[-1])

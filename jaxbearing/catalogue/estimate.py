@@ -105,7 +105,7 @@ def _usual_sizes(kind: str, middle: float, spread: float) -> np.ndarray:
     return sizes[np.abs(np.log(sizes / middle)) < 4.0 * spread]
 
 
-def _fills(count: Any, size: np.ndarray, pitch: float) -> Any:
+def _fills(count: np.integer | np.ndarray, size: np.ndarray, pitch: float) -> np.ndarray:
     fill = count * size / (math.pi * pitch)
     return (fill > FILLS[0]) & (fill < FILLS[1])
 

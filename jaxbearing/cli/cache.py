@@ -51,7 +51,7 @@ def _in_words(folder: Path, show: Callable[..., None]) -> Callable[..., None]:
     as on a full disk, one sentence is said."""
     said: set[str] = set()
 
-    def showwarning(message: Warning | str, *where: Any, **options: Any) -> None:
+    def showwarning(message: Warning | str, *where: object, **options: Any) -> None:
         unwritten = _UNWRITTEN.match(str(message))
         if unwritten is not None:
             if not said:

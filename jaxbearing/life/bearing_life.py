@@ -9,6 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
+from .._types import Scalar
 from ..bearings.bearing import AbstractBearing
 from ..bearings.flanks import on_heavier_flanks
 from ..bearings.inlet import race_temperatures
@@ -147,7 +148,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     hours = lambda revolutions: revolutions * HOURS / jnp.abs(speed)
     reliability = RELIABILITY_FACTORS[rating.reliability]
     kappa = _viscosity_ratio(scene, pitch_diameter, speed)
-    more: dict[str, Any] = {}
+    more: dict[str, Array | None] = {}
     if kappa is not None:
         more["viscosity_ratio"] = kappa
     if kappa is not None and rating.says_cleanliness:
@@ -210,7 +211,7 @@ def _cleanliness(rating: Rating, kappa: Array, pitch_diameter: Array) -> Array:
     return contamination_factor(kappa, pitch_diameter, rating.cleanliness)
 
 
-def _given(value: Any, computed: Callable[[], Array]) -> Array:
+def _given(value: Scalar | None, computed: Callable[[], Array]) -> Array:
     return computed() if value is None else jnp.asarray(value)
 
 

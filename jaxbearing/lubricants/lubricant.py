@@ -49,7 +49,7 @@ class Lubricant(eqx.Module):
     heat_capacity: LinearHeatCapacity | None = None
     notes: tuple[str, ...] = eqx.field(static=True, default=())
 
-    def tied(self, changes: Mapping[str, Any]) -> dict[str, Any]:
+    def tied(self, changes: Mapping[str, object]) -> dict[str, Any]:
         """The changes of fields, with those that follow: a viscosity that holds the density takes the new one, and a
         coefficient that is the integral of the viscosity is that of the new one."""
         new = dict(changes)

@@ -1,7 +1,5 @@
 """A viscosity law from a data sheet: two kinematic viscosities and a density."""
 
-from typing import Any
-
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
@@ -103,7 +101,7 @@ WaltherRoelands.__init__.__doc__ = """**Arguments:**
 """
 
 
-def require_falling(viscosity_1: Any, temperature_1: Any, viscosity_2: Any, temperature_2: Any) -> None:
+def require_falling(viscosity_1: Scalar, temperature_1: Scalar, viscosity_2: Scalar, temperature_2: Scalar) -> None:
     """Checks that the viscosity of an oil falls between its two points; arguments as those of `log_kinematic`.
 
     **Raises:** `ValueError` for known numbers that rise.

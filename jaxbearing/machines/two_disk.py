@@ -229,7 +229,7 @@ class TwoDiskSolution(AbstractSolution):
         text = f"{Status(int(status.max())).text}: {int(failed.sum())} of {status.size} points"
         return f"{text}, worst{self._place(worst)}: {reason}"
 
-    def _place(self, point: tuple[Any, ...]) -> str:
+    def _place(self, point: tuple[np.intp, ...]) -> str:
         if len(point) != 4:
             return ""
         operation = self.operation

@@ -35,14 +35,14 @@ class Known:
     assumed: dict[str, str] = field(default_factory=dict)
     missing: dict[str, str] = field(default_factory=dict)
 
-    def put(self, name: str, value: Any, otherwise: str) -> None:
+    def put(self, name: str, value: object, otherwise: str) -> None:
         """Takes a value that may be `None`; `otherwise` says what to give."""
         if value is None:
             self.missing[name] = otherwise
         else:
             self.values[name] = value if isinstance(value, str) else float(np.asarray(value))
 
-    def assume(self, name: str, value: Any, words: str) -> None:
+    def assume(self, name: str, value: object, words: str) -> None:
         """Takes a value in the place of one that is missing; `words` say where it comes from."""
         if name not in self.values and value is not None:
             self.put(name, value, "")

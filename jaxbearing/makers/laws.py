@@ -2,13 +2,13 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 
 from . import palmgren, skf
 from .known import Known, Reader
-from .palmgren_constants import INA, REINFORCED, TIMKEN
+from .palmgren_constants import INA, REINFORCED, TIMKEN, Frictions
 from .skf_constants import (
     ANGULAR_CONTACT,
     CYLINDRICAL,
@@ -74,11 +74,15 @@ def laws_of(known: Known) -> tuple[Law, ...]:
     return tuple(found)
 
 
-def _constants(table: Mapping[tuple[str, ...], Any], series: str) -> Any:
+Constants = TypeVar("Constants")
+"""Constants of one formula for one series."""
+
+
+def _constants(table: Mapping[tuple[str, ...], Constants], series: str) -> Constants | None:
     return next((value for keys, value in table.items() if series in keys), None)
 
 
-def _uncovered(law: str, family: str, series: str, table: Mapping[tuple[str, ...], Any]) -> Law:
+def _uncovered(law: str, family: str, series: str, table: Mapping[tuple[str, ...], object]) -> Law:
     known = ", ".join(key for keys in table for key in keys) or "none"
     words = f"no constants of the series '{series}' of {family.replace('_', ' ')} bearings are known; those of: {known}"
     return Law(law, None, {}, missing=(words,))
@@ -131,7 +135,7 @@ def _skf(known: Known) -> Law:
     boundary, film, supply = (read(name) for name in ("boundary_friction", "film_friction", "starvation_constant"))
     if family is not None and series is not None and constants is None:
         return _uncovered("skf", family, series, _TABLES[family])
-    if read.missing or family is None:
+    if read.missing or family is None or constants is None:
         return _without("skf", read)
     size = GEOMETRY["angular_contact_double" if _is_double(family, series) else family]
     starvation, missing, flags = 1.0, [], list(_range_flags(known, read, family))
@@ -166,7 +170,13 @@ def _further(family: str | None, axial: float, read: Reader) -> float | None:
 
 
 def _variables(
-    family: str, constants: Any, dm: float, radial: float, axial: float, speed: float, further: float | None
+    family: str,
+    constants: tuple[float, ...],
+    dm: float,
+    radial: float,
+    axial: float,
+    speed: float,
+    further: float | None,
 ) -> skf.Moments:
     match family:
         case "deep_groove":
@@ -224,7 +234,7 @@ def _drag(read: Reader, family: str, size: float, missing: list[str], flags: lis
     return times * float(skf.ball_drag(read("speed"), read("viscosity"), bore, outside, level, size, rows))
 
 
-_TABLES_OF_PALMGREN: dict[str, Mapping[str, Mapping[tuple[str, ...], Any]]] = {
+_TABLES_OF_PALMGREN: dict[str, Mapping[str, Mapping[tuple[str, ...], Frictions | tuple[float, float]]]] = {
     "palmgren_ina": INA,
     "palmgren_timken": TIMKEN,
 }
@@ -255,7 +265,7 @@ def _palmgren(known: Known, law: str) -> Law:
 _NONE = (np.nan, np.nan, np.nan)
 
 
-def _ina(read: Reader, family: str, series: str, found: Any, flags: list[str]) -> tuple[float, float, float]:
+def _ina(read: Reader, family: str, series: str, found: Frictions, flags: list[str]) -> tuple[float, float, float]:
     """f0, f1 and P1."""
     radial, axial = read("radial"), read("axial")
     _flag_axial(family, axial, flags)
@@ -273,7 +283,9 @@ def _ina(read: Reader, family: str, series: str, found: Any, flags: list[str]) -
     return f0, f1, float(palmgren.ina_load(family, radial, axial, factor, _is_double(family, series)))
 
 
-def _timken(read: Reader, family: str, series: str, found: Any, flags: list[str]) -> tuple[float, float, float]:
+def _timken(
+    read: Reader, family: str, series: str, found: tuple[float, float], flags: list[str]
+) -> tuple[float, float, float]:
     """f0, f1 and P1."""
     radial, axial = read("radial"), read("axial")
     _flag_axial(family, axial, flags)

@@ -136,7 +136,7 @@ class Fits(Checked):
         return tuple(said)
 
 
-def _check_covered(name: str, tolerance: Any, diameter: Scalar | None) -> None:
+def _check_covered(name: str, tolerance: object, diameter: Scalar | None) -> None:
     """**Raises:** `ValueError` where the tables do not have this diameter, as far as it is known."""
     size = numbers_or_none(diameter)
     # neither where none is given, nor where what is given has been refused

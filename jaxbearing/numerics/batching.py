@@ -26,11 +26,11 @@ def in_turn(search: Callable[[Given], Result], given: Given) -> Result:
     whole = lambda arrays: search(eqx.combine(arrays, static))
 
     @jax.custom_batching.custom_vmap
-    def run(arrays: Any) -> Result:
+    def run(arrays: object) -> Result:
         return whole(arrays)
 
     @run.def_vmap
-    def rule(size: int, batched: Any, arrays: Any) -> tuple[Result, Any]:
+    def rule(size: int, batched: Any, arrays: object) -> tuple[Result, Any]:
         del size
         (batched,) = batched
         varying, common = eqx.partition(arrays, batched)

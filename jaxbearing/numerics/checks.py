@@ -105,7 +105,7 @@ def _is_number(value: object) -> bool:
     return isinstance(value, int | float | np.generic | np.ndarray | jax.Array | Tracer)
 
 
-def numbers_or_none(*values: Any) -> tuple[Any, ...] | None:
+def numbers_or_none(*values: object) -> tuple[Any, ...] | None:
     """The values, known or traced; `None` if one is missing or is a placeholder (as in transformations of trees)."""
     return values if all(_is_number(value) for value in values) else None
 
@@ -159,7 +159,7 @@ def _refused(part: str, checks: dict[str, tuple[Any, str]]) -> Iterator[str]:
             yield f"{field} must be {allowed}, got {number[0]:g}"
 
 
-def demand(rule: str, fine: Any, message: Callable[[], str]) -> None:
+def demand(rule: str, fine: object, message: Callable[[], str]) -> None:
     """Checks a rule about several numbers.
 
     **Arguments:**
@@ -187,7 +187,7 @@ class InputChecks(NamedTuple):
     valid: Bool[Array, ""]
 
 
-def check_inputs(scene: Any) -> InputChecks:
+def check_inputs(scene: object) -> InputChecks:
     """Runs the checks of a scene and of all its parts again and collects the results for traced numbers.
 
     **Raises:** `ValueError` for a known number that breaks a rule.
@@ -231,7 +231,7 @@ def gate(tree: Tree, valid: Bool[Array, ""]) -> Tree:
     return eqx.combine(derivatives_if(valid, traced), others)
 
 
-def _parts(node: Any, path: str) -> Iterator[tuple[str, eqx.Module]]:
+def _parts(node: object, path: str) -> Iterator[tuple[str, eqx.Module]]:
     """Yields every module of a tree with its dotted path, inner modules first."""
     if isinstance(node, eqx.Module):
         inner = [(field.name, getattr(node, field.name, None)) for field in dataclasses.fields(node)]

@@ -60,14 +60,14 @@ def is_tracing() -> bool:
     return isinstance(jax.device_put(np.zeros(())), Tracer)
 
 
-def inside_a_program(arguments: Any) -> bool:
+def inside_a_program(arguments: object) -> bool:
     """True while a program is being traced, or if one of the arguments is differentiated or batched.
 
     JAX takes compiler options only from the outermost call, which is then not ours."""
     return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(arguments)) or is_tracing()
 
 
-def require_outside(verb: str, instead: str, *values: Any) -> None:
+def require_outside(verb: str, instead: str, *values: object) -> None:
     """Refuses the call of a function that cannot be part of a JAX program.
 
     **Arguments:** `verb`: name of the function; `instead`: what to use there; `values`: its arguments.
@@ -85,7 +85,7 @@ def compiled_by_hand(function: Callable[Given, Result]) -> Callable[Given, Resul
     program are not changed."""
     compiled = eqx.filter_jit(function)
 
-    def number(leaf: Any) -> Any:
+    def number(leaf: object) -> Any:
         return np.float64(leaf) if isinstance(leaf, int | float) and not isinstance(leaf, bool) else leaf
 
     @functools.wraps(function)

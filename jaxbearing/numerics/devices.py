@@ -1,7 +1,7 @@
 """Distribution of the lanes of a batch over the devices of this process."""
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import jax
 from jax.core import Tracer
@@ -25,7 +25,7 @@ def shared_out(run: Callable[..., Result]) -> Callable[..., Result]:
     multiple of the number of devices.
     """
 
-    def split(lanes: Any, *shared: Any) -> Result:
+    def split(lanes: object, *shared: object) -> Result:
         devices = jax.local_devices()
         if len(devices) == 1 or jax.tree.leaves(lanes)[0].shape[0] % len(devices):
             return run(lanes, *shared)
@@ -37,7 +37,7 @@ def shared_out(run: Callable[..., Result]) -> Callable[..., Result]:
     return split
 
 
-def may_be_shared_out(given: Any) -> bool:
+def may_be_shared_out(given: object) -> bool:
     """True if no devices have been chosen yet, by `jax.device_put`, a mesh, a default, or a transformation of JAX
     around the call (of which nothing is known)."""
     if getattr(jax.config, "jax_default_device", None) is not None or not jax.sharding.get_abstract_mesh().empty:

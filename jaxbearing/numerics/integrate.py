@@ -22,6 +22,7 @@ import optimistix as optx
 from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float, Int
 
+from .._types import Scalar
 from .arrow import ArrowPoint
 from .integrator import IMPLICIT, Field, IntegratorOptions, NestedField, Segment
 from .kept_jacobian import KeptJacobian
@@ -87,7 +88,7 @@ class _Problem(NamedTuple):
     """Problem for diffrax: vector field, solver, state, arguments, norm of an error, and `proper`, the function that
     takes the state of the run from that of the solver."""
 
-    field: Callable[[Any, Any, Any], Any]
+    field: Callable[[Scalar, Any, Any], Any]
     solver: dfx.AbstractAdaptiveSolver
     state: Any
     args: Any
@@ -99,7 +100,7 @@ def _problem(
     field: Field | NestedField,
     state: ArrowPoint,
     start: Float[Array, ""],
-    args: Any,
+    args: object,
     options: IntegratorOptions,
     idle: int,
 ) -> _Problem:
@@ -136,7 +137,7 @@ def _problem(
 
 
 def _kept_problem(
-    field: Field | NestedField, state: ArrowPoint, args: Any, options: IntegratorOptions, idle: int
+    field: Field | NestedField, state: ArrowPoint, args: object, options: IntegratorOptions, idle: int
 ) -> _Problem:
     """Problem for `KeptJacobian`, whose iterations begin a solve inside with what the last one found."""
     tolerance = jnp.asarray(options.tolerance)
@@ -168,7 +169,7 @@ def integrate_segment(
     state: ArrowPoint,
     start: Float[Array, ""],
     times: Float[Array, " time"],
-    args: Any,
+    args: object,
     options: IntegratorOptions,
     first_step: Float[Array, ""] | None = None,
     adjoint: dfx.AbstractAdjoint | None = None,

@@ -14,7 +14,7 @@ from .structure import choice, count
 Solver = Literal["tsit5", "dopri8", "kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler", "auto"]
 SOLVERS: tuple[str, ...] = get_args(Solver)
 IMPLICIT = ("kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler")
-Field = Callable[[Any, ArrowPoint, Any], ArrowPoint]
+Field = Callable[[Scalar, ArrowPoint, Any], ArrowPoint]
 
 
 class NestedField(NamedTuple):
@@ -24,8 +24,8 @@ class NestedField(NamedTuple):
     - `guess(time, state, args)`: first guess of the solution, for a state that nothing is known about.
     """
 
-    rates: Callable[[Any, ArrowPoint, Any, ArrowPoint, Scalar], tuple[ArrowPoint, ArrowPoint]]
-    guess: Callable[[Any, ArrowPoint, Any], ArrowPoint]
+    rates: Callable[[Scalar, ArrowPoint, Any, ArrowPoint, Scalar], tuple[ArrowPoint, ArrowPoint]]
+    guess: Callable[[Scalar, ArrowPoint, Any], ArrowPoint]
 
 
 class IntegratorOptions(Checked):

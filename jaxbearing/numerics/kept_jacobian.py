@@ -14,7 +14,7 @@ $k \leftarrow k + (I - h\gamma J)^{-1}(f(t_i, y_i + h\gamma k) - k)$ with
 """
 
 from collections.abc import Callable
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, TypeAlias
 
 import diffrax as dfx
 import jax
@@ -41,6 +41,8 @@ SLOW = 0.3
 """Ratio of two corrections above which the next step gets a new Jacobian."""
 STEP_CHANGE = 0.2
 """Relative change of the step above which the inverse is made anew."""
+Jacobian: TypeAlias = ArrowJacobian | Float[Array, "n n"]
+"""Jacobian of the rates: an arrow, or a full matrix."""
 Rates = Callable[[Scalar, ArrowPoint, Any, Any], tuple[ArrowPoint, Any]]
 
 
@@ -68,6 +70,10 @@ class ArrowInverse(NamedTuple):
         return ArrowPoint(own - jnp.sum(self.coupled * globals_[None, :, None], axis=1), globals_)
 
 
+Inverse: TypeAlias = ArrowInverse | Float[Array, "n n"]
+"""Inverse of a `Jacobian` times a step, taken from the identity."""
+
+
 class State(NamedTuple):
     """What a step leaves for the next one.
 
@@ -79,8 +85,8 @@ class State(NamedTuple):
 
     rate: Float[Array, " n"]
     found: Any
-    jacobian: Any
-    inverse: Any
+    jacobian: Jacobian
+    inverse: Inverse
     scale: Float[Array, ""]
     renew: Bool[Array, ""]
     ratio: Float[Array, ""]
@@ -109,8 +115,8 @@ class _Attempt(NamedTuple):
 
     again: Bool[Array, ""]
     renew: Bool[Array, ""]
-    jacobian: Any
-    inverse: Any
+    jacobian: Jacobian
+    inverse: Inverse
     scale: Float[Array, ""]
     stages: _Stages
     counts: Counts
@@ -142,13 +148,13 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
     dense: bool = False
     stage_error: Scalar = STAGE_ERROR
 
-    def order(self, terms: Any) -> int | None:
+    def order(self, terms: object) -> int | None:
         return self.method.order(terms)
 
-    def func(self, terms: Any, t0: Any, y0: Any, args: Any) -> Any:
+    def func(self, terms: object, t0: Scalar, y0: ArrowPoint, args: object) -> ArrowPoint:
         return self.rates(t0, y0, args, self.guess(t0, y0, args))[0]
 
-    def init(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any) -> State:
+    def init(self, terms: object, t0: Scalar, t1: Scalar, y0: ArrowPoint, args: object) -> State:
         del terms
         rate, found = self.rates(t0, y0, args, self.guess(t0, y0, args))
         flat = ravel_pytree(rate)[0]
@@ -168,7 +174,16 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
             counts=Counts(*(jnp.asarray(n) for n in (0, 0, 1, 0))),
         )
 
-    def step(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any, solver_state: State, made_jump: Any) -> Any:
+    def step(
+        self,
+        terms: object,
+        t0: Scalar,
+        t1: Scalar,
+        y0: ArrowPoint,
+        args: object,
+        solver_state: State,
+        made_jump: object,
+    ) -> tuple[ArrowPoint, ArrowPoint, dict[str, ArrowPoint], State, dfx.RESULTS]:
         del terms, made_jump
         state, length = solver_state, t1 - t0
         start, unravel = ravel_pytree(y0)
@@ -291,9 +306,9 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         weight = jnp.where(active, 1.0 / (self.tolerance * (1.0 + jnp.abs(start))), 0.0)
         return weight / np.sqrt(max(start.size - self.idle, 1))
 
-    def times_jacobian(self, jacobian: Any, vector: Float[Array, " n"], state: ArrowPoint) -> Float[Array, " n"]:
+    def times_jacobian(self, jacobian: Jacobian, vector: Float[Array, " n"], state: ArrowPoint) -> Float[Array, " n"]:
         """Product of a kept Jacobian with a vector. **Arguments:** `state`: of the shapes of the run."""
-        if self.dense:
+        if not isinstance(jacobian, ArrowJacobian):
             return jacobian @ vector
         elements, globals_ = ravel_pytree(state)[1](vector)
         local = jnp.sum(jacobian.local * elements[None], axis=1)
@@ -301,13 +316,13 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         rows = jnp.sum(jacobian.contributions * elements[None], axis=(1, 2)) + jacobian.corner @ globals_
         return ravel_pytree(ArrowPoint(local + border, rows))[0]
 
-    def _diagonal(self, jacobian: Any, state: ArrowPoint) -> Float[Array, " n"]:
-        if self.dense:
+    def _diagonal(self, jacobian: Jacobian, state: ArrowPoint) -> Float[Array, " n"]:
+        if not isinstance(jacobian, ArrowJacobian):
             return jnp.diag(jacobian)
         own = jnp.arange(state.elements.shape[0])
         return ravel_pytree(ArrowPoint(jacobian.local[own, own], jnp.diag(jacobian.corner)))[0]
 
-    def _jacobian(self, time: Any, state: ArrowPoint, args: Any, found: Any) -> Any:
+    def _jacobian(self, time: Scalar, state: ArrowPoint, args: object, found: object) -> Jacobian:
         fixed = jax.lax.stop_gradient((args, found))
         state = jax.lax.stop_gradient(state)
         if self.dense:
@@ -316,9 +331,9 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
             return jax.lax.stop_gradient(jax.jacfwd(rates)(flat))
         return jax.lax.stop_gradient(_arrow(lambda y: self.rates(time, y, *fixed)[0], state, self.idle))
 
-    def _inverse(self, jacobian: Any, scale: Array) -> Any:
+    def _inverse(self, jacobian: Jacobian, scale: Array) -> Inverse:
         scale = jax.lax.stop_gradient(scale)
-        if self.dense:
+        if not isinstance(jacobian, ArrowJacobian):
             return jnp.linalg.inv(jnp.eye(jacobian.shape[0]) - scale * jacobian)
         m, n = jacobian.local.shape[1:]
         identity = jnp.broadcast_to(jnp.eye(m)[:, :, None], (m, m, n))
@@ -332,8 +347,8 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         coupled, schur = eliminated(matrix)
         return ArrowInverse(solve_blocks(matrix.local, identity), coupled, matrix.contributions, jnp.linalg.inv(schur))
 
-    def _times(self, inverse: Any, unravel: Callable[[Array], ArrowPoint], right: Array) -> Array:
-        if self.dense:
+    def _times(self, inverse: Inverse, unravel: Callable[[Array], ArrowPoint], right: Array) -> Array:
+        if not isinstance(inverse, ArrowInverse):
             return inverse @ right
         return ravel_pytree(inverse.times(unravel(right)))[0]
 

@@ -33,14 +33,14 @@ def once(function: Callable[..., Result]) -> Callable[..., Result]:
     """
 
     @eqx.filter_jit
-    def packed(args: Any) -> tuple[jax.Array, _Shape]:
+    def packed(args: tuple[Any, ...]) -> tuple[jax.Array, _Shape]:
         leaves, structure = jax.tree.flatten(function(*args))
         leaves = [jnp.asarray(leaf) for leaf in leaves]
         flat = jnp.concatenate([jnp.ravel(leaf).astype(float) for leaf in leaves])
         return flat, _Shape(structure, tuple((leaf.shape, leaf.dtype) for leaf in leaves))
 
     @functools.wraps(function)
-    def call(*args: Any, when: Bool[Array, ""] | None = None) -> Result:
+    def call(*args: object, when: Bool[Array, ""] | None = None) -> Result:
         if when is None:
             flat, shape = packed(args)
         else:

@@ -57,10 +57,10 @@ class Remembering(dfx.AbstractAdaptiveSolver, dfx.AbstractWrappedSolver):
         """The wrapped solver's: diffrax' adjoints set it there, through this name."""
         return self.solver.scan_kind
 
-    def order(self, terms: Any) -> int | None:
+    def order(self, terms: object) -> int | None:
         return self.solver.order(terms)
 
-    def error_order(self, terms: Any) -> Any:
+    def error_order(self, terms: object) -> Any:
         return self.solver.error_order(terms)
 
     @property
@@ -70,13 +70,15 @@ class Remembering(dfx.AbstractAdaptiveSolver, dfx.AbstractWrappedSolver):
         stage = max(i for i, place in enumerate(places) if place < FULL)
         return stage, places[stage]
 
-    def init(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any) -> Any:
+    def init(self, terms: object, t0: Scalar, t1: Scalar, y0: object, args: Any) -> Any:
         return self.solver.init(terms, t0, t1, y0, args), args[1]
 
-    def func(self, terms: Any, t0: Any, y0: Any, args: Any) -> Any:
+    def func(self, terms: object, t0: Scalar, y0: object, args: Any) -> Any:
         return self.solver.func(terms, t0, y0, args)
 
-    def step(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any, solver_state: Any, made_jump: Any) -> Any:
+    def step(
+        self, terms: object, t0: Scalar, t1: Scalar, y0: object, args: Any, solver_state: Any, made_jump: object
+    ) -> Any:
         inner, memory = solver_state
         found = self.solver.step(terms, t0, t1, y0, (args[0], memory), inner, made_jump)
         y1, error, dense, inner, result = found

@@ -22,7 +22,7 @@ _WORDS = {int: "a whole number", float: "one finite number", bool: "True or Fals
 
 def count(
     name: str,
-    default: Any = dataclasses.MISSING,
+    default: object = dataclasses.MISSING,
     *,
     least: int | None = None,
     most: int | None = None,
@@ -42,7 +42,7 @@ def count(
 
 def constant(
     name: str,
-    default: Any = dataclasses.MISSING,
+    default: object = dataclasses.MISSING,
     *,
     bound: str = "finite",
     among: Iterable[float] | None = None,
@@ -63,7 +63,7 @@ def constant(
     return _field(read, default, kwargs, {"constant": bound, "among": numbers})
 
 
-def switch(name: str, default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
+def switch(name: str, default: object = dataclasses.MISSING, **kwargs: Any) -> Any:
     """Static field that holds `True` or `False`. Messages call it `name`. `None` passes if it is the default."""
     return _field(lambda value: static_number(name, value, bool), default, kwargs, {"switch": True})
 
@@ -71,7 +71,7 @@ def switch(name: str, default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
 def choice(
     name: str,
     choices: Iterable[str],
-    default: Any = dataclasses.MISSING,
+    default: object = dataclasses.MISSING,
     *,
     also: Callable[[Any], Any] | None = None,
     also_words: str = "",
@@ -95,7 +95,7 @@ def choice(
     )
 
 
-def _field(read: Callable[[Any], Any], default: Any, kwargs: dict[str, Any], said: dict[str, Any]) -> Any:
+def _field(read: Callable[[Any], Any], default: object, kwargs: dict[str, Any], said: dict[str, Any]) -> Any:
     """The static field.
 
     **Arguments:**
@@ -105,7 +105,7 @@ def _field(read: Callable[[Any], Any], default: Any, kwargs: dict[str, Any], sai
     if default is not dataclasses.MISSING:
         kwargs["default"] = default
 
-    def converter(value: Any) -> Any:
+    def converter(value: object) -> Any:
         return None if value is None and default is None else read(value)
 
     metadata = {**said, **kwargs.pop("metadata", {})}
@@ -133,7 +133,7 @@ def static_number(name: str, value: Any, kind: type[Kind]) -> Kind:
     return kind(value)
 
 
-def _untraced(name: str, value: Any) -> Any:
+def _untraced(name: str, value: object) -> Any:
     """A numpy or JAX scalar as a Python value; other values unchanged. **Raises:** `ValueError` for a traced value."""
     if isinstance(value, Tracer):
         raise ValueError(
@@ -143,7 +143,7 @@ def _untraced(name: str, value: Any) -> Any:
     return plain(value)
 
 
-def plain(value: Any) -> Any:
+def plain(value: object) -> Any:
     """A numpy or JAX scalar as a Python value; other values, traced ones included, unchanged."""
     if isinstance(value, np.generic | np.ndarray | jax.Array) and not isinstance(value, Tracer) and value.ndim == 0:
         return np.asarray(value).item()

@@ -18,6 +18,8 @@ import numpy as np
 from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float, Int
 
+from .._types import Scalar
+from .arrow import ArrowPoint
 from .implicit_interpolation import ImplicitInterpolation
 from .kept_jacobian import KeptJacobian, State
 
@@ -53,8 +55,8 @@ class _Either(dfx.AbstractLocalInterpolation):
 
     t0: Any
     t1: Any
-    between: Any
-    own: Any
+    between: ImplicitInterpolation
+    own: dfx.AbstractLocalInterpolation
     implicit: Any
 
     def __init__(self, *, t0, t1, y0, y1, k, bends, implicit):
@@ -75,20 +77,29 @@ class Switching(dfx.AbstractAdaptiveSolver):
 
     implicit: KeptJacobian
 
-    def order(self, terms: Any) -> int:
+    def order(self, terms: object) -> int:
         return 5
 
-    def func(self, terms: Any, t0: Any, y0: Any, args: Any) -> Any:
+    def func(self, terms: object, t0: Scalar, y0: ArrowPoint, args: object) -> ArrowPoint:
         return self.implicit.func(terms, t0, y0, args)
 
-    def init(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any) -> Choice:
+    def init(self, terms: object, t0: Scalar, t1: Scalar, y0: ArrowPoint, args: object) -> Choice:
         kept = self.implicit.init(terms, t0, t1, y0, args)
         zero, size = jnp.asarray(0), kept.rate.size
         # no symmetry, so that it has a part along every mode
         direction = jnp.asarray(np.random.default_rng(0).normal(size=size))
         return Choice(kept, jnp.asarray(False), zero, direction, zero, zero)
 
-    def step(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any, solver_state: Choice, made_jump: Any) -> Any:
+    def step(
+        self,
+        terms: object,
+        t0: Scalar,
+        t1: Scalar,
+        y0: ArrowPoint,
+        args: object,
+        solver_state: Choice,
+        made_jump: object,
+    ) -> tuple[ArrowPoint, ArrowPoint, dict[str, ArrowPoint | Array], Choice, dfx.RESULTS]:
         state, length = solver_state, t1 - t0
 
         def implicit():
@@ -122,7 +133,9 @@ class Switching(dfx.AbstractAdaptiveSolver):
     def _stages(self) -> int:
         return len(dfx.Tsit5.tableau.b_sol)
 
-    def _explicit(self, t0: Any, length: Any, y0: Any, args: Any, kept: State) -> Any:
+    def _explicit(
+        self, t0: Scalar, length: Scalar, y0: ArrowPoint, args: object, kept: State
+    ) -> tuple[ArrowPoint, ArrowPoint, dict[str, ArrowPoint], State, Bool[Array, ""]]:
         """A step of tsit5, and whether stability limits it."""
         tableau, count = dfx.Tsit5.tableau, self._stages
         lower = np.zeros((count, count))

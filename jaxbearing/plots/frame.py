@@ -31,7 +31,7 @@ class Axis(NamedTuple):
         return f"{text}, {self.unit}" if self.unit else text
 
 
-def axis_for(unit: str, values: Any) -> Axis:
+def axis_for(unit: str, values: object) -> Axis:
     """Engineer's unit of an axis.
 
     **Arguments:** `unit`: SI, as in the labels; `values`: all that is drawn, in SI, NaN where there is nothing.

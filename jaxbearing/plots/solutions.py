@@ -121,6 +121,7 @@ def _guide(history: History) -> tuple[float, float, float]:
     length, the clearance.
     """
     cage, ring = history.instants.cage, history.instants.ring
+    assert cage is not None
     ratio, zero = np.asarray(cage.eccentricity_ratio), np.zeros_like(np.asarray(cage.x))
     if not np.any(ratio > 0.0):
         return 0.0, 0.0, 0.0

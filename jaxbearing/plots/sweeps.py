@@ -13,8 +13,12 @@ from ..report.panels import log_ticks
 from .style import COLOURS, LINES, axis_name, finish, logarithmic, prepare, scale_of, shown
 
 if TYPE_CHECKING:
+    import matplotlib.artist
     import matplotlib.axes
+    import matplotlib.cm
+    import matplotlib.contour
     import matplotlib.figure
+    import matplotlib.patheffects
     import xarray as xr
 
 OPERATING_POINT = "operating point"
@@ -285,7 +289,9 @@ def _scale_of_results(axes: "matplotlib.axes.Axes") -> None:
     logarithmic(axes, "y")
 
 
-def _contours(axes: Any, xs: np.ndarray, ys: np.ndarray, values: np.ma.MaskedArray) -> tuple[Any, Sequence[float]]:
+def _contours(
+    axes: Any, xs: np.ndarray, ys: np.ndarray, values: np.ma.MaskedArray
+) -> "tuple[matplotlib.cm.ScalarMappable, Sequence[float]]":
     """Filled contours, and the levels of those that are drawn as lines."""
     if not values.count() or values.min() == values.max():
         return axes.pcolormesh(xs, ys, values, cmap="cividis"), ()
@@ -301,7 +307,7 @@ def _contours(axes: Any, xs: np.ndarray, ys: np.ndarray, values: np.ma.MaskedArr
     return filled, inside
 
 
-def _label_contours(axes: "matplotlib.axes.Axes", lines: Any) -> None:
+def _label_contours(axes: "matplotlib.axes.Axes", lines: "matplotlib.contour.QuadContourSet") -> None:
     """Writes the level of each contour on the middle of its longest piece, where no edge cuts it."""
     # angles of the labels are those of the lines on the page
     axes.figure.canvas.figure.draw_without_rendering()
@@ -360,7 +366,7 @@ def _name_ring(axes: Any, place: list[float]) -> None:
     text.set_path_effects(_halo())
 
 
-def _halo() -> list[Any]:
+def _halo() -> "list[matplotlib.patheffects.AbstractPathEffect]":
     """White round letters, which are readable on all colours of a map."""
     from matplotlib.patheffects import withStroke
 
@@ -372,7 +378,7 @@ def _title(sweep: "xr.Dataset", others: list[str]) -> str | None:
     return str(sweep[others[0]].attrs.get("long_name", others[0])) if others else None
 
 
-def _entries(axes: "matplotlib.axes.Axes", reverse: bool = False) -> tuple[list[Any], list[str]]:
+def _entries(axes: "matplotlib.axes.Axes", reverse: bool = False) -> "tuple[list[matplotlib.artist.Artist], list[str]]":
     handles, names = axes.get_legend_handles_labels()
     return (handles[::-1], names[::-1]) if reverse else (handles, names)
 
@@ -414,7 +420,12 @@ def _stack(axes: "matplotlib.axes.Axes", sweep: "xr.Dataset", x: np.ndarray, ord
     axes.set_ylabel(f"power loss, {unit}", fontsize=9)
 
 
-def beside(axes: "matplotlib.axes.Axes", handles: Any, labels: Any, title: str | None = None) -> None:
+def beside(
+    axes: "matplotlib.axes.Axes",
+    handles: "Sequence[matplotlib.artist.Artist]",
+    labels: Sequence[str],
+    title: str | None = None,
+) -> None:
     """Draws a legend on the right of the axes, where it hides nothing."""
     style = {"fontsize": 8.5, "title_fontsize": 8.5, "frameon": False, "borderaxespad": 0.0, "alignment": "left"}
     axes.legend(handles, labels, title=title, loc="upper left", bbox_to_anchor=(1.02, 1.0), **style)

@@ -48,7 +48,7 @@ def _structure(structure: Structure) -> Iterator[str]:
     yield ")"
 
 
-def static_description(value: Any) -> str:
+def static_description(value: object) -> str:
     """Describes a value that is no array. **Raises:** as `description`."""
     if isinstance(value, enum.Enum):  # some are numbers besides
         return f"{_named(type(value))}.{value.name}"
@@ -67,7 +67,7 @@ def static_description(value: Any) -> str:
     return _of_a_class(value)
 
 
-def _of_a_class(value: Any) -> str:
+def _of_a_class(value: object) -> str:
     if isinstance(value, eqx.Module):
         leaves, structure = jax.tree.flatten(value)
         return f"{description(structure)}<{','.join(static_description(leaf) for leaf in leaves)}>"
@@ -80,7 +80,7 @@ def _of_a_class(value: Any) -> str:
     raise NotKept(f"{value!r} of {type(value)}")
 
 
-def _named(thing: Any) -> str:
+def _named(thing: object) -> str:
     module, name = getattr(thing, "__module__", None) or "", getattr(thing, "__qualname__", "")
     if module.split(".")[0] not in _KNOWN or "<" in name or not name:
         raise NotKept(f"{module}.{name}")
@@ -89,7 +89,7 @@ def _named(thing: Any) -> str:
     return f"{module}.{name}"
 
 
-def _is_of_these_files(thing: Any, module: str, name: str) -> bool:
+def _is_of_these_files(thing: object, module: str, name: str) -> bool:
     """True if the name leads to this very thing in a file of this project: a user's `fitting.py` may hide the package,
     and a wrapper bears the name of what it wraps."""
     origin = sys.modules.get(module)

@@ -27,14 +27,14 @@ _MOST_NUMBERS = 512
 """Most numbers that get a pass each: more would take seconds at every call, and JAX has one reverse pass for all."""
 
 
-def with_roots(compute: Callable[..., Any], *given: Any) -> tuple[Any, tuple[Any, ...]]:
+def with_roots(compute: Callable[..., Any], *given: object) -> tuple[Any, tuple[Any, ...]]:
     """The result of `compute(*given)`, and the roots that it found."""
     with recorded_roots() as roots:
         result = compute(*given)
     return result, tuple(roots)
 
 
-def at_roots(compute: Callable[..., Any], roots: tuple[Any, ...], *given: Any, stiffness: bool = True) -> Any:
+def at_roots(compute: Callable[..., Any], roots: tuple[Any, ...], *given: object, stiffness: bool = True) -> Any:
     """The result of `compute(*given)` from roots that are known.
 
     **Arguments:** `stiffness`: of `known_roots`.
@@ -50,10 +50,10 @@ solved = KeptProgram(with_roots, quick=True)
 def _rows(
     compute: Callable[..., Any],
     roots: tuple[Any, ...],
-    result: Any,
+    result: object,
     which: Int[Array, " row"],
     count: Int[Array, ""],
-    *given: Any,
+    *given: object,
 ) -> Any:
     """Derivatives of the result by some of the numbers in `given`, in front of every array of floats.
 
@@ -67,7 +67,7 @@ def _rows(
         found = at_roots(compute, roots, *eqx.combine(unflat(flat), rest))
         return eqx.filter(found, eqx.is_inexact_array)
 
-    def one(row: Int[Array, ""], rows: Any) -> Any:
+    def one(row: Int[Array, ""], rows: object) -> Any:
         direction = jnp.zeros_like(flat).at[which[row]].set(1.0)
         _, along = jax.jvp(floats, (flat,), (direction,))
         return jax.tree.map(lambda all_, new: all_.at[row].set(new), rows, along)
@@ -81,12 +81,12 @@ _kept_rows = KeptProgram(_rows, quick=True)
 
 
 @jax.jit
-def _combined(rows: Any, dots: list[Array]) -> Any:
+def _combined(rows: object, dots: list[Array]) -> Any:
     flat = jnp.concatenate([jnp.ravel(dot) for dot in dots])
     return jax.tree.map(lambda leaf: jnp.tensordot(flat, leaf[: flat.size], 1), rows)
 
 
-def differentiable(compute: Callable[..., Any], program: Callable[..., Any], *given: Any) -> Any:
+def differentiable(compute: Callable[..., Any], program: Callable[..., Any], *given: object) -> Any:
     """The result of `compute(*given)` outside of programs, where some of the numbers are differentiated or batched.
 
     The programs of this module answer where numbers are differentiated once, and `program` in batches, for second

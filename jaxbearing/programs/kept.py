@@ -93,7 +93,7 @@ class _Ready:
         return found
 
 
-def _is_array(leaf: Any) -> bool:
+def _is_array(leaf: object) -> bool:
     return isinstance(leaf, jax.Array | np.ndarray | np.generic)
 
 
@@ -118,7 +118,7 @@ class KeptProgram:
         self._ready: dict[Any, _Ready] = {}
         self._never: set[Any] = set()
 
-    def __call__(self, *args: Any) -> Any:
+    def __call__(self, *args: object) -> Any:
         leaves, structure = jax.tree.flatten(args)
         ready = self.ready(structure, leaves)
         if ready is not None:

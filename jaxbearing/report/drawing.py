@@ -5,7 +5,7 @@ true value stands beside it. Bore, outside diameter and width of the rings are n
 usual proportions.
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..bearings.bearing import AbstractBearing
 from ..bearings.cylindrical.scene import CylindricalRollerBearing
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import matplotlib.figure
 
 
-def draw_bearing(scene: Any) -> "matplotlib.figure.Figure":
+def draw_bearing(scene: object) -> "matplotlib.figure.Figure":
     """A bearing seen along its axis and in a section through the axis; of a cylindrical roller bearing one roller and
     its pocket too.
 

@@ -3,7 +3,7 @@
 import dataclasses
 import re
 import typing
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from .._derived import derived_parts, derived_results
@@ -40,7 +40,7 @@ def label_unit(units: str) -> str:
     return over + "".join(f"/{name}" for name, under in named if under)
 
 
-def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Any]]:
+def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Mapping[str, Any]]]:
     """Path, value and label of every result, at any depth: fields that have a label, then what follows from them.
 
     The label is the field's metadata with `dims`, names of the dimensions of one result (see `dimensions`), and
@@ -60,7 +60,7 @@ def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Any]]:
             yield above + name, value, {**one.metadata, "dims": dimensions(one.annotation), "derived": True}
 
 
-def dimensions(annotation: Any) -> tuple[str, ...]:
+def dimensions(annotation: object) -> tuple[str, ...]:
     """Names of the dimensions that an annotation says: of `Float[Array, "time node"] | None` they are `time` and
     `node`; none of a number. Those of a batch, `*batch`, are no dimensions of one result."""
     shape = getattr(annotation, "dim_str", None)

@@ -3,7 +3,6 @@
 import json
 import os
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -23,7 +22,7 @@ _OF_A_FILM = ("time", "pressure", "offset", "mass", "steps", "known", "proposal"
 _PREFIX = "last_state_"
 
 
-def read_last_state(path: Any) -> LastState | FilmState | WarmState:
+def read_last_state(path: object) -> LastState | FilmState | WarmState:
     """Reads the end of a run from the file of `jaxbearing simulate --out`, for `jaxbearing.simulate(..., restart=...)`.
 
     The run may be of a bearing, of its temperatures or of a line contact, and may have been interrupted or have stopped

@@ -18,7 +18,7 @@ CHECK = "check"
 
 
 def variable(
-    value: Any,
+    value: object,
     metadata: Mapping[str, Any],
     path: str,
     leading: Sequence[str] = (),

@@ -24,7 +24,7 @@ _FORMS = "'mean' and 'deviation', or 'low' and 'high', or 'median' and 'log_devi
 
 
 def means_of(
-    raw: Mapping[str, Any], model: type[BaseModel], file: str
+    raw: Mapping[str, object], model: type[BaseModel], file: str
 ) -> tuple[dict[str, Any], dict[str, Distribution]]:
     """The tables with a mean in the place of each distribution, and the distributions by dotted path, in SI.
 
@@ -62,7 +62,7 @@ def _plain(
 
 
 def _read(
-    given: Mapping[str, Any], path: tuple[str, ...], model: type[BaseModel], file: str
+    given: Mapping[str, object], path: tuple[str, ...], model: type[BaseModel], file: str
 ) -> tuple[Any, Distribution]:
     """Gives the number that stands for a distribution in the tables, and the distribution. **Raises:** `SceneError`."""
     kind = type_at(model, path)
@@ -105,7 +105,7 @@ def _read(
 
 
 def _lognormal(
-    given: Mapping[str, Any], names: list[str], path: tuple[str, ...], model: type[BaseModel], file: str
+    given: Mapping[str, object], names: list[str], path: tuple[str, ...], model: type[BaseModel], file: str
 ) -> tuple[Any, Distribution]:
     """A distribution by its median, which stands for it in the tables. **Raises:** `SceneError`."""
     where = ".".join(path)
@@ -119,7 +119,7 @@ def _lognormal(
         raise SceneError(file, where, "a distribution", f"another one: {error}") from None
 
 
-def _value(given: Any, name: str, path: tuple[str, ...], model: type[BaseModel], file: str) -> float:
+def _value(given: object, name: str, path: tuple[str, ...], model: type[BaseModel], file: str) -> float:
     """SI value of a number of a distribution, within the bounds of its field. **Raises:** `SceneError`."""
     kind = type_at(model, path)
     where = f"{'.'.join(path)}.{name}"
@@ -147,7 +147,7 @@ def _deviation(given: object, dimension: Dimension | None) -> float:
     return quantity(given, dimension_of_unit("K", difference=True) if dimension.offset_allowed else dimension, ">= 0")
 
 
-def no_number(kind: Any) -> str:
+def no_number(kind: object) -> str:
     """Description of a field that is not one number; "" for one that is."""
     base = parts_of(kind)[0]
     if base is float:

@@ -117,7 +117,7 @@ class PartFields:
         return {name: value for name, value in fields.items() if value is not None or not exclude_none}
 
 
-def read_table(model: type[AnyTable], raw: Mapping[str, Any], file: str) -> AnyTable:
+def read_table(model: type[AnyTable], raw: Mapping[str, object], file: str) -> AnyTable:
     """The table of a file, validated. **Raises:** `SceneError` with all that is wrong with it."""
     table, problems = draft(model, raw, file)
     if problems:
@@ -126,7 +126,7 @@ def read_table(model: type[AnyTable], raw: Mapping[str, Any], file: str) -> AnyT
 
 
 def draft(
-    model: type[Any], raw: Mapping[str, Any], file: str, refused: Collection[str] = ()
+    model: type[Any], raw: Mapping[str, object], file: str, refused: Collection[str] = ()
 ) -> tuple[Any, list[SceneError]]:
     """The table of a file, or a draft of it with everything that its fields and checks refuse.
 

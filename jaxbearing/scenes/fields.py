@@ -80,7 +80,7 @@ def type_at(model: type[BaseModel], location: Sequence[int | str]) -> Any:
     return None
 
 
-def parts_of(kind: Any) -> list[Any]:
+def parts_of(kind: object) -> list[Any]:
     """A type without what may be left out, and all that annotates it."""
     if typing.get_origin(kind) is typing.Annotated:
         inner, *notes = typing.get_args(kind)
@@ -91,7 +91,7 @@ def parts_of(kind: Any) -> list[Any]:
     return [kind]
 
 
-def dimension_of(kind: Any) -> Dimension | None:
+def dimension_of(kind: object) -> Dimension | None:
     """Unit of a field's type; `None` for a number without a unit."""
     found = [note.dimension for note in parts_of(kind) if isinstance(note, QuantityValidator)]
     return found[0] if found else None
@@ -114,7 +114,7 @@ def _models_of_field(model: type[BaseModel], name: str) -> list[type[BaseModel]]
     return [] if info is None else _models_in(info.annotation)
 
 
-def _models_in(annotation: Any) -> list[type[BaseModel]]:
+def _models_in(annotation: object) -> list[type[BaseModel]]:
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return [annotation]
     return [model for inner in typing.get_args(annotation) for model in _models_in(inner)]

@@ -19,7 +19,7 @@ from .reader import scene_from_tables, warn_of_means, warn_of_preset
 from .units import bare_numbers_are_si
 
 
-def scene_from_mapping(mapping: Mapping[str, Any]) -> AbstractScene:
+def scene_from_mapping(mapping: Mapping[str, object]) -> AbstractScene:
     """A scene from the tables of a scene file, {"kind": ..., "geometry": {...}, ...}.
 
     A number of a field with a unit is an SI value here; a text carries its own unit, as in a file. The numbers must be
@@ -53,7 +53,7 @@ def load_oil(source: str | Path, base: str | None = None) -> Lubricant:
     return oils.lubricant(read_table(OilTable, read_oil(str(source)), str(source)))
 
 
-def _plain(value: Any, path: str) -> Any:
+def _plain(value: object, path: str) -> Any:
     """The tables with Python's own numbers and lists."""
     if isinstance(value, Mapping):
         return {str(key): _plain(inner, f"{path}.{key}".lstrip(".")) for key, inner in value.items()}

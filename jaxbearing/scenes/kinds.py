@@ -22,7 +22,7 @@ ALIASES: dict[str, str] = {
 """Further names of kinds of scenes, in lower case with underscores."""
 
 
-def kind_named(given: Any) -> Any:
+def kind_named(given: object) -> Any:
     """The name in scene files of a kind that a person may call "deep groove ball bearing"; anything else as it is."""
     if not isinstance(given, str):
         return given

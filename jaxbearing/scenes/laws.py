@@ -115,10 +115,10 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
         """The name of the law of which this is one."""
         return next(name for name, kind in self._named.items() if type(law) is kind)
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_before_validator_function(self.read, handler(source))
 
-    def read(self, given: Any) -> str:
+    def read(self, given: object) -> str:
         """The name, if it stands for a law. **Raises:** `PydanticCustomError` otherwise."""
         if isinstance(given, str):
             if given in self._named:
@@ -163,7 +163,7 @@ class RollingLaws(Laws[AnyLaw]):
         super().__init__(named, *kinds)
         self._older = dict(older)
 
-    def read(self, given: Any) -> str:
+    def read(self, given: object) -> str:
         if given is True:
             return next(iter(self))
         return super().read(self._older.get(given, given) if isinstance(given, str) else given)

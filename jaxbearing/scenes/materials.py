@@ -1,6 +1,6 @@
 """Materials of a scene file: a name of the catalogue, or a table."""
 
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 import numpy as np
 from pydantic import BeforeValidator, Discriminator, Tag
@@ -31,7 +31,7 @@ def catalogue_table(name: str) -> dict[str, str]:
     }
 
 
-def _material_name(value: Any) -> str:
+def _material_name(value: object) -> str:
     # --set materials.rings=52100 arrives as a number
     name = str(value) if isinstance(value, int) and not isinstance(value, bool) else value
     known = material_named(name) if isinstance(name, str) else None

@@ -85,7 +85,7 @@ def parse_value(text: str) -> Any:
         return text
 
 
-def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[BaseModel], file: str) -> dict[str, Any]:
+def apply(raw: Mapping[str, object], overrides: Mapping[str, str], model: type[BaseModel], file: str) -> dict[str, Any]:
     """A copy of the tables with the overrides; unknown names too: the validation refuses them with a suggestion.
 
     **Raises:** `SceneError` where a path goes through something that is not a table, or where an unknown name is to be
@@ -98,7 +98,7 @@ def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[Base
 
 
 def applied(
-    raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[BaseModel], file: str
+    raw: Mapping[str, object], overrides: Mapping[str, str], model: type[BaseModel], file: str
 ) -> tuple[dict[str, Any], list[SceneError]]:
     """A copy of the tables with the overrides that can be applied, and what is wrong with the others; see `apply`. The
     laws of a preset are in it."""
@@ -107,7 +107,7 @@ def applied(
 
 
 def preset(
-    raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[BaseModel], file: str
+    raw: Mapping[str, object], overrides: Mapping[str, str], model: type[BaseModel], file: str
 ) -> tuple[Filling, list[SceneError]]:
     """As `applied`, with what a preset adds to the tables."""
     changed, problems = _applied(raw, overrides, model, file)
@@ -116,7 +116,7 @@ def preset(
 
 
 def _applied(
-    raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[BaseModel], file: str
+    raw: Mapping[str, object], overrides: Mapping[str, str], model: type[BaseModel], file: str
 ) -> tuple[dict[str, Any], list[SceneError]]:
     changed, overrides = completed(model, _copy(raw, file), overrides, file)
     problems = []
@@ -173,7 +173,7 @@ def _remove(changed: dict[str, Any], keys: list[str], path: str, model: type[Bas
             table = _table(table[key], changed, keys[: depth + 1], path, file)
 
 
-def _keep_catalogue(changed: dict[str, Any], keys: list[str], path: str, file: str) -> None:
+def _keep_catalogue(changed: Mapping[str, object], keys: list[str], path: str, file: str) -> None:
     """**Raises:** `SceneError` where the name or the file of the oil would bring back what is taken out."""
     oil = changed.get("oil")
     if len(keys) < 2 or keys[0] != "oil" or keys[1] in ("name", "grade", "base", "file") or not isinstance(oil, dict):
@@ -189,7 +189,7 @@ def _keep_catalogue(changed: dict[str, Any], keys: list[str], path: str, file: s
 
 
 def _table(
-    value: Any, changed: dict[str, Any], inside: list[str], path: str, file: str, text: str = ""
+    value: object, changed: Mapping[str, object], inside: list[str], path: str, file: str, text: str = ""
 ) -> dict[str, Any]:
     if isinstance(value, dict):
         return value
@@ -222,6 +222,6 @@ def _copy(table: Mapping[str, Any], file: str, above: tuple[str, ...] = ()) -> d
     }
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: object) -> Any:
     """A value of a table, or a list of them, whose numbers may be numpy's or JAX's, with Python's."""
     return [plain(one) for one in value] if isinstance(value, list) else plain(value)

@@ -34,12 +34,12 @@ def unwritable(path: str, found: str, expected: str) -> SceneError:
     return SceneError(SCENE, path, found, expected)
 
 
-def given(tables: Mapping[str, Any]) -> Rows:
+def given(tables: Mapping[str, object]) -> Rows:
     """The tables and fields that are there."""
     return {name: value for name, value in tables.items() if value is not None}
 
 
-def rows(table: type[Table], part: Any, thermal: bool = False) -> Rows:
+def rows(table: type[Table], part: object, thermal: bool = False) -> Rows:
     """The fields of a part that are given and that the table has from its class (`table_of`), its materials and its
     parts of the same kind. The laws of a part are left to those who know their names.
 
@@ -78,7 +78,7 @@ def written(part: Any, name: str) -> Any:
     return value
 
 
-def number(value: Any, unit: str, difference: bool = False) -> float | str:
+def number(value: object, unit: str, difference: bool = False) -> float | str:
     """A number, or its text in a unit. **Arguments:** as for `units.number_note`."""
     plain = float(np.asarray(value))
     return plain if unit == "1" else quantity_text(plain, units.dimension_of_unit(unit, difference))
@@ -99,7 +99,7 @@ def material(one: Material, thermal: bool = False) -> str | Rows:
     return next(named, rows(MaterialTable, one))
 
 
-def law_name(laws: Laws[Any], law: Any, path: str, made: Callable[[str], Any] | None = None) -> str:
+def law_name(laws: Laws[Any], law: object, path: str, made: Callable[[str], Any] | None = None) -> str:
     """The name by which files know a law.
 
     **Arguments:** `path`: of the law in the scene, for messages; `made`: the law of a name, where it is not that of
@@ -118,7 +118,7 @@ def law_name(laws: Laws[Any], law: Any, path: str, made: Callable[[str], Any] | 
     raise unwritable(path, shown(law), expected)
 
 
-def optional_law(laws: Laws[Any], law: Any, absent: Any, path: str) -> str | None:
+def optional_law(laws: Laws[Any], law: object, absent: object, path: str) -> str | None:
     """The name of a law; `None` for the one that stands for an absent name."""
     return None if same(law, absent) else law_name(laws, law, path)
 

@@ -62,7 +62,7 @@ class Filling(NamedTuple):
     left_out: tuple[str, ...] = ()
 
 
-def _flow_law(tables: Mapping[str, Any]) -> str:
+def _flow_law(tables: Mapping[str, object]) -> str:
     """The law with which the oil's friction was fitted."""
     with suppress(SceneError):
         oil = tables.get("oil")
@@ -73,7 +73,7 @@ def _flow_law(tables: Mapping[str, Any]) -> str:
     return MAXWELL_EYRING
 
 
-def _length(tables: Mapping[str, Any], name: str) -> float | None:
+def _length(tables: Mapping[str, object], name: str) -> float | None:
     """A dimension of the geometry, m; `None` where it is not there or refused."""
     geometry = tables.get("geometry")
     given = geometry.get(name) if isinstance(geometry, Mapping) else None
@@ -83,17 +83,17 @@ def _length(tables: Mapping[str, Any], name: str) -> float | None:
         return None
 
 
-def _guiding(tables: Mapping[str, Any]) -> str | None:
+def _guiding(tables: Mapping[str, object]) -> str | None:
     pitch = _length(tables, "pitch_diameter")
     return None if pitch is None else _text(GUIDING_CLEARANCE * pitch)
 
 
-def _element(tables: Mapping[str, Any]) -> float | None:
+def _element(tables: Mapping[str, object]) -> float | None:
     found = (_length(tables, name) for name in ("ball_diameter", "roller_diameter"))
     return next((size for size in found if size is not None), None)
 
 
-def _land(tables: Mapping[str, Any]) -> str | None:
+def _land(tables: Mapping[str, object]) -> str | None:
     size = _element(tables)
     return None if size is None else _text(LAND_WIDTH * size)
 
@@ -113,7 +113,7 @@ def _text(length: float) -> str:
     return f"{1e3 * length:.3g} mm"
 
 
-def _guidance(tables: Mapping[str, Any]) -> str:
+def _guidance(tables: Mapping[str, object]) -> str:
     """The ring with ribs of a cylindrical roller bearing whose type is known; the inner ring of any other bearing."""
     catalogue = tables.get("catalogue")
     designation = catalogue.get("designation") if isinstance(catalogue, Mapping) else None
@@ -185,7 +185,7 @@ def listing(kind: str) -> Iterator[tuple[str, str]]:
             yield f"{table}.{name}", given.words or _shown(given.value)
 
 
-def filling(tables: Mapping[str, Any], removed: tuple[str, ...], model: type[BaseModel], file: str) -> Filling:
+def filling(tables: Mapping[str, object], removed: tuple[str, ...], model: type[BaseModel], file: str) -> Filling:
     """The tables of a scene with what its preset adds, or those of the bearings on a shaft; without a preset as they
     are.
 
@@ -217,7 +217,7 @@ def filling(tables: Mapping[str, Any], removed: tuple[str, ...], model: type[Bas
     return Filling(filled, added, estimated, assumed, tuple(left_out))
 
 
-def _on_shaft(tables: Mapping[str, Any], removed: tuple[str, ...], model: type[BaseModel], file: str) -> Filling:
+def _on_shaft(tables: Mapping[str, object], removed: tuple[str, ...], model: type[BaseModel], file: str) -> Filling:
     """The tables of a shaft with what the presets of its bearings add; arguments as of `filling`."""
     found = Filling(dict(tables), {})
     for keys in each_bearing(tables):
@@ -245,7 +245,7 @@ def names_a_preset(tables: object) -> bool:
     return "laws" in tables or isinstance(tables.get("scene"), str) or any(map(names_a_preset, tables.values()))
 
 
-def _with_means(tables: Mapping[str, Any], model: type[BaseModel], file: str) -> Mapping[str, Any]:
+def _with_means(tables: Mapping[str, object], model: type[BaseModel], file: str) -> Mapping[str, Any]:
     """The tables with the means of their distributions, as far as these are sound."""
     with suppress(SceneError):
         return means_of(tables, model, file)[0]
@@ -287,8 +287,8 @@ def _not_for(
 def _fields(
     table: str,
     fields: Mapping[str, Given],
-    own: Mapping[str, Any],
-    tables: Mapping[str, Any],
+    own: Mapping[str, object],
+    tables: Mapping[str, object],
     removed: tuple[str, ...],
     model: type[BaseModel],
 ) -> dict[str, Any]:
@@ -321,5 +321,5 @@ def said_of(found: Filling) -> str:
     return text
 
 
-def _shown(value: Any) -> str:
+def _shown(value: object) -> str:
     return f"'{value}'" if isinstance(value, str) else f"{value:g}"

@@ -45,7 +45,7 @@ def in_words(file: str, path: str, words: Mapping[str, str]) -> SceneError:
     return SceneError(file, path, words["found"], words["expected"], words.get("suggestion", ""))
 
 
-def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneError:
+def from_class(error: ValueError, raw: Mapping[str, object], file: str) -> SceneError:
     """The error for refusals by classes of the library.
 
     Their messages read "table.field must be ..., got ...: reason", "table.field: found ..., expected ...",
@@ -71,7 +71,7 @@ def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneErr
     return SceneError(file, path, words.get("found") or found, words["expected"], reason=words.get("reason") or "")
 
 
-def describe_at(raw: Mapping[str, Any], path: str) -> str:
+def describe_at(raw: Mapping[str, object], path: str) -> str:
     """The value of a scene at a dotted path, in words; "nothing" if there is none."""
     value: Any = raw
     for name in path.split("."):
@@ -81,7 +81,7 @@ def describe_at(raw: Mapping[str, Any], path: str) -> str:
     return describe(value)
 
 
-def _causes(details: Sequence[Any]) -> list[Any]:
+def _causes(details: list[Any]) -> list[Any]:
     """Leaves out the problems that follow from a wrong `law`, such as parameters which another law has or lacks."""
     wrong = {tuple(one["loc"][:-1]) for one in details if one["type"] == "literal_error" and one["loc"][-1] == "law"}
     return [one for one in details if one["loc"][-1:] == ("law",) or tuple(one["loc"][:-1]) not in wrong]

@@ -130,7 +130,7 @@ def load_distributions(source: str | Path, overrides: Overrides | None = None) -
 
 
 def distributions_in(
-    mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None, *, priors: bool = False
+    mapping: Mapping[str, object], origin: str, overrides: Overrides | None = None, *, priors: bool = False
 ) -> dict[str, Distribution]:
     """The distributions in the tables of a scene. Arguments as those of `scene_from_tables`; `priors`: True to include
     the priors of the oil catalogue. **Raises:** `SceneError` for errors in the distributions; other errors of the scene
@@ -147,7 +147,7 @@ def distributions_in(
         raise SceneError.of_all([_with_culprit(one, overrides, origin) for one in error.problems]) from None
 
 
-def warn_of_means(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> None:
+def warn_of_means(mapping: Mapping[str, object], origin: str, overrides: Overrides | None = None) -> None:
     """Warns about each distribution that a scene replaces by its mean. Arguments and errors as those of
     `distributions_in`."""
     found = distributions_in(mapping, origin, overrides)
@@ -158,7 +158,7 @@ def warn_of_means(mapping: Mapping[str, Any], origin: str, overrides: Overrides 
         warnings.warn(said_of(path, distribution, model), MeanUsedWarning, stacklevel=3)
 
 
-def warn_of_preset(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> None:
+def warn_of_preset(mapping: Mapping[str, object], origin: str, overrides: Overrides | None = None) -> None:
     """Warns which laws and estimates the preset of a scene stands for. Arguments as those of `scene_from_tables`, which
     must have accepted them."""
     said = preset_note(mapping, origin, overrides)
@@ -166,7 +166,7 @@ def warn_of_preset(mapping: Mapping[str, Any], origin: str, overrides: Overrides
         warnings.warn(said, PresetUsedWarning, stacklevel=3)
 
 
-def preset_note(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> str:
+def preset_note(mapping: Mapping[str, object], origin: str, overrides: Overrides | None = None) -> str:
     """Text that lists the laws for which the preset of a scene stands; "" if there is no preset. Arguments as for
     `warn_of_preset`."""
     texts = as_texts(overrides)
@@ -184,7 +184,7 @@ def oil_origins(source: str | Path, overrides: Overrides | None = None) -> dict[
 
 
 def scene_from_tables(
-    mapping: Mapping[str, Any], origin: str = "scene", overrides: Overrides | None = None
+    mapping: Mapping[str, object], origin: str = "scene", overrides: Overrides | None = None
 ) -> AbstractScene:
     """A scene from the tables of a scene file, {"kind": ..., "geometry": {...}, ...}; `origin` names it in messages.
 
@@ -202,7 +202,7 @@ def scene_from_tables(
         raise SceneError.of_all([_with_culprit(one, overrides, origin) for one in error.problems]) from None
 
 
-def scene_model(mapping: Mapping[str, Any], overrides: Mapping[str, str], origin: str) -> type[BaseModel]:
+def scene_model(mapping: Mapping[str, object], overrides: Mapping[str, str], origin: str) -> type[BaseModel]:
     """The schema of a scene's tables. **Raises:** `SceneError` for an unknown kind."""
     return _schema(mapping, overrides, origin)[0]
 
@@ -216,7 +216,7 @@ def model_of(scene: AbstractScene) -> type[BaseModel] | None:
 
 
 def _schema(
-    mapping: Mapping[str, Any], overrides: Mapping[str, str], origin: str
+    mapping: Mapping[str, object], overrides: Mapping[str, str], origin: str
 ) -> tuple[type[Table], Callable[[Any], AbstractScene]]:
     kind = mapping.get("kind")
     if "kind" in overrides:
@@ -234,7 +234,7 @@ def _with_culprit(problem: SceneError, overrides: Mapping[str, str], origin: str
 
 
 def _build(
-    raw: Mapping[str, Any],
+    raw: Mapping[str, object],
     model: type[Table],
     build: Callable[[Any], AbstractScene],
     origin: str,
@@ -278,7 +278,7 @@ def _with_oils(raw: Mapping[str, Any]) -> tuple[dict[str, Any], list[str], list[
     return complete, refused, problems
 
 
-def is_shaft(tables: Mapping[str, Any]) -> bool:
+def is_shaft(tables: Mapping[str, object]) -> bool:
     """True for the tables of a shaft."""
     return kind_named(tables.get("kind")) == SHAFT
 
@@ -302,7 +302,7 @@ def read_tables(source: str | Path) -> tuple[str, dict[str, Any]]:
     return label, without_states(mapping)
 
 
-def without_states(mapping: Mapping[str, Any]) -> dict[str, Any]:
+def without_states(mapping: Mapping[str, object]) -> dict[str, Any]:
     """The tables without the states of a load spectrum. The tables of a shaft are returned unchanged, because states
     are part of a shaft."""
     return {name: table for name, table in mapping.items() if name != STATES or is_shaft(mapping)}
@@ -365,7 +365,7 @@ def _moved(table: dict[str, Any], inside: tuple[str, ...], folder: Path) -> dict
     return {**table, inside[0]: _moved(deeper, inside[1:], folder)} if isinstance(deeper, dict) else table
 
 
-def _known_kind(kind: Any, mapping: Mapping[str, Any], origin: str) -> str:
+def _known_kind(kind: Any, mapping: Mapping[str, object], origin: str) -> str:
     if kind is None:
         # an unknown name close to "kind" is a likelier culprit than a forgotten line
         near = next((key for key in mapping if key != "kind" and nearest(key, ("kind",))), "")

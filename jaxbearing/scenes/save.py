@@ -3,7 +3,6 @@
 import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
 
 import equinox as eqx
 import jax
@@ -93,7 +92,7 @@ def _kind(scene: object) -> str:
     return scene.kind
 
 
-def _problems(node: Any, path: str, said: Mapping[str, Any]) -> Iterator[SceneError]:
+def _problems(node: object, path: str, said: Mapping[str, object]) -> Iterator[SceneError]:
     """Yields an error for each number of a scene that no file can hold.
 
     **Arguments:** `said`: metadata of the field.

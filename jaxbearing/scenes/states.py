@@ -127,7 +127,7 @@ def _problems(given: Sequence[Mapping[str, Any]], label: str) -> Iterator[SceneE
         yield SceneError(label, f"{STATES}.{SHARE}", f"shares that add up to {total:.7g}", "shares that add up to 1")
 
 
-def state_of(one: Mapping[str, Any], mapping: Mapping[str, Any], texts: dict[str, str], label: str) -> FileState:
+def state_of(one: Mapping[str, Any], mapping: Mapping[str, object], texts: dict[str, str], label: str) -> FileState:
     """One state with its scene. **Raises:** `SceneError` that names the state and the field."""
     name = one[NAME]
     origin = f"{label}, state '{name}'"

@@ -47,7 +47,7 @@ class Table(BaseModel):
         def __getattr__(self, name: str) -> Any: ...
 
     @classmethod
-    def of_file(cls, tables: Mapping[str, Any], overrides: Mapping[str, str], file: str) -> "type[Table]":
+    def of_file(cls, tables: Mapping[str, object], overrides: Mapping[str, str], file: str) -> "type[Table]":
         """The schema of these tables of a file, of a kind whose files have names of their own in it."""
         return cls
 

@@ -11,7 +11,7 @@ WIDEST = 120
 """Longest line for a list; a longer list has one value a line."""
 
 
-def toml_text(tables: Mapping[str, Any], aligned: bool = True) -> str:
+def toml_text(tables: Mapping[str, object], aligned: bool = True) -> str:
     """The text of a file with these tables, in their order.
 
     **Arguments:** `aligned`: whether the values of a table stand below each other.
@@ -50,7 +50,7 @@ def _are_tables(value: object) -> bool:
     return isinstance(value, list) and bool(value) and all(isinstance(one, Mapping) for one in value)
 
 
-def _value(value: Any, width: int) -> str:
+def _value(value: object, width: int) -> str:
     if isinstance(value, list):
         line = f"[{', '.join(_value(one, 0) for one in value)}]"
         if width + len(line) + 3 <= WIDEST:

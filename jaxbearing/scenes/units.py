@@ -137,7 +137,7 @@ def bare_numbers_are_si() -> Iterator[None]:
         _SI_NUMBERS.reset(token)
 
 
-def parse(value: Any, dimension: Dimension) -> float:
+def parse(value: object, dimension: Dimension) -> float:
     """SI value of a text with a unit.
 
     **Raises:** `PydanticCustomError` that says what was found and what is expected, for a bare number, a boolean,
@@ -227,7 +227,7 @@ def _is_proportional(unit: "pint.Unit") -> bool:
     return zero == 0.0
 
 
-def quantity(given: Any, dimension: Dimension, bound: str = "finite") -> float:
+def quantity(given: object, dimension: Dimension, bound: str = "finite") -> float:
     """SI value of a text with a unit that is within a bound of `numerics.ranges.RANGES`; refuses as `parse` does."""
     value = parse(given, dimension)
     if not RANGES[bound].holds(value):
@@ -246,7 +246,7 @@ def _quantity(dimension: Dimension, bound: str = "finite") -> QuantityValidator:
     return QuantityValidator(lambda given: quantity(given, dimension, bound), dimension=dimension)
 
 
-def several(given: Any, read: Callable[[Any], float], expected: str) -> tuple[float, ...]:
+def several(given: object, read: Callable[[Any], float], expected: str) -> tuple[float, ...]:
     """One value or a list of them, each read by `read`; `expected` is said of an empty list, and of what is no list."""
     values = given if isinstance(given, list) else [given]
     if not values:
@@ -254,7 +254,7 @@ def several(given: Any, read: Callable[[Any], float], expected: str) -> tuple[fl
     return tuple(_item(value, i, len(values), read, expected) for i, value in enumerate(values))
 
 
-def _item(value: Any, index: int, count: int, read: Callable[[Any], float], expected: str) -> float:
+def _item(value: object, index: int, count: int, read: Callable[[Any], float], expected: str) -> float:
     try:
         return read(value)
     except PydanticCustomError as error:
@@ -276,7 +276,7 @@ def several_note(bound: str, unit: str = "1") -> BeforeValidator:
     return BeforeValidator(lambda given: several(given, read, expected))
 
 
-def _switch(value: Any) -> bool:
+def _switch(value: object) -> bool:
     if not isinstance(value, bool):
         raise refusal("true or false, without quotes", describe(value))
     return value
@@ -298,7 +298,7 @@ LARGEST_COUNT = 1_000_000
 def _count_up_to(least: int | None, most: int | None) -> Callable[[Any], int]:
     low, high = 1 if least is None else least, LARGEST_COUNT if most is None else most
 
-    def read(value: Any) -> int:
+    def read(value: object) -> int:
         if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
             raise refusal(f"a whole number >= {low} and <= {high}, without quotes", describe(value))
         return value
@@ -328,7 +328,7 @@ def among_note(numbers: Iterable[float]) -> BeforeValidator:
     """Reads one of some numbers."""
     known = tuple(numbers)
 
-    def read(value: Any) -> float:
+    def read(value: object) -> float:
         given = number(value)
         if given not in known:
             words = ", ".join(f"{one:g}" for one in known)
@@ -338,7 +338,7 @@ def among_note(numbers: Iterable[float]) -> BeforeValidator:
     return BeforeValidator(read)
 
 
-def _text(value: Any) -> str:
+def _text(value: object) -> str:
     """A text that may look like a number: 6205 is a designation, with quotes and without."""
     if isinstance(value, bool) or not isinstance(value, str | int) or not str(value).strip():
         raise refusal("text, e.g. '6205-2RSH'", describe(value))

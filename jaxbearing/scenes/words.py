@@ -1,7 +1,6 @@
 """Values of scene files in words, for messages."""
 
 import math
-from typing import Any
 
 _LONGEST = 60
 """Longest text of a value in a message, in letters."""
@@ -22,7 +21,7 @@ def describe(value: object) -> str:
     return f"{value!s} ({type(value).__name__})"
 
 
-def short(value: Any) -> str:
+def short(value: object) -> str:
     """A value as Python code, shortened."""
     return shortened(repr(value))
 

@@ -25,7 +25,7 @@ SENSES = {"+x": 1.0, "-x": -1.0, "<": 1.0, ">": -1.0}
 """Word or sign of an orientation -> sense of the bearing's axis along that of the shaft."""
 
 
-def _numbers(value: Any) -> Any:
+def _numbers(value: object) -> Any:
     """A float64 array of a sequence or array of numbers; `None` stays."""
     if isinstance(value, list | tuple):
         traced = any(isinstance(one, jax.Array) for one in jax.tree.leaves(value))

@@ -26,7 +26,7 @@ NUMBERED = "bearing"
 _Changes = dict[tuple[str, ...], Any]
 
 
-def replaced(system: "ShaftSystem", changes: Mapping[str, Any]) -> "ShaftSystem":
+def replaced(system: "ShaftSystem", changes: object) -> "ShaftSystem":
     """A copy of a `ShaftSystem` with other values.
 
     **Arguments:** `changes`: dotted path -> value in SI, or a part.
@@ -94,7 +94,7 @@ def _changed(entry: Any, changes: _Changes, above: str) -> Any:
     return _replaced(entry, mine, f"{above}.")
 
 
-def _of_bearings(scenes: tuple[Bearing, ...], changes: dict[str, Any], above: str) -> tuple[Bearing, ...]:
+def _of_bearings(scenes: tuple[Bearing, ...], changes: Mapping[str, object], above: str) -> tuple[Bearing, ...]:
     """The bearings of a set that differ: a change is of the one that its path numbers, or of all.
 
     **Raises:** `AttributeError` for a number that the set does not have.
@@ -118,7 +118,7 @@ def _number(keys: list[str], count: int) -> int | None:
     return int(given) - 1 if given.isdecimal() and 1 <= int(given) <= count else None
 
 
-def _of_bearing(scene: Bearing, changes: dict[str, Any]) -> Bearing:
+def _of_bearing(scene: Bearing, changes: Mapping[str, object]) -> Bearing:
     if isinstance(scene, AbstractScene):
         return scene.replace(changes)
     return _replaced(scene, {tuple(path.split(".")): value for path, value in changes.items()})
@@ -158,7 +158,7 @@ def part_at(system: Any, path: str) -> Any:
     return _inside(entries_of(system, word)[names.index(name)], rest)
 
 
-def _inside(part: Any, keys: list[str]) -> Any:
+def _inside(part: object, keys: list[str]) -> Any:
     for place, key in enumerate(keys):
         own = [field.name for field in dataclasses.fields(part)] if isinstance(part, eqx.Module) else []
         if key not in own and _BEARING in own:

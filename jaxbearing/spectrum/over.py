@@ -96,5 +96,5 @@ def _percent(found: Spectrum) -> str:
     return digits(100.0 * float(np.max(np.asarray(found.life.damage))), 3)
 
 
-def _text(value: Any, significant: int = 4) -> str:
+def _text(value: object, significant: int = 4) -> str:
     return "-" if value is None else digits(float(np.asarray(value)), significant)

@@ -1,7 +1,7 @@
 """A load spectrum on the screen, as JSON and as a table of a page."""
 
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import Any, SupportsFloat
 
 import numpy as np
 from rich import box
@@ -150,14 +150,14 @@ def _pressure(solution: Solution) -> float:
     return float(np.max(np.maximum(np.asarray(elements.pressure_inner), np.asarray(elements.pressure_outer))))
 
 
-def _there(value: Any) -> bool:
+def _there(value: object) -> bool:
     """True for a number; what the catalogues' formulas do not give is `None` or NaN."""
     return value is not None and not np.isnan(float(np.asarray(value)))
 
 
-def _percent(share: Any) -> str:
+def _percent(share: SupportsFloat) -> str:
     return digits(100.0 * float(share), 3)
 
 
-def _number(value: Any, significant: int = 4) -> str:
+def _number(value: object, significant: int = 4) -> str:
     return "-" if value is None else digits(float(np.asarray(value)), significant)

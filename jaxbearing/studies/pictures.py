@@ -2,6 +2,7 @@
 
 import math
 import textwrap
+from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
 from ..plots import power_loss_against
@@ -12,6 +13,7 @@ from .panels import own
 from .power_loss import PowerLossStudy
 
 if TYPE_CHECKING:
+    import matplotlib.artist
     import matplotlib.figure
     import xarray as xr
 
@@ -78,7 +80,11 @@ def _strip(panels: int, shape: tuple[int, int], legend: bool) -> float:
 
 
 def _draw(
-    part: Any, panels: "dict[str, xr.Dataset]", shape: tuple[int, int], strip: float, study: PowerLossStudy
+    part: Any,
+    panels: "dict[str, xr.Dataset]",
+    shape: tuple[int, int],
+    strip: float,
+    study: PowerLossStudy,
 ) -> None:
     """Draws the panels of a group; the cell that they leave, or the strip below them, holds the legend of what is
     stacked in all of them. **Arguments:** `strip`: its height, inches."""
@@ -89,7 +95,7 @@ def _draw(
     across, along = (width - _LEFT - right - (columns - 1) * gap) / columns, _ROW - _BELOW
     space = {"bottom": (_BELOW - _TITLE + strip) / height, "wspace": gap / across, "hspace": _BELOW / along}
     grid = part.add_gridspec(rows, columns, **places, **space)
-    stacked: dict[str, Any] = {}
+    stacked: dict[str, matplotlib.artist.Artist] = {}
     for number, panel in enumerate(panels.values()):
         axes = part.add_subplot(grid[divmod(number, columns)])
         fields = _fields(panel)
@@ -122,7 +128,7 @@ def _title(panel: "xr.Dataset") -> str:
     return words[:1].upper() + words[1:]
 
 
-def _from_above(stacked: dict[str, Any], panels: "dict[str, xr.Dataset]") -> list[str]:
+def _from_above(stacked: Collection[str], panels: "dict[str, xr.Dataset]") -> list[str]:
     """Names of the legend in the order of a stack, from above; the lines come first."""
     drawn = next(iter(panels.values())).data_vars
     locations = [str(name).removeprefix("power_loss_").replace("_", " ") for name in drawn][::-1]

@@ -29,7 +29,7 @@ class ForeignPartError(TypeError):
     """Something that is no part of this package, such as a law of the user's own: it cannot be written as data."""
 
 
-def encoded(part: Any) -> tuple[str, dict[str, np.ndarray]]:
+def encoded(part: object) -> tuple[str, dict[str, np.ndarray]]:
     """A part as a text and named arrays, which `decoded` reads.
 
     **Raises:** `ForeignPartError`.
@@ -46,7 +46,7 @@ def decoded(text: str, arrays: Mapping[str, np.ndarray]) -> Any:
         raise ValueError(f"not the data of a part: {type(error).__name__}: {error}") from None
 
 
-def _encode(part: Any, arrays: dict[str, np.ndarray]) -> Any:
+def _encode(part: object, arrays: dict[str, np.ndarray]) -> Any:
     if part is None or type(part) in (bool, int, float, str):
         return part
     if isinstance(part, np.ndarray | np.generic) or hasattr(part, "__jax_array__") or eqx.is_array(part):
@@ -69,7 +69,7 @@ def _encode(part: Any, arrays: dict[str, np.ndarray]) -> Any:
     return {"class": name, "fields": values}
 
 
-def _decode(data: Any, arrays: Mapping[str, np.ndarray]) -> Any:
+def _decode(data: object, arrays: Mapping[str, np.ndarray]) -> Any:
     if not isinstance(data, dict):
         if isinstance(data, list):
             raise ValueError("not the data of a part: a list without its kind")

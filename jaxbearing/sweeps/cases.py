@@ -61,7 +61,7 @@ class Cases:
         return [dict(zip(self.paths, map(float, values), strict=True)) for values in ends]
 
 
-def _columns(over: Mapping[str, Any]) -> tuple[tuple[str, ...], tuple[np.ndarray, ...]]:
+def _columns(over: Mapping[str, object]) -> tuple[tuple[str, ...], tuple[np.ndarray, ...]]:
     _mapping("over", over)
     return tuple(over), tuple(_numbers(path, values) for path, values in over.items())
 
@@ -83,12 +83,12 @@ def _numbers(path: str, values: object) -> np.ndarray:
     return found.astype(np.float64)
 
 
-def grid(over: Mapping[str, Any]) -> Cases:
+def grid(over: Mapping[str, object]) -> Cases:
     """Every combination of the values of each field. **Arguments:** `over`: dotted path -> SI values."""
     return Cases("grid", *_columns(over))
 
 
-def listed(over: Mapping[str, Any]) -> Cases:
+def listed(over: Mapping[str, object]) -> Cases:
     """Case by case. **Arguments:** `over`: dotted path -> SI values, as many for each."""
     return Cases("list", *_columns(over))
 

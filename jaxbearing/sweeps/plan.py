@@ -114,7 +114,7 @@ class Plan:
         )
 
 
-def _structure(tree: Any) -> str:
+def _structure(tree: object) -> str:
     """Description of all in a scene but its numbers; it contains no addresses in memory."""
     shapes = [np.shape(leaf) for leaf in jax.tree.leaves(tree)]
     return re.sub(r" at 0x[0-9a-f]+", "", f"{jax.tree.structure(tree)} {shapes}")

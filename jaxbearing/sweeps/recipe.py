@@ -1,7 +1,7 @@
 """From the values of a case to its scene: set in the scene, or read like a scene file."""
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
 import equinox as eqx
@@ -63,7 +63,7 @@ class Direct:
         return self.base
 
     @staticmethod
-    def make(base: Any, inputs: Any) -> AbstractScene:
+    def make(base: AbstractScene, inputs: Mapping[str, object]) -> AbstractScene:
         return base.replace(inputs)
 
     def scene(self, values: dict[str, float]) -> AbstractScene:
@@ -102,10 +102,10 @@ class Read:
 
     read: Reader
     example_scene: AbstractScene
-    base: Any = None
+    base: None = None
 
     @staticmethod
-    def make(base: Any, inputs: Any) -> AbstractScene:
+    def make(base: None, inputs: AbstractScene) -> AbstractScene:
         return inputs
 
     def scene(self, values: dict[str, float]) -> AbstractScene:

@@ -284,7 +284,7 @@ def _known_place_jvp(
     moved, fixed = eqx.partition(balances, moving)
     size = place.temperatures.size
 
-    def along(given: Any, step: Array) -> tuple[Array, NodeHeat]:
+    def along(given: object, step: Array) -> tuple[Array, NodeHeat]:
         evaluate = lambda numbers, temperatures: eqx.combine(numbers, fixed)(temperatures)
         return jax.jvp(evaluate, (moved, place.temperatures), (given, step))[1]
 

@@ -179,7 +179,7 @@ def integrate(
     size = begin.size
     kept = (dfx.SubSaveAt(ts=times), dfx.SubSaveAt(t1=True), *((dfx.SubSaveAt(steps=True),) if steps else ()))
 
-    def too_hot(t: Any, y: Array, args: Any, **kwargs: Any) -> Array:
+    def too_hot(t: object, y: Array, args: object, **kwargs: Any) -> Array:
         del t, args, kwargs
         return jnp.max(y[:size]) - limit
 
@@ -233,7 +233,7 @@ def _with_differences(
     evaluate = jax.jit(lambda numbers, time, state: eqx.combine(numbers, rest)(time, state))
 
     @jax.custom_jvp
-    def field(numbers: Any, time: Array, state: Array) -> Array:
+    def field(numbers: object, time: Array, state: Array) -> Array:
         return evaluate(numbers, time, state)
 
     @field.defjvp

@@ -122,6 +122,7 @@ def _seats(scatter: Scatter, found: Slopes) -> dict[str, Seat]:
     """The seats whose pressing part may bend within the scatter."""
     seats = {}
     for name in scatter.seats:
+        assert scatter.fits is not None
         running = found.slopes[_OF_SEAT[name]]
         slopes = {path: 1.0 if path == name_of(name) else float(running[path]) for path in scatter.fields}
         interference, now = scatter.means[name_of(name)], float(found.values[_OF_SEAT[name]])

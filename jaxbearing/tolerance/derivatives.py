@@ -32,14 +32,14 @@ class Slopes(NamedTuple):
 def _slopes(
     roots: tuple[Any, ...],
     scene: AbstractScene,
-    numbers: dict[str, Any],
+    numbers: Mapping[str, object],
     wanted: Sequence[str] | None,
     options: NewtonOptions,
 ) -> dict[str, dict[str, Any]]:
     """Derivatives of each result by each number, from the roots of the solve: one number after the other in forward
     mode, which makes the smallest program (see `programs.differentiated`)."""
 
-    def results(numbers_: dict[str, Any]) -> dict[str, Any]:
+    def results(numbers_: Mapping[str, object]) -> dict[str, Any]:
         solution = at_roots(_solve_any, roots, scene.replace(numbers_), options)
         return values_of(solution, computed(solution, wanted))
 

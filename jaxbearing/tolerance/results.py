@@ -204,7 +204,7 @@ def _of_entries(solution: AbstractSolution) -> Iterator[str]:
             yield from (f"{table}.{entry}.{name}" for name in names)
 
 
-def _resolved(solution: AbstractSolution, text: str, known: Mapping[str, Mapping[str, Any]]) -> str:
+def _resolved(solution: AbstractSolution, text: str, known: Mapping[str, Mapping[str, object]]) -> str:
     parted = _NAME.fullmatch(text.strip())
     name = "" if parted is None else parted["name"]
     path = next((one for one in known if name in (one, variable_of(one), one.replace(".", "_"))), None)

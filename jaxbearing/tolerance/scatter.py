@@ -100,7 +100,7 @@ def name_of(seat: str) -> str:
 
 def scatter_of(
     scene: AbstractScene,
-    over: Mapping[str, Any] | None = None,
+    over: Mapping[str, object] | None = None,
     drag_prior: bool = True,
     posterior: JointDistribution | None = None,
 ) -> Scatter:

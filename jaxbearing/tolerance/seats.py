@@ -7,13 +7,12 @@ lemma), and so is the scatter of a result that is linear in $u$.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import jax.numpy as jnp
 from jax.scipy.stats import norm
 
 from ..mounting.rectified import rectified_normal
-from ..mounting.seats import SMOOTHING
+from ..mounting.seats import SMOOTHING, Fits
 
 NEVER = 8.0
 """Standard deviations beyond which a bend in the line is not met: the share beyond is below 1e-15."""
@@ -94,7 +93,7 @@ class Seat:
         return mean, variance + mean * mean
 
 
-def seat_of(fits: Any, name: str, interference: float, running: float, deviation: float) -> Seat:
+def seat_of(fits: Fits, name: str, interference: float, running: float, deviation: float) -> Seat:
     """The seat of a bearing.
 
     **Arguments:**

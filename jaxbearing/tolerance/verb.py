@@ -5,7 +5,7 @@ import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from .._scene import AbstractScene
 from ..joint import JointDistribution
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 @rare_garbage_collection()
 def tolerances(
     scene: AbstractScene | str | os.PathLike[str],
-    over: Mapping[str, Any] | None = None,
+    over: Mapping[str, object] | None = None,
     *,
     results: Sequence[str] | None = None,
     samples: int = 0,

@@ -25,7 +25,7 @@ from .start import at_start, checked_lane
 def simulate_bearing_batch(
     scene: AbstractMovingBearing,
     duration: float,
-    over: Mapping[str, Any],
+    over: Mapping[str, object],
     *,
     simulation: Simulation | None = None,
     interval: float,
@@ -52,14 +52,14 @@ def simulate_bearing_batch(
 def _batch(
     scene: AbstractMovingBearing,
     simulation: Simulation | None,
-    values: dict[str, Any],
+    values: Mapping[str, object],
     times: Float[Array, " time"],
     method: str,
     share: bool,
 ) -> History:
     numbers, rest = eqx.partition((scene, simulation), eqx.is_array_like)
 
-    def lanes(values: dict[str, Any], numbers: Any, times: Float[Array, " time"]) -> History:
+    def lanes(values: Mapping[str, object], numbers: Any, times: Float[Array, " time"]) -> History:
         scene, simulation = eqx.combine(numbers, rest)
         lane = lambda changes: _lane(scene.replace(changes), simulation, times)
         return jax.lax.map(lane, values) if method == "map" else jax.vmap(lane)(values)

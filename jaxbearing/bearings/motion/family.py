@@ -166,7 +166,7 @@ class AbstractMovingBearing(AbstractBearing):
 
         return simulate_bearing(self, duration, **settings)
 
-    def simulated_batch(self, duration: float, over: Mapping[str, Any], **settings: Any) -> History:
+    def simulated_batch(self, duration: float, over: Mapping[str, object], **settings: Any) -> History:
         from .batch import simulate_bearing_batch
 
         return simulate_bearing_batch(self, duration, over, **settings)

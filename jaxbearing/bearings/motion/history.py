@@ -144,7 +144,7 @@ class History(AbstractHistory):
         metadata=label("rad/s", "speed of the frame of the state at the operating point")
     )
     operation: AbstractOperation
-    instants: Any
+    instants: Instant
     energy: Energy
     checks: Mapping[str, Bool[Array, ""]]
     solver: str = eqx.field(static=True)

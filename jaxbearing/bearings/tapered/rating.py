@@ -1,15 +1,14 @@
 """Sizes and loads of a tapered roller bearing from which its life is computed."""
 
-from typing import Any
-
 from jaxtyping import Array, Float
 
 from ..rated import RatedContacts, is_misaligned, sizes_of_loads
+from ..solution import LaminaLoads
 from .scene import TaperedRollerBearing
 
 
 def rated_contacts(
-    scene: TaperedRollerBearing, laminae: Any, force: Float[Array, " freedom"] | None = None
+    scene: TaperedRollerBearing, laminae: LaminaLoads, force: Float[Array, " freedom"] | None = None
 ) -> RatedContacts:
     """**Arguments:** `LaminaLoads` of a solution; `force`: its `force`."""
     geometry, operation = scene.geometry, scene.operation

@@ -193,6 +193,7 @@ class TaperedRollerBearing(AbstractBearing):
     ) -> RatedContacts:
         from .rating import rated_contacts
 
+        assert laminae is not None  # tapered rollers are in laminae
         return rated_contacts(self, laminae, force)
 
     @property

@@ -14,6 +14,7 @@ from ..._scene import AbstractHistory, label
 from ...numerics.status import Status
 from ...thermal.result import HeatPaths, NodeTemperatures
 from ..growth import FitResult
+from ..operation import AbstractOperation
 from ..solution import CageState, RingDisplacement, losses_not_modelled
 from .settings import SOLVER
 
@@ -41,7 +42,7 @@ class WarmInstant(eqx.Module):
     smallest_film: _Number | None = eqx.field(metadata=label("m", "smallest central film on the raceways"))
 
 
-def play_of(instants: WarmInstant) -> tuple[str, Any] | None:
+def play_of(instants: WarmInstant) -> tuple[str, Array | None] | None:
     """Name and values, m, of the running clearance or of the axial shift of first contact; `None` without seats."""
     fit = instants.fit
     if fit is None:
@@ -103,7 +104,7 @@ class WarmUpHistory(AbstractHistory):
     stop: Float[Array, ""] = eqx.field(metadata=label("s", "time to which the run was to go"))
     accepted: Int[Array, ""] = eqx.field(metadata=label("1", "steps taken"))
     rejected: Int[Array, ""] = eqx.field(metadata=label("1", "steps tried and not taken"))
-    operation: Any
+    operation: AbstractOperation
     instants: WarmInstant
     energy: WarmEnergy
     peaks: WarmPeaks

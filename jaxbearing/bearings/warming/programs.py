@@ -1,6 +1,6 @@
 """The two programs of a run of temperatures: a piece of it, and the bearing at instants."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import diffrax as dfx
 import jax
@@ -14,7 +14,7 @@ from ...thermal.network import Network, NodeHeat
 from ...thermal.result import NodeTemperatures, named
 from ...thermal.warm_up import Balance, Reached, integrate
 from ..bearing import AbstractBearing
-from ..heat import bearing_network, heat_capacities, inlet_temperature
+from ..heat import bearing_network, heat_capacities, inlet_temperature, thermal_of
 from ..solution import Solution
 from ..warm import heat_at, heat_paths
 from .history import WarmInstant
@@ -61,7 +61,7 @@ def _balance(scene: AbstractBearing, settings: WarmUpSimulation, begin: Scalar) 
 
 
 def _advance(
-    scene: Any,
+    scene: AbstractBearing,
     settings: WarmUpSimulation,
     temperatures: Float[Array, " node"],
     begin: Float[Array, ""],
@@ -73,7 +73,7 @@ def _advance(
         _balance(scene, settings, begin),
         temperatures,
         lengths,
-        scene.thermal.limit,
+        thermal_of(scene).limit,
         settings.options,
         adjoint=dfx.ForwardMode(),
         first_step=jnp.minimum(step, lengths[-1]),

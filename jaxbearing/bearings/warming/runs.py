@@ -4,11 +4,12 @@ import contextlib
 import dataclasses
 import math
 from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Array
 
 from ..._identity import Identity, identity_of, require_same
 from ...numerics.checks import check_inputs
@@ -19,7 +20,7 @@ from ...numerics.structure import static_number
 from ...thermal.warm_up import AHEAD, ENERGY, Reached, run_status
 from ..bearing import AbstractBearing
 from ..checks import input_excess
-from ..heat import heat_capacities, unknown_capacities
+from ..heat import heat_capacities, thermal_of, unknown_capacities
 from ..motion.checks import AT_SOME_TIME
 from ..motion.settings import Simulation
 from ..supplied import supply_notes
@@ -77,13 +78,14 @@ def identity(scene: AbstractBearing) -> Identity:
     return identity_of(scene, MAY_CHANGE)
 
 
-def check_restart(scene: Any, last: object) -> None:
+def check_restart(scene: AbstractBearing, last: object) -> None:
     """**Raises:** `ValueError` where the state is not one of this bearing and its nodes."""
     if not isinstance(last, WarmState):
         of = getattr(last, "of", type(last).__name__)
         raise ValueError(f"restart: a state of a {of}, for a scene of a bearing with [thermal]")
-    if last.nodes != scene.thermal.node_names:
-        raise ValueError(f"restart: a state of {len(last.nodes)} nodes, for a scene with {scene.thermal.nodes}")
+    thermal = thermal_of(scene)
+    if last.nodes != thermal.node_names:
+        raise ValueError(f"restart: a state of {len(last.nodes)} nodes, for a scene with {thermal.nodes}")
     if not np.all(np.isfinite(np.append(last.temperatures, last.time))):
         raise ValueError("restart: a state with numbers that are not finite")
     if last.identity is not None:
@@ -145,7 +147,7 @@ def simulate_warm_up(
     interval: float | None,
     throw: bool,
     progress: Progress | None,
-    restart: Any,
+    restart: WarmUpHistory | WarmState | None,
 ) -> WarmUpHistory:
     """See `jaxbearing.simulate`."""
     require_capacities(scene)
@@ -178,17 +180,18 @@ def simulate_warm_up(
     return history
 
 
-def _start(scene: Any, chosen: WarmUpSimulation, last: WarmState | None) -> np.ndarray:
+def _start(scene: AbstractBearing, chosen: WarmUpSimulation, last: WarmState | None) -> np.ndarray:
     if last is not None:
         return np.asarray(last.temperatures, dtype=float)
-    own = scene.thermal.ambient if chosen.start is None else chosen.start
-    return np.full(scene.thermal.nodes, float(own))
+    thermal = thermal_of(scene)
+    own = thermal.ambient if chosen.start is None else chosen.start
+    return np.full(thermal.nodes, float(own))
 
 
 class _Run:
     """A run that goes on piece after piece."""
 
-    def __init__(self, scene: Any, settings: WarmUpSimulation, begin: float, start: np.ndarray):
+    def __init__(self, scene: AbstractBearing, settings: WarmUpSimulation, begin: float, start: np.ndarray):
         self.scene, self.settings = scene, settings
         self.first = self.now = start
         self.step, self.status = FIRST_STEP, Status.CONVERGED
@@ -269,7 +272,9 @@ class _Run:
         """The bearing at times from one neighbour of an instant to the other."""
         begin, end = float(time[index - 1]), float(time[index + 1])
         times = np.linspace(begin, end, PIECE + 1)[1:]
-        nodes = np.asarray([getattr(instants.temperatures, name)[index - 1] for name in self.scene.thermal.node_names])
+        nodes = np.asarray(
+            [getattr(instants.temperatures, name)[index - 1] for name in thermal_of(self.scene).node_names]
+        )
         found = self._integrated(begin, nodes, times, (end - begin) / PIECE)
         states = np.asarray(found.states)[:, : nodes.size]
         good = np.all(np.isfinite(states), axis=1) & (times <= begin + float(found.end))
@@ -328,7 +333,7 @@ class _Run:
             energy=WarmEnergy(*(jnp.asarray(one) for one in (losses, to_oil, to_ambient, stored, error))),
             peaks=find_peaks(*looked_at),
             checks=self._checks(error),
-            nodes=scene.thermal.node_names,
+            nodes=thermal_of(scene).node_names,
             solver=self.settings.solver,
             interrupted=interrupted,
             element_name=scene.element,
@@ -342,7 +347,7 @@ class _Run:
             identity=identity(scene),
         )
 
-    def _checks(self, error: float) -> dict[str, Any]:
+    def _checks(self, error: float) -> dict[str, Array]:
         """Warnings: the energy balance, and those of the bearing at any instant."""
         most = ENERGY_FACTOR * float(self.settings.tolerance)
         text = f"the energy balance leaves more than {most:g} of the losses open: choose a smaller tolerance"

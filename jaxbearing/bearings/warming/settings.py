@@ -1,6 +1,6 @@
 """Settings of a run of the temperatures of a bearing: the same for all families."""
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import jax.numpy as jnp
 
@@ -10,7 +10,7 @@ from ...numerics.checks import Checked
 from ...numerics.integrator import IntegratorOptions
 from ...numerics.structure import choice, count
 from ...time_laws import AbstractTimeFactor, Steady
-from ..heat import inlet_temperature
+from ..heat import inlet_temperature, thermal_of
 from ..operation import LOAD_FIELDS
 
 if TYPE_CHECKING:
@@ -75,10 +75,10 @@ class WarmUpSimulation(Checked):
         return self.speed, self.load, self.oil_inlet, self.oil_flow
 
 
-def at_instant(scene: Any, settings: WarmUpSimulation, time: Scalar) -> "AbstractBearing":
+def at_instant(scene: "AbstractBearing", settings: WarmUpSimulation, time: Scalar) -> "AbstractBearing":
     """The scene with speeds, loads and oil of a time, s. What does not change stays as it is, bit for bit."""
-    operation, thermal = scene.operation, scene.thermal
-    changes: dict[str, Any] = {}
+    operation, thermal = scene.operation, thermal_of(scene)
+    changes: dict[str, Scalar] = {}
     if not isinstance(settings.speed, Steady):
         factor = settings.speed.factor(time)
         changes |= {f"operation.{name}": factor * getattr(operation, name) for name in ("inner_speed", "outer_speed")}

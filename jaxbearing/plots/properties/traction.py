@@ -125,7 +125,7 @@ def _finish(axes: "matplotlib.axes.Axes", title: str) -> None:
     finish(axes, title, "slide-to-roll ratio (difference over mean speed), %", "traction coefficient")
 
 
-def traction_at(lubricant: Lubricant, percent: Any, line: bool = False, resolution: Resolution = FINE) -> np.ndarray:
+def traction_at(lubricant: Lubricant, percent: object, line: bool = False, resolution: Resolution = FINE) -> np.ndarray:
     """Traction coefficient at slide-to-roll ratios in %. **Arguments:** `line`: as a line contact of the same peak
     pressure, half-width and film."""
     contact, inlet = PointContact(DISK_RADIUS, DISK_RADIUS, STEEL_MODULUS), lubricant.at(TEMPERATURE)

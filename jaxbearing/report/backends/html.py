@@ -17,7 +17,7 @@ _OF_PACKAGES = ("jax", "jaxlib", "plotly")
 
 
 def page(
-    content: Content, title: str, inputs: Mapping[str, Sequence[Any]], results: Mapping[str, Any], when: datetime
+    content: Content, title: str, inputs: Mapping[str, Sequence[Any]], results: Mapping[str, object], when: datetime
 ) -> str:
     """The page.
 

@@ -15,7 +15,7 @@ def names_of(part: Any) -> list[str]:
     return [*(field.name for field in dataclasses.fields(part)), *derived_parts(kind), *derived_results(kind)]
 
 
-def plain(value: Any) -> Any:
+def plain(value: object) -> Any:
     """Numbers, arrays and classes of the library as JSON has them."""
     if value is None or isinstance(value, bool | str):
         return value
@@ -29,7 +29,7 @@ def plain(value: Any) -> Any:
     return finite(np.asarray(value).tolist())
 
 
-def finite(value: Any) -> Any:
+def finite(value: object) -> Any:
     if isinstance(value, list):
         return [finite(part) for part in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -5,13 +5,16 @@ import functools
 import json
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..colours import FAINT, GRID, INK
 from ..display import displayed
 from ..panels import Axis, Curves, Polar, Series, headed
+
+if TYPE_CHECKING:
+    import plotly.graph_objects as go
 
 _POLAR_GRID = "#DDDDDD"
 
@@ -40,7 +43,7 @@ def chart_of(panel: Polar | Curves) -> Chart:
             return Chart(panel.name, headed(panel), panel.caption, _curves(panel))
 
 
-def _figure(*traces: Any, **layout: Any) -> Any:
+def _figure(*traces: object, **layout: Any) -> "go.Figure":
     """A plotly figure in the style of the page."""
     import plotly.graph_objects as go
 
@@ -62,7 +65,7 @@ def _figure(*traces: Any, **layout: Any) -> Any:
     return figure
 
 
-def _polar(panel: Polar) -> Any:
+def _polar(panel: Polar) -> "go.Figure":
     import plotly.graph_objects as go
 
     traces = []
@@ -89,12 +92,12 @@ def _polar(panel: Polar) -> Any:
     return _figure(*traces, polar=polar, legend=legend, margin={"l": 46, "r": 46, "t": 66, "b": 30})
 
 
-def _curves(panel: Curves) -> Any:
+def _curves(panel: Curves) -> "go.Figure":
     traces = [_curve(one, panel) for one in panel.series]
     return _figure(*traces, xaxis=_axis(panel.x, ""), yaxis=_axis(panel.y, panel.unit))
 
 
-def _curve(one: Series, panel: Curves) -> Any:
+def _curve(one: Series, panel: Curves) -> "go.Scatter":
     import plotly.graph_objects as go
 
     line = {"color": one.colour, "width": 1.4 if one.faint else 1.8}

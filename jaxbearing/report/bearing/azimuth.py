@@ -12,7 +12,7 @@ def place_at(azimuth: Any, radius: Any) -> tuple[Any, Any]:
     return radius * np.sin(azimuth), -radius * np.cos(azimuth)
 
 
-def signed_degrees(azimuth: Any) -> np.ndarray:
+def signed_degrees(azimuth: object) -> np.ndarray:
     """Above -180 and up to 180 deg."""
     degrees = displayed(1.0, "rad") * np.asarray(azimuth)
     return np.where(degrees > 180.0 + 1e-9, degrees - 360.0, degrees)

@@ -1,7 +1,7 @@
 """Facts about a solution besides losses and loads, in words, for the screen and the page."""
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -223,7 +223,7 @@ def _stiffness(solution: Solution) -> Iterator[str]:
         yield f"not modelled: {', '.join(others)}"
 
 
-def extremes(elements: Any, name: str, pick: Any) -> Iterator[str]:
+def extremes(elements: Any, name: str, pick: Callable[[np.ndarray], np.intp]) -> Iterator[str]:
     """The value that `pick` finds on each race, and where."""
     elements = on_heavier_flanks(elements)
     for field in dataclasses.fields(elements):

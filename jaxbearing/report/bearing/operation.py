@@ -7,8 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from ..._types import Scalar
 from ...bearings.operation import AbstractOperation
 from ...bearings.solution import Solution
+from ...numerics.checks import Checked
 from ..display import ZERO_CELSIUS, display_unit, displayed
 
 ROUND_OFF = 1e-13
@@ -49,11 +51,11 @@ def operating_point(solution: Solution) -> str:
     return ", ".join(said)
 
 
-def _numbers(part: Any) -> Iterator[tuple[Any, dataclasses.Field[Any], Any]]:
+def _numbers(part: Checked) -> Iterator[tuple[Checked, dataclasses.Field[Any], Scalar]]:
     """Fields of an operating point that hold a number, those of its parts too: the part, the field, the number."""
     for field in dataclasses.fields(part):
         given = getattr(part, field.name)
-        if dataclasses.is_dataclass(given):
+        if isinstance(given, Checked):
             yield from _numbers(given)
         elif given is not None:
             yield part, field, given

@@ -1,6 +1,6 @@
 """One page of plots of a bearing's steady solve; what the scene does not model is not on it."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ...bearings.solution import Solution
 from ..backends.matplotlib.diagrams import draw_diagram
@@ -90,7 +90,7 @@ def _charts(figure: "matplotlib.figure.Figure", solution: Solution, title: str, 
 
 def _legend(figure: "matplotlib.figure.Figure") -> "tuple[list[matplotlib.artist.Artist], list[str]]":
     """One entry for each of the raceways and the rib that is drawn anywhere."""
-    drawn: dict[str, Any] = {}
+    drawn: dict[str, matplotlib.artist.Artist] = {}
     for axes in figure.axes:
         handles, names = axes.get_legend_handles_labels()
         drawn |= dict(zip(names, handles, strict=True))

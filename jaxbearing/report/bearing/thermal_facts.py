@@ -1,7 +1,6 @@
 """Words about the temperatures of a bearing, for the screen."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -22,9 +21,9 @@ def thermal_facts(thermal: ThermalResult) -> Iterator[tuple[str, str]]:
         yield "Thermal margin", f"{digits(float(thermal.margin), 3)} (0: no steady state beyond){rate}"
 
 
-def _degrees(value: Any) -> str:
+def _degrees(value: object) -> str:
     return f"{float(np.asarray(value)) - ZERO_CELSIUS:.1f}"
 
 
-def _watts(value: Any) -> str:
+def _watts(value: object) -> str:
     return with_unit(float(np.asarray(value)), "W")

@@ -4,13 +4,13 @@ Results of the bearings have the dimension `bearing`; those of a bearing's own f
 of the bearing in front (`rear_load_inner` over `rear_element`). `node` runs along the shaft, `set` over the sets.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from ...bearings.solution import RING_FREEDOMS, force_units, stiffness_units
+from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
 from ...numerics.status import Status
 from ...shafts.solution import ShaftSolution
 from ..bearing.dataset import to_dataset as bearing_dataset
@@ -81,9 +81,11 @@ def _of_nodes(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple[
         yield f"node_{name}", xr.Variable((*dims, *own), values, _said(said, f"shaft.{name}"))
 
 
-def _stacked(parts: list[Any], along: str, path: str, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
+def _stacked(
+    parts: Sequence[object], along: str, path: str, dims: tuple[str, ...]
+) -> Iterator[tuple[str, xr.Variable]]:
     """Results of all bearings, or sets, along a dimension of their own; NaN where one does not have them."""
-    found: dict[str, tuple[dict[int, np.ndarray], Any]] = {}
+    found: dict[str, tuple[dict[int, np.ndarray], Mapping[str, Any]]] = {}
     for place, part in enumerate(parts):
         for name, value, metadata in labelled(part):
             if not name.startswith("solution.") and (np.ndim(value) == len(dims) or name in _VECTORS):
@@ -97,12 +99,12 @@ def _stacked(parts: list[Any], along: str, path: str, dims: tuple[str, ...]) -> 
         yield title, xr.Variable((*dims, along, *own), np.stack(filled, axis=len(dims)), said)
 
 
-def _said(metadata: Any, path: str) -> dict[str, str]:
+def _said(metadata: Mapping[str, Any], path: str) -> dict[str, str]:
     unit = metadata["unit"]
     return {"units": "1" if unit == "mixed" else udunits(unit), "long_name": metadata["description"], "path": path}
 
 
-def _of_family(name: str, solution: Any, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
+def _of_family(name: str, solution: Solution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
     """The results of a bearing's family with its name in front."""
     own = bearing_dataset(solution, dims)
     front = name.replace(".", "_")

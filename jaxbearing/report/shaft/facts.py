@@ -30,7 +30,7 @@ _LEAST = 1e-9
 """Loads smaller than this part of the largest one are shown as 0: round-off."""
 
 
-def number(value: Any) -> float | None:
+def number(value: object) -> float | None:
     """A number of a result; `None` for what is not modelled or not finite."""
     if value is None:
         return None
@@ -38,7 +38,7 @@ def number(value: Any) -> float | None:
     return plain if np.isfinite(plain) else None
 
 
-def text(value: Any, significant: int = 4) -> str:
+def text(value: object, significant: int = 4) -> str:
     found = number(value)
     return "-" if found is None else digits(found, significant)
 
@@ -223,5 +223,5 @@ def stiffness_rows(one: BearingOnShaft) -> tuple[list[str], list[list[str]]]:
     return [name.replace("_", " ") for name in RING_FREEDOMS], rows
 
 
-def plain_array(value: Any) -> Any:
+def plain_array(value: object) -> Any:
     return finite(np.asarray(value).tolist())

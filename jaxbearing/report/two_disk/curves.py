@@ -2,7 +2,7 @@
 
 import itertools
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,7 +21,7 @@ class Curve(NamedTuple):
     slowest: int
     """Index of the smallest slide-to-roll ratio, by modulus."""
 
-    def of(self, values: Any) -> np.ndarray:
+    def of(self, values: object) -> np.ndarray:
         """This curve's part of a result, over the slide-to-roll ratio."""
         return np.asarray(values)[self.place]
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
@@ -87,7 +87,7 @@ class BallContactTable(table_of(PointLaws)):
         yield from heating_problems(self)
 
 
-def _sign(value: Any) -> float:
+def _sign(value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) != 1:
         raise units.refusal("1 (Euler's equation) or -1 (as the source prints it), without quotes", describe(value))
     return float(value)

@@ -76,7 +76,7 @@ def _blank(kind: type, name: str) -> Any:
     return _Blank(owner)  # pyright: ignore[reportArgumentType]
 
 
-def _without_refused(part: Any, name: str, problems: list[ValueError]) -> None:
+def _without_refused(part: object, name: str, problems: list[ValueError]) -> None:
     """Puts `STAND_IN` in the place of the fields of a part that its own rules refuse, by the paths of the messages."""
     for problem in problems:
         found = re.match(rf"{name}\.(\w+)\b(?!\.)", str(problem))

@@ -95,7 +95,7 @@ def raceway_laws(contact: Any) -> Rows:
     )
 
 
-def thermal_law(laws: Laws[Any], law: Any) -> str | None:
+def thermal_law(laws: Laws[Any], law: object) -> str | None:
     """The name of the thermal reduction of films; `None` for films without one."""
     return None if same(law, NoThermalReduction()) else law_name(laws, law, "contact.thermal")
 

@@ -85,11 +85,11 @@ def with_catalogue(oil: Mapping[str, Any]) -> dict[str, Any]:
     return merged
 
 
-def _changes(own: object, theirs: Mapping[str, Any]) -> bool:
+def _changes(own: object, theirs: Mapping[str, object]) -> bool:
     return not isinstance(own, Mapping) or any(theirs.get(key) != value for key, value in own.items())
 
 
-def missing_sources(data: Mapping[str, Any]) -> list[str]:
+def missing_sources(data: Mapping[str, object]) -> list[str]:
     """Dotted paths of the values of an oil file whose source is not given (`all` speaks for a whole law)."""
     missing = []
     for law, table in data.items():

@@ -140,7 +140,7 @@ def _no_text(value: object) -> Never:
     raise units.refusal("a table with a 'law'", describe(value))
 
 
-def _law_field(title: str, laws: Mapping[str, type[Law]], text: Any) -> Any:
+def _law_field(title: str, laws: Mapping[str, type[Law]], text: object) -> Any:
     """The type of a field that holds a table with a law.
 
     **Arguments:** `title`: for the stand-in of a table whose `law` is absent or unknown: it only raises the error;
@@ -172,7 +172,7 @@ def _linear_field(table: type[Law], law: type) -> Any:
     return _alternatives({"<value>": number_of(law, "value"), "<table>": table}, _text_or_table)
 
 
-def _alternatives(kinds: Mapping[str, Any], tag: Callable[[Any], str]) -> Any:
+def _alternatives(kinds: Mapping[str, object], tag: Callable[[Any], str]) -> Any:
     """The type of a field that holds one of these, by the tag of what is given."""
     return Annotated[reduce(or_, [Annotated[kind, Tag(name)] for name, kind in kinds.items()]), Discriminator(tag)]
 

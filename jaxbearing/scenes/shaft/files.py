@@ -71,7 +71,7 @@ def named(mapping: Mapping[str, Any], label: str) -> dict[str, Any]:
     return found
 
 
-def _by_name(given: Any, table: str, example: str, label: str) -> dict[str, Any]:
+def _by_name(given: object, table: str, example: str, label: str) -> dict[str, Any]:
     """**Raises:** `SceneError` for what is no list of tables, and for names that are wrong or there twice."""
     if isinstance(given, Mapping) and all(isinstance(one, Mapping) for one in given.values()):
         for name in given:
@@ -106,7 +106,7 @@ def _is_taken(name: str) -> bool:
     return hasattr(Table, name) or name.startswith("model_")
 
 
-def _default_name(one: Mapping[str, Any], table: str, taken: Mapping[str, Any]) -> str:
+def _default_name(one: Mapping[str, Any], table: str, taken: Mapping[str, object]) -> str:
     """The name of a table that has none: its kind, or what it is, with a number where that is taken."""
     kind = one.get("kind")
     base = kind if table == "force" and isinstance(kind, str) and _NAME.fullmatch(kind) else table
@@ -122,12 +122,12 @@ def _twice(found: Mapping[str, Any], label: str) -> Iterator[SceneError]:
                 yield SceneError(label, f"set.{name}", f"the name '{name}' of a bearing", "a name of its own")
 
 
-def beside(mapping: dict[str, Any], folder: Path) -> dict[str, Any]:
+def beside(mapping: Mapping[str, object], folder: Path) -> dict[str, Any]:
     """The tables of a shaft's file in this folder, by name, with the paths of bearing scenes as seen from here."""
     return changed(mapping, lambda _, entry: _moved(entry, folder))
 
 
-def _moved(entry: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+def _moved(entry: Mapping[str, object], folder: Path) -> dict[str, Any]:
     found = dict(entry)
     scene, oil = entry.get(SCENE), entry.get("oil")
     if isinstance(scene, str) and scene not in builtin_names():
@@ -137,13 +137,13 @@ def _moved(entry: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     return found
 
 
-def read_scenes(mapping: Mapping[str, Any], label: str, read: Read) -> dict[str, Any]:
+def read_scenes(mapping: Mapping[str, object], label: str, read: Read) -> dict[str, Any]:
     """The tables of a shaft, by name, with the tables of each bearing's scene in the place of its file's name.
 
     **Raises:** `SceneError` for a file that cannot be read, and for one that is no bearing.
     """
 
-    def with_tables(keys: tuple[str, ...], entry: Any) -> Any:
+    def with_tables(keys: tuple[str, ...], entry: object) -> Any:
         if not isinstance(entry, Mapping) or not isinstance(entry.get(SCENE), str):
             return entry
         return {**entry, SCENE: bearing_scene(entry[SCENE], ".".join((*keys, SCENE)), label, read)}
@@ -167,7 +167,7 @@ def bearing_scene(source: str, path: str, label: str, read: Read) -> dict[str, A
 
 
 def with_scenes(
-    mapping: Mapping[str, Any], overrides: Mapping[str, str], label: str
+    mapping: Mapping[str, object], overrides: Mapping[str, str], label: str
 ) -> tuple[dict[str, Any], dict[str, str]]:
     """The tables of a shaft, by name, with the tables of scenes in the place of their names, also of those that an
     override names; and the other overrides.
@@ -207,7 +207,7 @@ _WHOLE_OIL = ("name", "grade", "base", "file")
 """Fields with which the oil of an entry stands for another one than that of its scene."""
 
 
-def merged(scene: Mapping[str, Any], own: Mapping[str, Any], table: type[BaseModel] | None) -> dict[str, Any]:
+def merged(scene: Mapping[str, Any], own: Mapping[str, object], table: type[BaseModel] | None) -> dict[str, Any]:
     """The tables of a bearing's scene with what its entry in the shaft's file says beside it.
 
     **Arguments:** `table`: schema of both, where it is one.
@@ -231,7 +231,7 @@ def merged(scene: Mapping[str, Any], own: Mapping[str, Any], table: type[BaseMod
     return found
 
 
-def without_loads(tables: Mapping[str, Any]) -> dict[str, Any]:
+def without_loads(tables: Mapping[str, object]) -> dict[str, Any]:
     """The tables of a bearing without loads and speeds, which a shaft gives it, and without what only a bearing that
     stands alone has: runs in time and a load spectrum."""
     found = {name: value for name, value in tables.items() if name not in ("simulation", "state")}
@@ -241,7 +241,7 @@ def without_loads(tables: Mapping[str, Any]) -> dict[str, Any]:
     return found
 
 
-def kind_of(entry: Mapping[str, Any], path: str, label: str) -> str:
+def kind_of(entry: Mapping[str, object], path: str, label: str) -> str:
     """The kind of the bearing of an entry: its own, or that of its scene.
 
     **Raises:** `SceneError` for an entry without a kind, and for an unknown one.

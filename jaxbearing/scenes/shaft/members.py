@@ -15,7 +15,7 @@ _SCENE = "scene"
 _LIST = "[[set.bearing]] tables in double brackets, one for each sign of the picture, each with a scene or a kind"
 
 
-def numbered(entry: Any, path: str, label: str) -> Any:
+def numbered(entry: object, path: str, label: str) -> Any:
     """The entry of a set with its different bearings as tables by number; other entries as they are.
 
     **Arguments:** `path`: of the entry; `label`: name of the file, for messages.
@@ -55,7 +55,7 @@ def differ(entry: object) -> bool:
     return isinstance(entry, Mapping) and isinstance(entry.get(MEMBERS), Mapping)
 
 
-def each_bearing(tables: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
+def each_bearing(tables: Mapping[str, object]) -> Iterator[tuple[str, ...]]:
     """The keys of all tables of bearings of a shaft, which has them by name."""
     for word in ("bearing", "set"):
         entries = tables.get(word)
@@ -66,7 +66,7 @@ def each_bearing(tables: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
                 yield word, name
 
 
-def at(tables: Mapping[str, Any], keys: tuple[str, ...]) -> Any:
+def at(tables: Mapping[str, object], keys: tuple[str, ...]) -> Any:
     """The table at these keys; `None` where there is none."""
     found: Any = tables
     for key in keys:
@@ -74,14 +74,14 @@ def at(tables: Mapping[str, Any], keys: tuple[str, ...]) -> Any:
     return found
 
 
-def put(tables: Mapping[str, Any], keys: tuple[str, ...], value: Any) -> dict[str, Any]:
+def put(tables: Mapping[str, Any], keys: tuple[str, ...], value: object) -> dict[str, Any]:
     """A copy of the tables with another one at these keys."""
     if len(keys) == 1:
         return {**tables, keys[0]: value}
     return {**tables, keys[0]: put(tables[keys[0]], keys[1:], value)}
 
 
-def changed(tables: Mapping[str, Any], change: Callable[[tuple[str, ...], Any], Any]) -> dict[str, Any]:
+def changed(tables: Mapping[str, object], change: Callable[[tuple[str, ...], Any], Any]) -> dict[str, Any]:
     """A copy of the tables of a shaft with another table of each bearing.
 
     **Arguments:** `change`: (keys of the bearing's table, the table) -> another one.

@@ -50,7 +50,7 @@ Kind = str | tuple[str, ...]
 """Kind of the bearings of a set, or of each of them."""
 
 
-def _kind_of_force(entry: Mapping[str, Any], path: str, file: str) -> str:
+def _kind_of_force(entry: Mapping[str, object], path: str, file: str) -> str:
     """**Raises:** `SceneError` for an entry without a known kind."""
     kind = entry.get("kind")
     if isinstance(kind, str) and kind in FORCES:
@@ -65,7 +65,7 @@ def with_kind(entry: object, kind: str | None) -> dict[str, Any]:
     return own if kind is None else {**own, "kind": kind}
 
 
-def _with_scene(entry: Any, keys: tuple[str, ...], file: str) -> Any:
+def _with_scene(entry: object, keys: tuple[str, ...], file: str) -> Any:
     """An entry with the tables of its scene. **Raises:** `SceneError` for a kind beside the scene."""
     if not isinstance(entry, Mapping) or not isinstance(entry.get(SCENE), Mapping):
         return entry
@@ -121,7 +121,7 @@ class ShaftTable(Table):
         return made
 
     @classmethod
-    def of_file(cls, tables: Mapping[str, Any], overrides: Mapping[str, str], file: str) -> type[Table]:
+    def of_file(cls, tables: Mapping[str, object], overrides: Mapping[str, str], file: str) -> type[Table]:
         known, left = with_scenes(tables, overrides, file)
         kinds: dict[str, Any] = {}
         for word, kind_in in (("bearing", kind_of), ("set", _kinds_of_set), ("force", _kind_of_force)):
@@ -140,7 +140,7 @@ class ShaftTable(Table):
 
     @classmethod
     def completed(
-        cls, tables: dict[str, Any], overrides: Mapping[str, str], file: str
+        cls, tables: Mapping[str, object], overrides: Mapping[str, str], file: str
     ) -> tuple[dict[str, Any], Mapping[str, str]]:
         found, left = with_scenes(tables, overrides, file)
         return changed(found, lambda keys, entry: _with_scene(entry, keys, file)), left
@@ -154,7 +154,7 @@ class ShaftTable(Table):
         return {} if found is None else {name: getattr(found, name) for name in type(found).model_fields}
 
 
-def _by_name(word: str, tables: Mapping[str, Any]) -> Any:
+def _by_name(word: str, tables: Mapping[str, object]) -> Any:
     """A table with a table for each name. **Arguments:** `word`: of the list in files."""
     doc = f"""Tables by name.
 

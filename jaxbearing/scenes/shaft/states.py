@@ -16,7 +16,7 @@ SET = "set"
 """Field of a state with its changes, by dotted paths in quotes."""
 
 
-def with_states(scene: ShaftSystem, given: Any, raw: Mapping[str, Any], file: str) -> ShaftSystem:
+def with_states(scene: ShaftSystem, given: object, raw: Mapping[str, object], file: str) -> ShaftSystem:
     """The scene of a shaft with the states of its duty cycle.
 
     **Arguments:** `given`: the tables [[state]]; `raw`: tables of the scene without them.

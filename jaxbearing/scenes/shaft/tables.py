@@ -36,13 +36,13 @@ _WAYS = ("force", "class_force", "offset", "spring_force")
 _FREEDOMS = ", ".join(RING_FREEDOMS)
 
 
-def _matrix(value: Any) -> tuple[tuple[float, ...], ...]:
+def _matrix(value: object) -> tuple[tuple[float, ...], ...]:
     """Five rows of five stiffnesses, each with its unit; zeros need none."""
     wanted = f"5 rows of 5 stiffnesses with units, of {_FREEDOMS}; a 0 needs no unit"
     return _square(value, wanted, lambda count: count == 5)
 
 
-def _matrix_of_all(value: Any) -> tuple[tuple[float, ...], ...]:
+def _matrix_of_all(value: object) -> tuple[tuple[float, ...], ...]:
     """Five rows and columns for each bearing."""
     wanted = f"5 n rows of 5 n stiffnesses with units, of {_FREEDOMS} for each of n bearings; a 0 needs no unit"
     return _square(value, wanted, lambda count: count > 0 and count % 5 == 0)
@@ -58,7 +58,7 @@ def _square(value: Any, wanted: str, fits: Callable[[int], bool]) -> tuple[tuple
     )
 
 
-def _entry(value: Any, row: int, column: int) -> float:
+def _entry(value: object, row: int, column: int) -> float:
     if isinstance(value, int | float) and not isinstance(value, bool) and value == 0:
         return 0.0
     unit = MATRIX_UNITS[row][column]
@@ -82,7 +82,7 @@ Matrix = Annotated[tuple[tuple[float, ...], ...], BeforeValidator(_matrix)]
 MatrixOfAll = Annotated[tuple[tuple[float, ...], ...], BeforeValidator(_matrix_of_all)]
 
 
-def _picture(value: Any) -> str:
+def _picture(value: object) -> str:
     if not isinstance(value, str) or len(value) < 2 or set(value) - {"<", ">"}:
         raise units.refusal(_PICTURE, describe(value))
     return value
@@ -95,7 +95,7 @@ def _scenes(value: Any) -> tuple[str, ...]:
     return tuple(names)
 
 
-def _weibull(value: Any) -> float | None:
+def _weibull(value: object) -> float | None:
     """A slope, or the word for those of the standards."""
     if value == _ISO:
         return None

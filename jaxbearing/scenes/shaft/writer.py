@@ -57,7 +57,7 @@ def _standing_set(one: MatchedSet) -> AbstractBearing | tuple[AbstractBearing, .
     return found[0] if all(same(other, found[0]) for other in found) else found
 
 
-def _standing(scene: Any) -> Any:
+def _standing(scene: object) -> Any:
     if not isinstance(scene, AbstractBearing):
         return scene
     operation = scene.operation
@@ -148,7 +148,7 @@ def _state(one: ShaftState, scene: ShaftSystem) -> Rows:
     return ({"name": one.name} if one.name else {}) | {"share": written(one, "share")} | changes
 
 
-def _change(path: str, value: Any, scene: ShaftSystem) -> float | str:
+def _change(path: str, value: object, scene: ShaftSystem) -> float | str:
     above, _, last = path.rpartition(".")
     part = part_at(scene, above)
     fields = {field.name: field for field in dataclasses.fields(part)} if isinstance(part, eqx.Module) else {}

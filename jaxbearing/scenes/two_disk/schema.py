@@ -2,7 +2,7 @@
 [contact] puts its laws together (see `two_disk.build`)."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import BeforeValidator, Discriminator, Tag
@@ -24,7 +24,7 @@ HALF_SPACE = "half_space"
 _SLIDE = "a number (a ratio, 0.05) or a text in per cent ('5 %')"
 
 
-def _slide(value: Any) -> float:
+def _slide(value: object) -> float:
     """A ratio: a number, or a text in per cent."""
     if not isinstance(value, str):
         try:
@@ -41,7 +41,7 @@ def _slide(value: Any) -> float:
     return ratio
 
 
-def _slides(value: Any) -> tuple[float, ...]:
+def _slides(value: object) -> tuple[float, ...]:
     return units.several(value, _slide, f"{_SLIDE}, a list of them, or a table with start, stop and count")
 
 
@@ -72,7 +72,7 @@ SlideField = Annotated[
 """A number, a list of them, or a range."""
 
 
-def _compliance(value: Any) -> float | str:
+def _compliance(value: object) -> float | str:
     """L1, m/Pa, or the word for that of the scene's own bodies."""
     if value == HALF_SPACE:
         return HALF_SPACE

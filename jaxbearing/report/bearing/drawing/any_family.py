@@ -1,8 +1,8 @@
 """A bearing of any family in a drawing: seen along the axis, and one element in a section through the axis."""
 
 import dataclasses
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, SupportsFloat
 
 import equinox as eqx
 import numpy as np
@@ -37,18 +37,20 @@ class _Patches:
         self.axes = axes
         self.points: list[tuple[float, float]] = []
 
-    def polygon(self, points: Any, fill: str, stroke: str, stroke_width: float) -> None:
+    def polygon(self, points: Sequence[tuple[float, float]], fill: str, stroke: str, stroke_width: float) -> None:
         x, y = zip(*points, strict=True)
         self.points += points
         self.axes.fill(x, y, facecolor=fill, edgecolor=stroke, linewidth=0.9 * stroke_width)
 
-    def circle(self, centre: Any, radius: float, fill: str, stroke: str, stroke_width: float) -> None:
+    def circle(self, centre: tuple[float, float], radius: float, fill: str, stroke: str, stroke_width: float) -> None:
         from matplotlib.patches import Circle
 
         style = {"facecolor": fill, "edgecolor": stroke, "linewidth": 0.9 * stroke_width, "zorder": 3}
         self.axes.add_patch(Circle(centre, radius, **style))
 
-    def line(self, points: Any, stroke: str, stroke_width: float, stroke_dasharray: str) -> None:
+    def line(
+        self, points: Sequence[tuple[float, float]], stroke: str, stroke_width: float, stroke_dasharray: str
+    ) -> None:
         dashes = (0, tuple(map(float, stroke_dasharray.split())))
         self.axes.plot(*zip(*points, strict=True), color=stroke, linewidth=stroke_width, linestyle=dashes, zorder=4)
 
@@ -105,7 +107,7 @@ def _dimensions(scene: AbstractBearing) -> Iterator[tuple[str, str]]:
             yield f"operation.{name}", f"operation.{name} {field_text(scene.operation, name)}, on the inner ring"
 
 
-def _value(value: Any, unit: str) -> str:
+def _value(value: SupportsFloat, unit: str) -> str:
     """A count, or a number with the unit that its class says."""
     if isinstance(value, int):
         return str(value)

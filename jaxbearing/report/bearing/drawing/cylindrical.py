@@ -1,6 +1,6 @@
 """A cylindrical roller bearing in a drawing: along the axis, one roller with its pocket, and a section."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, SupportsFloat
 
 import numpy as np
 
@@ -188,7 +188,7 @@ def _label_section(
         _stack(axes, size, labels, side)
 
 
-def _thrust_text(scene: CylindricalRollerBearing, stiffness: Any) -> str:
+def _thrust_text(scene: CylindricalRollerBearing, stiffness: SupportsFloat) -> str:
     """Text about the flanges that hold the inner ring along the axis, and its axial load."""
     geometry, load = scene.geometry, scene.operation.axial_load
     said = [

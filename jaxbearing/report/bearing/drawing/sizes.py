@@ -1,7 +1,7 @@
 """Sizes of a bearing seen along its axis."""
 
 import math
-from typing import Any
+from typing import Any, SupportsFloat
 
 from ....bearings.bearing import AbstractBearing
 from ....bearings.cage import AbstractCage
@@ -37,7 +37,7 @@ class FrontSizes:
             self.cage = millimetres(cage.bore(geometry)) / 2.0, millimetres(cage.outside(geometry)) / 2.0
 
 
-def millimetres(metres: Any) -> float:
+def millimetres(metres: SupportsFloat) -> float:
     return 1e3 * float(metres)
 
 

@@ -62,7 +62,7 @@ def animate(history: History, scene: AbstractMovingBearing, title: str) -> "matp
     return moving(figure, update, len(pictures))
 
 
-def _on_page(radius: Any, azimuth: Any) -> np.ndarray:
+def _on_page(radius: object, azimuth: object) -> np.ndarray:
     """Azimuth 0 downwards, counter-clockwise."""
     return np.stack(place_at(azimuth, radius), axis=-1)
 
@@ -106,7 +106,7 @@ def _draw(
     chosen: np.ndarray,
     title: str,
     factor: float,
-) -> Callable[[int], Any]:
+) -> "Callable[[int], list[matplotlib.artist.Artist]]":
     """Draws all that stands still, and returns the function that moves the rest."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.collections import EllipseCollection, LineCollection

@@ -83,7 +83,9 @@ def _in_motion(history: History) -> dict[str, Any]:
         found["skidding"] = {"threshold": SKID} | skids
     land = getattr(instants, "land_load", None)
     if land is not None:
-        found["land_load"] = load_statistics(land) | {"max": float(np.max(instants.pocket_peaks.land))}
+        peaks = instants.pocket_peaks
+        assert peaks is not None
+        found["land_load"] = load_statistics(land) | {"max": float(np.max(np.asarray(peaks.land)))}
     if stress is not None:
         found["cage_stress"] = {
             "hoop": float(stress.hoop.max()),

@@ -49,7 +49,7 @@ def losses(history: WarmUpHistory) -> dict[str, Any]:
     return {name: getattr(loss, name) for name in ("total", *vars(loss)) if getattr(loss, name) is not None}
 
 
-def _spread(time: np.ndarray, values: Any) -> dict[str, float]:
+def _spread(time: np.ndarray, values: object) -> dict[str, float]:
     values = np.asarray(values)
     low, high = int(np.argmin(values)), int(np.argmax(values))
     return {

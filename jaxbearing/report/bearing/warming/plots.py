@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from jaxtyping import Array
 
 from ....bearings.warming.history import WarmUpHistory, play_of
 from ...backends.matplotlib.legends import clear_legend
@@ -86,7 +87,7 @@ def _heat(axes: "matplotlib.axes.Axes", history: WarmUpHistory) -> None:
     clear_legend(axes)
 
 
-def _play(axes: "matplotlib.axes.Axes", history: WarmUpHistory, play: tuple[str, Any]) -> None:
+def _play(axes: "matplotlib.axes.Axes", history: WarmUpHistory, play: tuple[str, Array | None]) -> None:
     time, _ = times_of(history)
     axes.plot(time, 1e6 * np.asarray(play[1]), color=INNER, linewidth=1.5)
     axes.axhline(0.0, color=FAINT, linewidth=0.8)

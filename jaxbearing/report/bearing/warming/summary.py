@@ -1,6 +1,7 @@
 """A run of the temperatures of a bearing on the screen."""
 
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import Any, SupportsFloat
 
 from rich.console import Console
 
@@ -90,7 +91,9 @@ def _um(value: float) -> str:
     return f"{1e6 * value:.2f}"
 
 
-def _rows(history: WarmUpHistory, found: dict[str, Any]) -> Any:
+def _rows(
+    history: WarmUpHistory, found: dict[str, Any]
+) -> Iterator[tuple[str, dict[str, float], Callable[[float], str]]]:
     """Name with its unit, spread, and the function from a value to its text."""
     degrees = lambda value: f"{value - ZERO_CELSIUS:.1f}"
     plain = lambda unit, significant=4: lambda value: digits(displayed(value, unit), significant)
@@ -112,5 +115,5 @@ def _rows(history: WarmUpHistory, found: dict[str, Any]) -> Any:
         yield "inner ring, rpm", found["inner_speed"], plain("rad/s")
 
 
-def _kilo(value: Any) -> str:
+def _kilo(value: SupportsFloat) -> str:
     return digits(1e-3 * float(value))

@@ -1,6 +1,6 @@
 """A page of plots of a line contact in time: films, speed, profiles."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -56,7 +56,9 @@ def _speed(axes: "matplotlib.axes.Axes", time: np.ndarray, history: LineContactH
     grid_lines(axes)
 
 
-def _profiles(upper: Any, lower: Any, time: np.ndarray, history: LineContactHistory) -> None:
+def _profiles(
+    upper: "matplotlib.axes.Axes", lower: "matplotlib.axes.Axes", time: np.ndarray, history: LineContactHistory
+) -> None:
     from matplotlib import colormaps
 
     width = float(history.hertz.half_width)
