@@ -30,7 +30,7 @@ class Identity(eqx.Module):
 
 def identity_of(scene: object, free: Collection[str]) -> Identity:
     """The identity of a scene. **Arguments:** `free`: paths that are no part of it."""
-    numbers: dict[str, Any] = {}
+    numbers: dict[str, object] = {}
     words: list[tuple[str, str]] = []
     for path, value in _fields(scene, "", free):
         if value is None:
@@ -44,7 +44,7 @@ def identity_of(scene: object, free: Collection[str]) -> Identity:
     return Identity(numbers, tuple(words))
 
 
-def identity_from(told: dict[str, Any]) -> Identity:
+def identity_from(told: dict[str, object]) -> Identity:
     """The way back from `Identity.told`. **Raises:** `ValueError` for something else."""
     words = tuple((path, value) for path, value in told.items() if isinstance(value, str))
     numbers = {path: np.asarray(value, dtype=float) for path, value in told.items() if not isinstance(value, str)}

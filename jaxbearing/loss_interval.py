@@ -45,7 +45,7 @@ class PowerInterval(NamedTuple):
     assumed: str
     parts: tuple[PowerPart, ...]
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> dict[str, object]:
         """Numbers and words by name."""
         parts = [part._asdict() for part in self.parts]
         return self._asdict() | {"parts": parts, "not_counted": not_counted(part.path for part in self.parts)}
@@ -117,7 +117,7 @@ def numbers_among(scene: AbstractScene, given: Mapping[str, Distribution]) -> di
     return {path: one for path, one in given.items() if _is_number(_value_at(scene, path))}
 
 
-def _value_at(scene: object, path: str) -> Any:
+def _value_at(scene: object, path: str) -> object:
     for name in path.split("."):
         scene = getattr(scene, name, None)
     return scene

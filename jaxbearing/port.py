@@ -36,7 +36,7 @@ _POINTS, _TILTS = ("port", "ring"), ("exact", "linear")
 
 def reaction(
     scene: AbstractBearing,
-    displacement: RingDisplacement | Mapping[str, Any] | Sequence[Any] | Array,
+    displacement: RingDisplacement | Mapping[str, object] | Sequence[object] | Array,
     *,
     at: Literal["port", "ring"] = "port",
     tilt: Literal["exact", "linear"] | None = None,

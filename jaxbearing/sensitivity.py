@@ -220,7 +220,7 @@ def _hottest(thermal: ThermalResult) -> Array:
 
 
 def _slopes(
-    scene: AbstractScene, options: NewtonOptions, roots: tuple[Any, ...], wanted: _Wanted
+    scene: AbstractScene, options: NewtonOptions, roots: tuple[object, ...], wanted: _Wanted
 ) -> dict[str, AbstractScene]:
     """Sensitivities of each result, a tree like the numbers of the scene; NaN where the solve failed.
 

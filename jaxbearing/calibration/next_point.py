@@ -9,7 +9,6 @@ linear about its solution (D-optimality).
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -33,7 +32,7 @@ class Candidate:
     standard_errors: Mapping[str, float]
 
 
-def next_points(found: Calibration, candidates: Mapping[str, Any], rig: int = 0) -> tuple[Candidate, ...]:
+def next_points(found: Calibration, candidates: Mapping[str, object], rig: int = 0) -> tuple[Candidate, ...]:
     """Candidates in the order of what they tell, the most first. All results that the rig measures are measured there,
     with errors as those of its data.
 

@@ -25,15 +25,15 @@ _ROOTS: ContextVar[_Roots | None] = ContextVar("roots that are recorded or known
 
 
 @contextmanager
-def recorded_roots() -> Iterator[list[Any]]:
+def recorded_roots() -> Iterator[list[object]]:
     """For a block that is traced: gives the list of the roots that it finds, filled at its end."""
-    noted: list[Any] = []
+    noted: list[object] = []
     with _set(_Roots(noted, None, True)):
         yield noted
 
 
 @contextmanager
-def known_roots(roots: Iterable[Any], stiffness: bool = True) -> Iterator[None]:
+def known_roots(roots: Iterable[object], stiffness: bool = True) -> Iterator[None]:
     """For a block that is traced: its searches take these roots, which `recorded_roots` noted in the same block.
 
     **Arguments:** `stiffness`: whether what is computed from a Jacobian, as the stiffness, is differentiated; its

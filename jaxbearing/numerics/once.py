@@ -33,7 +33,7 @@ def once(function: Callable[..., Result]) -> Callable[..., Result]:
     """
 
     @eqx.filter_jit
-    def packed(args: tuple[Any, ...]) -> tuple[jax.Array, _Shape]:
+    def packed(args: tuple[object, ...]) -> tuple[jax.Array, _Shape]:
         leaves, structure = jax.tree.flatten(function(*args))
         leaves = [jnp.asarray(leaf) for leaf in leaves]
         flat = jnp.concatenate([jnp.ravel(leaf).astype(float) for leaf in leaves])

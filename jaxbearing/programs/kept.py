@@ -18,11 +18,11 @@ import importlib.metadata
 import os
 import pickle
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Hashable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, TypeAlias, TypeGuard, TypeVar
 
 import equinox as eqx
 import jax
@@ -43,6 +43,10 @@ _SETTINGS = ("jax_enable_x64", "jax_default_matmul_precision", "jax_disable_most
 _FOR_DEBUGGING = ("jax_disable_jit", "jax_debug_nans", "jax_debug_infs")
 """No program is cached while one of these settings is on."""
 _ENVIRONMENT = ("XLA_FLAGS", "EQX_ON_ERROR", "JAX_DISABLE_MOST_OPTIMIZATIONS")
+ArrayLeaf: TypeAlias = jax.Array | np.ndarray | np.generic
+"""A leaf of the arguments that is an array; programs take only these."""
+Result = TypeVar("Result")
+"""Result of the function of a program."""
 
 
 class _Slot(NamedTuple):
@@ -61,7 +65,7 @@ class _Ready:
 
     compiled: Compiled
     structure: Structure
-    others: list[Any]
+    others: list[object]
     instead: Callable[[], "_Ready"] | None = None
 
     @property
@@ -71,15 +75,15 @@ class _Ready:
         filled = [shapes[one.place] if isinstance(one, _Slot) else one for one in self.others]
         return jax.tree.unflatten(self.structure, filled)
 
-    def __call__(self, leaves: list[Any]) -> Any:
+    def __call__(self, leaves: list[object]) -> Any:
         arrays = self._run(_arrays(leaves)) if self.instead is None else self._first_run(_arrays(leaves))
         filled = [arrays[one.place] if isinstance(one, _Slot) else one for one in self.others]
         return jax.tree.unflatten(self.structure, filled)
 
-    def _run(self, arrays: list[Any]) -> list[Any]:
+    def _run(self, arrays: list[ArrayLeaf]) -> list[jax.Array]:
         return self.compiled(arrays)
 
-    def _first_run(self, arrays: list[Any]) -> list[Any]:
+    def _first_run(self, arrays: list[ArrayLeaf]) -> list[jax.Array]:
         """Runs a loaded program for the first time. If it fails although its file was intact, it is compiled again."""
         instead = self.instead
         try:
@@ -93,15 +97,15 @@ class _Ready:
         return found
 
 
-def _is_array(leaf: object) -> bool:
-    return isinstance(leaf, jax.Array | np.ndarray | np.generic)
+def _is_array(leaf: object) -> TypeGuard[ArrayLeaf]:
+    return isinstance(leaf, ArrayLeaf)
 
 
-def _arrays(leaves: list[Any]) -> list[Any]:
+def _arrays(leaves: list[object]) -> list[ArrayLeaf]:
     return [leaf for leaf in leaves if _is_array(leaf)]
 
 
-class KeptProgram:
+class KeptProgram(Generic[Result]):
     """Works as `equinox.filter_jit(function)`, but stores its compiled programs for other processes.
 
     It must not be called where `numerics.compiling.inside_a_program` is true. A program is cached if it runs on one
@@ -112,13 +116,13 @@ class KeptProgram:
     (see `numerics.compiling`).
     """
 
-    def __init__(self, function: Callable[..., Any], quick: bool):
+    def __init__(self, function: Callable[..., Result], quick: bool):
         self._function, self._quick = function, quick
         self._plain = quickly_compiled(function) if quick else eqx.filter_jit(function)
-        self._ready: dict[Any, _Ready] = {}
-        self._never: set[Any] = set()
+        self._ready: dict[Hashable, _Ready] = {}
+        self._never: set[Hashable] = set()
 
-    def __call__(self, *args: object) -> Any:
+    def __call__(self, *args: object) -> Result:
         leaves, structure = jax.tree.flatten(args)
         ready = self.ready(structure, leaves)
         if ready is not None:
@@ -126,18 +130,18 @@ class KeptProgram:
         with quiet_first_time((self._function, self._quick, structure)):
             return self._plain(*args)
 
-    def ready(self, structure: Structure, leaves: list[Any]) -> Callable[[list[Any]], Any] | None:
+    def ready(self, structure: Structure, leaves: list[object]) -> Callable[[list[object]], Result] | None:
         """The program for arguments of this structure, as a function of their leaves. Arrays among the leaves must have
         the same shapes, and other leaves must be equal. The program is loaded, or compiled and stored. `None` if such
         programs are not cached."""
         return self._found(structure, leaves, make=True)
 
-    def result(self, structure: Structure, leaves: list[Any]) -> Any:
+    def result(self, structure: Structure, leaves: list[object]) -> Result | None:
         """Result of the program for such arguments, with shapes instead of arrays; `None` if there is none yet."""
         found = self._found(structure, leaves, make=False)
         return None if found is None else found.result
 
-    def _found(self, structure: Structure, leaves: list[Any], make: bool) -> _Ready | None:
+    def _found(self, structure: Structure, leaves: list[object], make: bool) -> _Ready | None:
         folder = _folder()
         if folder is None:
             return None
@@ -153,7 +157,7 @@ class KeptProgram:
         return found
 
     @rare_garbage_collection()
-    def _prepared(self, structure: Structure, leaves: list[Any], folder: Path, make: bool) -> _Ready | None:
+    def _prepared(self, structure: Structure, leaves: list[object], folder: Path, make: bool) -> _Ready | None:
         """Loads the program. If there is no file and `make` is True, compiles and stores it. **Raises:** `NotKept`."""
         path = folder / self._name(structure, leaves)
         with compiling_quietly():
@@ -163,17 +167,17 @@ class KeptProgram:
         ready.instead = lambda: self._made(structure, leaves, path)
         return ready
 
-    def _name(self, structure: Structure, leaves: list[Any]) -> str:
+    def _name(self, structure: Structure, leaves: list[object]) -> str:
         """The name of the file is a hash of all that the program depends on."""
         function = f"{self._function.__module__}.{self._function.__qualname__}"
         shapes = [(leaf.shape, str(leaf.dtype)) if _is_array(leaf) else static_description(leaf) for leaf in leaves]
         parts = (function, self._quick, description(structure), shapes, _versions(), _told(), _files())
         return hashlib.sha256(repr(parts).encode()).hexdigest()[:40] + files.SUFFIX
 
-    def _made(self, structure: Structure, leaves: list[Any], path: Path) -> _Ready:
-        found: list[tuple[Structure, list[Any]]] = []
+    def _made(self, structure: Structure, leaves: list[object], path: Path) -> _Ready:
+        found: list[tuple[Structure, list[object]]] = []
 
-        def flat(given: list[Any]) -> list[Any]:
+        def flat(given: list[jax.Array]) -> list[jax.Array]:
             arrays = iter(given)
             filled = [next(arrays) if _is_array(leaf) else leaf for leaf in leaves]
             others, whole = jax.tree.flatten(self._function(*jax.tree.unflatten(structure, filled)))
@@ -192,13 +196,13 @@ class KeptProgram:
         return ready
 
 
-def _key(structure: Structure, leaves: list[Any]) -> Any:
+def _key(structure: Structure, leaves: list[object]) -> Hashable:
     """The key of a program in the memory of this process. The hash in `_name` is the key of its file."""
     about = tuple((leaf.shape, leaf.dtype) if _is_array(leaf) else (type(leaf), leaf) for leaf in leaves)
     return structure, about, _told()
 
 
-def _setting(name: str) -> Any:
+def _setting(name: str) -> object:
     return getattr(jax.config, name, None)
 
 

@@ -17,7 +17,6 @@ meets the values of the table to a few N/m, and goes on beyond the first and the
 import math
 import os
 import re
-from typing import Any
 
 import numpy as np
 import tomli_w
@@ -36,7 +35,7 @@ _TAG = re.compile(r"[A-Za-z0-9_-]+")
 
 def ross_bearing(
     table: StiffnessTable, *, load_direction: float = WEIGHT_DIRECTION, node: int = 0, tag: str = "bearing"
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """Arguments of `ross.BearingElement`, as plain numbers and lists.
 
     **Arguments:**
@@ -57,7 +56,9 @@ def ross_bearing(
     return element_of(table.speed, table.stiffness, load_direction, node, tag)
 
 
-def element_of(speed: np.ndarray, stiffness: np.ndarray, load_direction: float, node: int, tag: str) -> dict[str, Any]:
+def element_of(
+    speed: np.ndarray, stiffness: np.ndarray, load_direction: float, node: int, tag: str
+) -> dict[str, object]:
     """Arguments of `ross.BearingElement` from stiffnesses of the five freedoms; axes: speed, row, column."""
     axial, *across = (RING_FREEDOMS.index(name) for name in ("axial", "radial", "lateral"))
     cosine, sine = math.cos(load_direction), math.sin(load_direction)

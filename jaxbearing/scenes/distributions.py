@@ -106,7 +106,7 @@ def _read(
 
 def _lognormal(
     given: Mapping[str, object], names: list[str], path: tuple[str, ...], model: type[BaseModel], file: str
-) -> tuple[Any, Distribution]:
+) -> tuple[object, Distribution]:
     """A distribution by its median, which stands for it in the tables. **Raises:** `SceneError`."""
     where = ".".join(path)
     values = {name: _value(given[name], name, path, model, file) for name in names if name != "log_deviation"}

@@ -80,7 +80,7 @@ def type_at(model: type[BaseModel], location: Sequence[int | str]) -> Any:
     return None
 
 
-def parts_of(kind: object) -> list[Any]:
+def parts_of(kind: object) -> list[object]:
     """A type without what may be left out, and all that annotates it."""
     if typing.get_origin(kind) is typing.Annotated:
         inner, *notes = typing.get_args(kind)

@@ -183,7 +183,7 @@ class _RacewayFilms(Laws[Any]):
         super().__init__(films._named, *films._kinds)
         self._joined = joined
 
-    def __getitem__(self, name: str) -> Callable[[], Any]:
+    def __getitem__(self, name: str) -> Callable[[], object]:
         film = super().__getitem__(name)
         return (lambda: self._joined(film())) if self.piezoviscous_only(name) else film
 

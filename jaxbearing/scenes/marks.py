@@ -139,7 +139,7 @@ _OF_SEAT = ("interference", "tolerance")
 """Ends of the names of fields that give a part a seat."""
 
 
-def _complete(source: str | Path, overrides: Overrides | None) -> Mapping[str, Any]:
+def _complete(source: str | Path, overrides: Overrides | None) -> Mapping[str, object]:
     """The tables of a scene with its overrides; empty where they cannot be applied."""
     label, mapping = read_tables(source)
     texts = as_texts(overrides)

@@ -102,7 +102,7 @@ def rib_mixed_friction(table: RibMixedTable | None) -> MixedFriction | None:
     return _built(table, table.roughness if table.flange_roughness is None else table.flange_roughness, constants)
 
 
-def _built(table: MixedTable, roughness: float, constants: Mapping[str, Any]) -> MixedFriction:
+def _built(table: MixedTable, roughness: float, constants: Mapping[str, object]) -> MixedFriction:
     share = SHARES[table.share](**{name: value for name, value in constants.items() if value is not None})
     return MixedFriction(roughness, share, table.mu_boundary, table.slide_width, table.film)
 

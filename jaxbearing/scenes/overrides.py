@@ -147,9 +147,9 @@ def completed(
     return model.completed(tables, overrides, file) if issubclass(model, Table) else (tables, overrides)
 
 
-def _take_out(changed: dict[str, Any], inside: list[str], names: Iterable[str]) -> None:
+def _take_out(changed: dict[str, object], inside: list[str], names: Iterable[str]) -> None:
     """Values that the file gives for these fields of a table; an override may put them in again."""
-    table: Any = changed
+    table: object = changed
     for key in inside:
         table = table.get(key) if isinstance(table, dict) else None
     for name in names:
@@ -157,7 +157,7 @@ def _take_out(changed: dict[str, Any], inside: list[str], names: Iterable[str]) 
             table.pop(name, None)
 
 
-def _remove(changed: dict[str, Any], keys: list[str], path: str, model: type[BaseModel], file: str) -> None:
+def _remove(changed: dict[str, object], keys: list[str], path: str, model: type[BaseModel], file: str) -> None:
     """Takes a field or table out; what is not there must at least be something that could be."""
     _keep_catalogue(changed, keys, path, file)
     table = changed
@@ -178,7 +178,7 @@ def _keep_catalogue(changed: Mapping[str, object], keys: list[str], path: str, f
     oil = changed.get("oil")
     if len(keys) < 2 or keys[0] != "oil" or keys[1] in ("name", "grade", "base", "file") or not isinstance(oil, dict):
         return
-    found: Any = base_of(oil)
+    found: object = base_of(oil)
     for key in keys[1:]:
         found = found.get(key) if isinstance(found, dict) else None
     if found is not None:
@@ -212,7 +212,7 @@ MOST_DEEP = 20
 """Levels of tables in a scene; the deepest of a scene has five."""
 
 
-def _copy(table: Mapping[str, Any], file: str, above: tuple[str, ...] = ()) -> dict[str, Any]:
+def _copy(table: Mapping[str, object], file: str, above: tuple[str, ...] = ()) -> dict[str, object]:
     """**Raises:** `SceneError` for tables inside tables without end."""
     if len(above) > MOST_DEEP:
         raise SceneError(file, ".".join(above), "a table nested too deeply", f"at most {MOST_DEEP} levels of tables")

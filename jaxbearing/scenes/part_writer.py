@@ -99,7 +99,7 @@ def material(one: Material, thermal: bool = False) -> str | Rows:
     return next(named, rows(MaterialTable, one))
 
 
-def law_name(laws: Laws[Any], law: object, path: str, made: Callable[[str], Any] | None = None) -> str:
+def law_name(laws: Laws[Any], law: object, path: str, made: Callable[[str], object] | None = None) -> str:
     """The name by which files know a law.
 
     **Arguments:** `path`: of the law in the scene, for messages; `made`: the law of a name, where it is not that of

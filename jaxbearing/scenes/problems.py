@@ -73,7 +73,7 @@ def from_class(error: ValueError, raw: Mapping[str, object], file: str) -> Scene
 
 def describe_at(raw: Mapping[str, object], path: str) -> str:
     """The value of a scene at a dotted path, in words; "nothing" if there is none."""
-    value: Any = raw
+    value: object = raw
     for name in path.split("."):
         if not isinstance(value, Mapping) or name not in value:
             return "nothing"

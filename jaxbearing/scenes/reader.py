@@ -302,13 +302,13 @@ def read_tables(source: str | Path) -> tuple[str, dict[str, Any]]:
     return label, without_states(mapping)
 
 
-def without_states(mapping: Mapping[str, object]) -> dict[str, Any]:
+def without_states(mapping: Mapping[str, object]) -> dict[str, object]:
     """The tables without the states of a load spectrum. The tables of a shaft are returned unchanged, because states
     are part of a shaft."""
     return {name: table for name, table in mapping.items() if name != STATES or is_shaft(mapping)}
 
 
-def read_base(source: str | Path) -> tuple[str, dict[str, Any]]:
+def read_base(source: str | Path) -> tuple[str, dict[str, object]]:
     """As `read_tables`, but warns with `StatesUnusedWarning` if states are left out."""
     label, mapping = read_all(source)
     states = None if is_shaft(mapping) else mapping.pop(STATES, None)
@@ -319,7 +319,7 @@ def read_base(source: str | Path) -> tuple[str, dict[str, Any]]:
     return label, mapping
 
 
-def read_all(source: str | Path) -> tuple[str, dict[str, Any]]:
+def read_all(source: str | Path) -> tuple[str, dict[str, object]]:
     """Name for messages, and all tables of a file or a built-in scene. **Raises:** `SceneError`."""
     label, mapping = _read_file(source)
     if is_shaft(mapping):
@@ -335,7 +335,7 @@ def tables_of_file(source: str | Path) -> dict[str, Any]:
     return _read_file(source)[1]
 
 
-def _read_file(source: str | Path) -> tuple[str, dict[str, Any]]:
+def _read_file(source: str | Path) -> tuple[str, dict[str, object]]:
     label = str(source)
     if isinstance(source, str) and source in builtin_names():
         text = builtin_text(source)
@@ -349,7 +349,7 @@ _FILES = (("oil",), ("simulation", "speed_table"), ("simulation", "load_table"),
 """Tables whose field `file` names another file."""
 
 
-def _beside(mapping: dict[str, Any], folder: Path) -> dict[str, Any]:
+def _beside(mapping: dict[str, object], folder: Path) -> dict[str, object]:
     """The tables of a file in `folder`, with the paths of other files made relative to the working folder."""
     for tables in _FILES:
         mapping = _moved(mapping, tables, folder)

@@ -91,7 +91,7 @@ def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple
     return tuple(found)
 
 
-def require_names_and_shares(given: Sequence[Mapping[str, Any]], label: str) -> None:
+def require_names_and_shares(given: Sequence[Mapping[str, object]], label: str) -> None:
     """**Raises:** `SceneError` for states without a name or share, with the name of another one or with shares that do
     not add up to 1."""
     problems = list(_problems(given, label))

@@ -5,7 +5,6 @@ import re
 import tomllib
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 from .errors import SceneError, nearest
 from .input_files import LARGEST_TEXT, UnfitFileError, read_bytes
@@ -33,7 +32,7 @@ def read_text(path: str | Path, expected: str, near: Iterable[str] = (), largest
         raise SceneError(label, "", found, "a file in UTF-8") from None
 
 
-def parse_toml(text: str, label: str, expected: str) -> dict[str, Any]:
+def parse_toml(text: str, label: str, expected: str) -> dict[str, object]:
     """The tables of a text. **Arguments:** `label`: of the file; `expected`: what an empty one should hold.
 
     **Raises:** `SceneError`.

@@ -158,7 +158,7 @@ def part_at(system: Any, path: str) -> Any:
     return _inside(entries_of(system, word)[names.index(name)], rest)
 
 
-def _inside(part: object, keys: list[str]) -> Any:
+def _inside(part: object, keys: list[str]) -> object:
     for place, key in enumerate(keys):
         own = [field.name for field in dataclasses.fields(part)] if isinstance(part, eqx.Module) else []
         if key not in own and _BEARING in own:
@@ -174,7 +174,7 @@ def _inside(part: object, keys: list[str]) -> Any:
     return part
 
 
-def all_names(system: "ShaftSystem") -> Iterator[tuple[str, str, Any]]:
+def all_names(system: "ShaftSystem") -> Iterator[tuple[str, str, object]]:
     """Word, name and entry of every bearing, set and force."""
     for word in LISTS:
         for name, entry in zip(names_of(system, word), entries_of(system, word), strict=True):

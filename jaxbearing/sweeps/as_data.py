@@ -46,7 +46,7 @@ def decoded(text: str, arrays: Mapping[str, np.ndarray]) -> Any:
         raise ValueError(f"not the data of a part: {type(error).__name__}: {error}") from None
 
 
-def _encode(part: object, arrays: dict[str, np.ndarray]) -> Any:
+def _encode(part: object, arrays: dict[str, np.ndarray]) -> object:
     if part is None or type(part) in (bool, int, float, str):
         return part
     if isinstance(part, np.ndarray | np.generic) or hasattr(part, "__jax_array__") or eqx.is_array(part):
@@ -69,7 +69,7 @@ def _encode(part: object, arrays: dict[str, np.ndarray]) -> Any:
     return {"class": name, "fields": values}
 
 
-def _decode(data: object, arrays: Mapping[str, np.ndarray]) -> Any:
+def _decode(data: object, arrays: Mapping[str, np.ndarray]) -> object:
     if not isinstance(data, dict):
         if isinstance(data, list):
             raise ValueError("not the data of a part: a list without its kind")

@@ -119,7 +119,7 @@ def _positive(count: int) -> None:
         raise ValueError(f"found {count} cases, expected 1 to {MOST_CASES}")
 
 
-def _within(kind: Kind, bounds: Mapping[str, Sequence[Any]], unit: np.ndarray) -> Cases:
+def _within(kind: Kind, bounds: Mapping[str, Sequence[object]], unit: np.ndarray) -> Cases:
     values = {}
     for (path, given), part in zip(bounds.items(), unit.T, strict=False):
         ends = list(given) if isinstance(given, list | tuple | np.ndarray) else []

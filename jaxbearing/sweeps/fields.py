@@ -113,7 +113,7 @@ class _Reader:
         }
 
 
-def parse_over(texts: list[str], source: SceneSource, counted: bool) -> tuple[dict[str, Field], dict[str, Any]]:
+def parse_over(texts: list[str], source: SceneSource, counted: bool) -> tuple[dict[str, Field], dict[str, object]]:
     """Fields and ranges of `--over` texts: path -> (start, stop, count, log), or without the count for samples.
 
     **Raises:** `SceneError`.

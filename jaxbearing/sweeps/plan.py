@@ -94,7 +94,7 @@ class Plan:
             digest.update(np.asarray(array, dtype=np.float64).tobytes())
         return digest.hexdigest()[:32]
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, object]:
         # another process finds its own hash: it may run another version
         return {name: value for name, value in vars(self).items() if name != "key"}
 

@@ -173,7 +173,7 @@ def _require_number(scene: AbstractScene, path: str) -> None:
     **Raises:** `ValueError` if it is.
     """
     above, _, last = path.rpartition(".")
-    part: Any = scene.part_at(above) if above else scene
+    part: object = scene.part_at(above) if above else scene
     fields = {field.name: field for field in dataclasses.fields(part)} if isinstance(part, eqx.Module) else {}
     if last not in fields:
         # says what is there

@@ -1,7 +1,6 @@
 """The plan and the runner of a sweep from the arguments of a user."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import jax
 
@@ -65,7 +64,7 @@ def make_plan(
 
 def plan_in_scene(
     scene: AbstractScene,
-    over: Mapping[str, Any] | Cases,
+    over: Mapping[str, object] | Cases,
     *,
     options: NewtonOptions | None = None,
     elements: bool = True,

@@ -43,7 +43,7 @@ def _slopes(
         solution = at_roots(_solve_any, roots, scene.replace(numbers_), options)
         return values_of(solution, computed(solution, wanted))
 
-    def by_one(place: Array) -> dict[str, Any]:
+    def by_one(place: Array) -> dict[str, object]:
         along = {path: jnp.where(place == i, 1.0, 0.0) for i, path in enumerate(numbers)}
         return jax.jvp(results, (numbers,), (along,))[1]
 

@@ -136,7 +136,7 @@ def scatter_of(
         notes += _of_prior(scene, prior)
     elif drag_prior and priors.DRAG_FIELD not in fields and priors.isolated(scene):
         notes.append(_ISOLATED)
-    changes: dict[str, Any] = {f"fits.{seat}_tolerance": None for seat in seats}
+    changes: dict[str, object] = {f"fits.{seat}_tolerance": None for seat in seats}
     supply = priors.supply_prior(scene)
     if supply is not None:
         # a level is a word: the number that it stands for scatters in its place

@@ -50,7 +50,7 @@ def page(
     )
 
 
-def _panel(panel: Panel) -> tuple[str, Any]:
+def _panel(panel: Panel) -> tuple[str, object]:
     """Kind of a panel on the page, and what is shown: bars and numbers are tables, curves are charts."""
     match panel:
         case Bars():

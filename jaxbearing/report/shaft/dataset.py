@@ -85,7 +85,7 @@ def _stacked(
     parts: Sequence[object], along: str, path: str, dims: tuple[str, ...]
 ) -> Iterator[tuple[str, xr.Variable]]:
     """Results of all bearings, or sets, along a dimension of their own; NaN where one does not have them."""
-    found: dict[str, tuple[dict[int, np.ndarray], Mapping[str, Any]]] = {}
+    found: dict[str, tuple[dict[int, np.ndarray], Mapping[str, object]]] = {}
     for place, part in enumerate(parts):
         for name, value, metadata in labelled(part):
             if not name.startswith("solution.") and (np.ndim(value) == len(dims) or name in _VECTORS):

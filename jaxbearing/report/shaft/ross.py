@@ -41,14 +41,14 @@ def require_rotor(scene: Any) -> None:
 
 def ross_rotor(
     table: ShaftStiffness, scene: ShaftSystem, *, load_direction: float = WEIGHT_DIRECTION
-) -> dict[str, dict[str, Any]]:
+) -> dict[str, dict[str, object]]:
     """Elements of the rotor by their class and tag, each with the arguments of its class.
 
     **Raises:** as `require_rotor`; `ValueError` as `report.ross.ross_bearing`.
     """
     nodes = rotor_nodes(scene)
     masses = [one for one in scene.forces if isinstance(one, Mass)]
-    found: dict[str, dict[str, Any]] = {}
+    found: dict[str, dict[str, object]] = {}
     for number, (left, right) in enumerate(pairwise(nodes)):
         found[f"ShaftElement_shaft{number}"] = _element(scene, left, right, number)
     for one in masses:

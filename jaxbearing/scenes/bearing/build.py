@@ -69,7 +69,7 @@ class _Blank:
         return self._owner
 
 
-def _blank(kind: type, name: str) -> Any:
+def _blank(kind: type, name: str) -> object:
     """Stands for the part in a field of a scene."""
     hint = typing.get_type_hints(kind)[name]
     (owner, *_) = [one for one in (hint, *typing.get_args(hint)) if dataclasses.is_dataclass(one)]

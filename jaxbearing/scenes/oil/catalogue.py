@@ -49,7 +49,7 @@ def load_oil(name: str, base: str | None = None) -> Lubricant:
     return lubricant(read_table(OilTable, with_catalogue({"name": known}), f"{known}.toml"))
 
 
-def oil_data(name: str) -> dict[str, Any]:
+def oil_data(name: str) -> dict[str, object]:
     """The tables of an oil's data file."""
     return tomllib.loads(oil_text(name))
 
@@ -137,7 +137,7 @@ def _rheology(table: Any) -> AbstractRheology:
     return table.builds(**{**_parameters(table), "exponent": table.exponent})
 
 
-def _linear(law: float | Law) -> dict[str, Any]:
+def _linear(law: float | Law) -> dict[str, object]:
     """Parameters of a linear law; a number is the same at every temperature."""
     if isinstance(law, Law):
         return _parameters(law)

@@ -20,7 +20,7 @@ class Origin(NamedTuple):
     note: str
 
 
-def read_oil(path: str) -> dict[str, Any]:
+def read_oil(path: str) -> dict[str, object]:
     """The tables of an oil file, less its own name.
 
     **Raises:** `SceneError` for a file that cannot be read or is not an oil.

@@ -69,7 +69,7 @@ def _name(number: int) -> str:
     return f"ISO VG {number}"
 
 
-def grade_of(oil: Mapping[str, Any]) -> tuple[str, str] | None:
+def grade_of(oil: Mapping[str, object]) -> tuple[str, str] | None:
     """Grade and base stock that an oil table names; `None` without a grade, and where the validation refuses them."""
     grade, base = grade_named(oil.get("grade")), base_named(oil.get("base", DEFAULT_BASE))
     if grade is None or base is None or grade not in grades(base):

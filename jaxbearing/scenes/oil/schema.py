@@ -167,7 +167,7 @@ def _text_or_table(value: object) -> str:
     return "<table>" if isinstance(value, dict) else "<value>"
 
 
-def _linear_field(table: type[Law], law: type) -> Any:
+def _linear_field(table: type[Law], law: type) -> object:
     """The type of a field that holds a number, the same at every temperature, or a linear law."""
     return _alternatives({"<value>": number_of(law, "value"), "<table>": table}, _text_or_table)
 

@@ -2,7 +2,6 @@
 
 import typing
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
 
 import equinox as eqx
 
@@ -75,7 +74,7 @@ def sourced_laws(oil: Lubricant, origins: Mapping[str, Origin] | None = None) ->
 
 def _laws(oil: Lubricant) -> dict[str, Rows]:
     """Name of the law -> its table."""
-    laws: dict[str, tuple[type[Law], Any]] = {"viscosity": (_table(oil.viscosity, "viscosity"), oil.viscosity)}
+    laws: dict[str, tuple[type[Law], object]] = {"viscosity": (_table(oil.viscosity, "viscosity"), oil.viscosity)}
     if not isinstance(oil.pressure_viscosity, NoPressureViscosity):
         law = oil.pressure_viscosity
         laws["pressure_viscosity"] = (_table(law, "pressure_viscosity"), law)
@@ -134,7 +133,7 @@ def _catalogue(oil: Lubricant) -> Iterator[Rows]:
             yield from ({"grade": grade, "base": base} for grade in grades(base))
 
 
-def _size(table: Mapping[str, Any]) -> int:
+def _size(table: Mapping[str, object]) -> int:
     return sum(_size(value) if isinstance(value, Mapping) else 1 for value in table.values())
 
 
@@ -154,7 +153,7 @@ def _amended(oil: Lubricant, named: Rows) -> Rows | None:
     return found if _is_oil(found, oil) else None
 
 
-def _short(law: eqx.Module, table: Rows) -> Any:
+def _short(law: eqx.Module, table: Rows) -> object:
     """The value of a law that is one number; any other as its table."""
     constant = isinstance(law, ConstantPressureViscosity)
     if isinstance(law, LinearDensity | LinearConductivity | LinearHeatCapacity):

@@ -106,7 +106,7 @@ def _is_taken(name: str) -> bool:
     return hasattr(Table, name) or name.startswith("model_")
 
 
-def _default_name(one: Mapping[str, Any], table: str, taken: Mapping[str, object]) -> str:
+def _default_name(one: Mapping[str, object], table: str, taken: Mapping[str, object]) -> str:
     """The name of a table that has none: its kind, or what it is, with a number where that is taken."""
     kind = one.get("kind")
     base = kind if table == "force" and isinstance(kind, str) and _NAME.fullmatch(kind) else table
@@ -143,7 +143,7 @@ def read_scenes(mapping: Mapping[str, object], label: str, read: Read) -> dict[s
     **Raises:** `SceneError` for a file that cannot be read, and for one that is no bearing.
     """
 
-    def with_tables(keys: tuple[str, ...], entry: object) -> Any:
+    def with_tables(keys: tuple[str, ...], entry: object) -> object:
         if not isinstance(entry, Mapping) or not isinstance(entry.get(SCENE), str):
             return entry
         return {**entry, SCENE: bearing_scene(entry[SCENE], ".".join((*keys, SCENE)), label, read)}
@@ -151,7 +151,7 @@ def read_scenes(mapping: Mapping[str, object], label: str, read: Read) -> dict[s
     return changed(mapping, with_tables)
 
 
-def bearing_scene(source: str, path: str, label: str, read: Read) -> dict[str, Any]:
+def bearing_scene(source: str, path: str, label: str, read: Read) -> dict[str, object]:
     """The tables of a bearing's scene without its loads and speeds.
 
     **Arguments:** `path`: of the field that names it; `label`: name of the shaft's file.
@@ -231,7 +231,7 @@ def merged(scene: Mapping[str, Any], own: Mapping[str, object], table: type[Base
     return found
 
 
-def without_loads(tables: Mapping[str, object]) -> dict[str, Any]:
+def without_loads(tables: Mapping[str, object]) -> dict[str, object]:
     """The tables of a bearing without loads and speeds, which a shaft gives it, and without what only a bearing that
     stands alone has: runs in time and a load spectrum."""
     found = {name: value for name, value in tables.items() if name not in ("simulation", "state")}

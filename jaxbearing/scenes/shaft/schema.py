@@ -65,7 +65,7 @@ def with_kind(entry: object, kind: str | None) -> dict[str, Any]:
     return own if kind is None else {**own, "kind": kind}
 
 
-def _with_scene(entry: object, keys: tuple[str, ...], file: str) -> Any:
+def _with_scene(entry: object, keys: tuple[str, ...], file: str) -> object:
     """An entry with the tables of its scene. **Raises:** `SceneError` for a kind beside the scene."""
     if not isinstance(entry, Mapping) or not isinstance(entry.get(SCENE), Mapping):
         return entry

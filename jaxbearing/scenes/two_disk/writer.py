@@ -1,7 +1,5 @@
 """The tables of a scene file from a two-disk machine: the way back from `two_disk.build`."""
 
-from typing import Any
-
 import equinox as eqx
 import numpy as np
 
@@ -53,7 +51,7 @@ def _compliance(law: eqx.Module | None) -> float | str | None:
     return None if law is None else number(law.value, "m/Pa")
 
 
-def _slides(operation: DiskOperation) -> Any:
+def _slides(operation: DiskOperation) -> object:
     """A range where the ratios are evenly spaced, otherwise a number or a list of them."""
     ratios = np.asarray(operation.slide_to_roll)
     if ratios.ndim == 1 and ratios.size > 2:
