@@ -2,9 +2,10 @@
 fit of an oil and for the calibration of scenes."""
 
 import abc
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
+from jaxtyping import Array
 
 from .loss import influence
 
@@ -12,6 +13,21 @@ MOST_TURNS = 12
 """Times that parameters may be held or released."""
 SLACK = 1e-6
 """Correlation of residual and a column of the Jacobian below which a bound does not bind."""
+
+
+@runtime_checkable
+class HasNaturalCoordinates(Protocol):
+    """A problem of an estimation, as the loop sees it."""
+
+    def natural(self, u: Any) -> Array | np.ndarray:
+        """Natural coordinates of unknowns."""
+        ...
+
+
+Problem = TypeVar("Problem", bound=HasNaturalCoordinates)
+Estimate = TypeVar("Estimate")
+"""Ends of all optimisations of a problem."""
+Unknowns = TypeVar("Unknowns", Array, np.ndarray)
 
 
 class Held(NamedTuple):
@@ -36,7 +52,7 @@ class Held(NamedTuple):
         return Held(free, drop(self.reasons), drop(self.pinned))
 
 
-class AbstractSearch(abc.ABC):
+class AbstractSearch(abc.ABC, Generic[Problem, Estimate, Unknowns]):
     """Methods of an estimation that the loop calls. A `problem` is what its own methods take; `u` are its unknowns."""
 
     limits: tuple[np.ndarray, np.ndarray]
@@ -45,23 +61,23 @@ class AbstractSearch(abc.ABC):
     """One of `loss.LOSSES`."""
 
     @abc.abstractmethod
-    def problem(self, free: np.ndarray, pinned: dict[int, float], base: np.ndarray | None = None) -> Any:
+    def problem(self, free: np.ndarray, pinned: dict[int, float], base: np.ndarray | None = None) -> Problem:
         """The problem with these parameters free, from these natural coordinates."""
 
     @abc.abstractmethod
-    def starts(self, problem: Any, free: np.ndarray) -> np.ndarray:
+    def starts(self, problem: Problem, free: np.ndarray) -> np.ndarray:
         """Unknowns to start from, (start, parameter)."""
 
     @abc.abstractmethod
-    def optimised(self, problem: Any, starts: np.ndarray) -> tuple[Any, Any, Any]:
+    def optimised(self, problem: Problem, starts: np.ndarray) -> tuple[Problem, Estimate, Unknowns]:
         """The problem, all estimates, and the unknowns of the best."""
 
     @abc.abstractmethod
-    def slopes(self, problem: Any, u: Any) -> tuple[np.ndarray, np.ndarray]:
+    def slopes(self, problem: Problem, u: Unknowns) -> tuple[np.ndarray, np.ndarray]:
         """Plain residuals, and their Jacobian by the natural coordinates, (point, parameter)."""
 
     @abc.abstractmethod
-    def undetermined(self, problem: Any, u: Any, held: Held) -> tuple[int, str] | None:
+    def undetermined(self, problem: Problem, u: Unknowns, held: Held) -> tuple[int, str] | None:
         """The next parameter to hold because the data do not determine it, and why; `None` if there is none."""
 
     @abc.abstractmethod
@@ -74,18 +90,18 @@ class AbstractSearch(abc.ABC):
         return np.clip(coordinates, low, high)
 
 
-class Settled(NamedTuple):
+class Settled(NamedTuple, Generic[Problem, Estimate, Unknowns]):
     """End of the loop: the problem, all estimates, unknowns of the best, and what is held; `ended` is False where the
     loop was cut off."""
 
-    problem: Any
-    estimate: Any
-    u: Any
+    problem: Problem
+    estimate: Estimate
+    u: Unknowns
     held: Held
     ended: bool
 
 
-def settled(search: AbstractSearch, held: Held) -> Settled:
+def settled(search: AbstractSearch[Problem, Estimate, Unknowns], held: Held) -> Settled[Problem, Estimate, Unknowns]:
     """Fits, and holds or releases one parameter after another until nothing is left to change."""
     problem = search.problem(held.free, held.pinned)
     starts = search.starts(problem, held.free)
@@ -105,7 +121,9 @@ def settled(search: AbstractSearch, held: Held) -> Settled:
             starts[-1] = 0.0
 
 
-def _revised(search: AbstractSearch, problem: Any, u: Any, held: Held) -> Held | None:
+def _revised(
+    search: AbstractSearch[Problem, Estimate, Unknowns], problem: Problem, u: Unknowns, held: Held
+) -> Held | None:
     """Chooses the parameter to hold or release next: bounds first (an active set), then those that the data do not
     determine; `None` if nothing is left."""
     coordinates = np.asarray(problem.natural(u))

@@ -2,7 +2,7 @@
 
 import dataclasses
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import equinox as eqx
 import jax
@@ -18,7 +18,7 @@ from jaxbearing.machines import DiskState, TwoDisk
 from jaxbearing.machines.two_disk import INNER_TOLERANCE
 from jaxbearing.programs import KeptProgram
 
-from .estimation import estimate_from, linearized
+from .estimation import Estimate, estimate_from, linearized
 from .holding import AbstractSearch, Held
 from .identifiability import elastic_conditions, frozen_by_rule, not_determined
 from .loss import TUNING, scale_of, variance_factor
@@ -75,7 +75,7 @@ def _state(
 _compiled_state = KeptProgram(_state, quick=True)
 
 
-class Search(AbstractSearch):
+class Search(AbstractSearch[Problem, Estimate, Array]):
     """One fit at work: what stays the same from run to run.
 
     **Arguments:** as `fit.fit`; the scene has the viscous function that is fitted, and its oil a rheology.
@@ -229,7 +229,7 @@ class Search(AbstractSearch):
         every = coefficients(self.scene, self.batch, self.rheology, jnp.asarray(coordinates))
         return np.asarray(every)[: self.count]
 
-    def optimised(self, problem: Problem, starts: np.ndarray) -> tuple[Problem, Any, Any]:
+    def optimised(self, problem: Problem, starts: np.ndarray) -> tuple[Problem, Estimate, Array]:
         """The best of the starts; with a robust loss or errors of the slide ratio the deviations are renewed."""
         rounds = 1 if self.options.loss == "linear" and not self.options.errors.slide_to_roll else REWEIGHTINGS
         found, u = None, jnp.asarray(starts[0])
@@ -248,6 +248,7 @@ class Search(AbstractSearch):
                 deviation = self.fill(self.deviation * self.scale * self.bend)
                 problem = eqx.tree_at(lambda p: p.deviation, problem, deviation)
                 starts = np.tile(np.asarray(u), (len(starts), 1))
+        assert found is not None
         return problem, found, u
 
     def slopes(self, problem: Problem, u: Array) -> tuple[np.ndarray, np.ndarray]:

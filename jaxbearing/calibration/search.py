@@ -79,7 +79,7 @@ class Estimates(NamedTuple):
     steps: np.ndarray
 
 
-class Search(AbstractSearch):
+class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
     """One calibration at work.
 
     **Arguments:**

@@ -12,7 +12,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractSolution, label
-from ..bearings.solution import FailureCause, RingDisplacement
+from ..bearings.solution import FailureCause, RingDisplacement, Solution
 from ..life.result import Life
 from ..numerics.status import Status
 from .heat import ShaftThermalResult
@@ -56,7 +56,7 @@ class BearingOnShaft(eqx.Module):
     pressure_centre: _Number = eqx.field(
         metadata=label("m", "position where the contact normals of the unloaded bearing meet the axis of the shaft")
     )
-    solution: Any
+    solution: Solution | None
     life: Life | None
     name: str = eqx.field(static=True)
     sense: float = eqx.field(static=True)

@@ -128,10 +128,11 @@ def solve_warm_shaft(system: ShaftSystem, solve: SolveAt) -> ShaftSolution:
             there[index] = there[index]._replace(scene=lane)
         grown = growth_along(thermal, shaft, warm.position, each, position)
         solution = solve(tuple(there), mounted, grown)
-        heats = [
-            bearing_heat(lane, scene.thermal, solution.bearings[name].solution, own)
-            for lane, scene, name, own in zip(lanes, warm.scenes, warm.names, each, strict=True)
-        ]
+        heats: list[NodeHeat] = []
+        for lane, scene, name, own in zip(lanes, warm.scenes, warm.names, each, strict=True):
+            solved = solution.bearings[name].solution
+            assert solved is not None
+            heats.append(bearing_heat(lane, scene.thermal, solved, own))
         brought = [warm.from_outside(i, heat, own) for i, (heat, own) in enumerate(zip(heats, each, strict=True))]
         outside: list[Any] = [heat.to_ambient for heat in heats]
         between = jax.scipy.linalg.block_diag(*(heat.between for heat in heats)) + warm.joined
