@@ -4,11 +4,13 @@ A scene is the complete description of a problem: an object of the package, load
 Four programs compute the same solution. Which one runs depends on where `solve` is called:
 
 - `_solve_quickly`: outside of `jax.jit`. It is compiled quickly, and cached on the disk.
-- `_solve_optimised`: with `optimised=True` and in `jit_solver`. It is compiled with all optimisations, and cached.
+- `_solve_optimised`: the same with `optimised=True`, and in `jit_solver`. It is compiled with all optimisations, and
+  cached.
 - `_solve_differentiated`: outside of `jax.jit`, for numbers that are differentiated or batched. It solves first, and
   then evaluates the solution once more at the roots that were found. The roots are the unknowns of all iterations of a
   solve, so the second evaluation needs no iteration, and its derivatives are those of the implicit function theorem.
-- `_solve`: inside of `jax.jit`, as a part of the user's program.
+- `_solve`: inside of `jax.jit`, as a part of the user's program; and with `optimised=True` for numbers that are
+  differentiated or batched.
 """
 
 import dataclasses
@@ -63,7 +65,8 @@ def _solve_any(scene: AbstractScene, options: NewtonOptions) -> AbstractSolution
 
 
 def with_checked_inputs(scene: Scene, compute: Callable[[Scene], Result]) -> Result:
-    """Result of `compute` for a scene, with checks of its inputs. An invalid input ends `compute` at once with NaN."""
+    """Result of `compute` for a scene, with checks of its inputs. With an invalid input the operating point
+    is NaN, so that iterations end at their first step."""
     inputs = check_inputs(scene)
     given = gate(scene, inputs.valid)
     point = getattr(given, scene.operating_point)
@@ -148,9 +151,9 @@ def solve(
     On a CPU the program is compiled with few optimisations (quickly). This takes about a fifth of the usual time, and
     the program then runs 2 to 5 times slower, a difference of milliseconds. This is best for a single solve. For
     thousands of solves use `optimised` or `jit_solver`. First derivatives outside of `jax.jit` come from a second
-    program, which is compiled quickly too. It makes one pass for each number that is differentiated. Inside `jax.jit`,
-    in a batch and for second derivatives, JAX's own compiler options apply; `quick_compile_options` returns those of a
-    quick compilation, which `jax.jit` takes.
+    program, which is compiled quickly too. It makes one forward pass for each number that is differentiated. Inside
+    `jax.jit`, in a batch and for second derivatives, JAX's own compiler options apply; `quick_compile_options` returns
+    those of a quick compilation, which `jax.jit` takes.
 
     **Arguments:**
     - `scene`: from `load_scene`, or built from parts.
@@ -210,18 +213,18 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     def compiled(numbers: list[Any]) -> AbstractSolution:
         return _solve_any(jax.tree.unflatten(structure, numbers), chosen)
 
-    shapes, kept = [np.shape(number) for number in numbers], []
+    shapes, programs = [np.shape(number) for number in numbers], []
 
     def answer(numbers: list[Any]) -> AbstractSolution:
         """Calls the cached program. Calls the `jax.jit` function instead if a number is traced or batched, or if
         programs are not cached."""
         if any(isinstance(number, Tracer) for number in numbers) or [np.shape(one) for one in numbers] != shapes:
             return compiled(numbers)
-        if kept:
-            return kept[0](numbers)
+        if programs:
+            return programs[0](numbers)
         with compiling_quietly():
-            kept.append(_solve_optimised.ready(arguments, numbers) or compiled)
-            return kept[0](numbers)
+            programs.append(_solve_optimised.ready(arguments, numbers) or compiled)
+            return programs[0](numbers)
 
     # a changed copy shares its unchanged leaves with this scene: `is` recognises them
     own = jax.tree.unflatten(structure, given)
@@ -237,7 +240,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
         others, kind = jax.tree.flatten(changed)
         if kind == structure:
             leaves = zip(others, given, numbers, strict=True)
-            return answer([kept if new is old else as_float(new) for new, old, kept in leaves])
+            return answer([on_device if new is old else as_float(new) for new, old, on_device in leaves])
         return _solve(jax.tree.map(as_float, changed), chosen)
 
     return fast

@@ -32,8 +32,8 @@ from .supplied import supply_result
 
 
 class Results(NamedTuple, Generic[Elements, Losses]):
-    """Results of a family, as fields of the `Solution`, before `assemble` masks those of a failed solve. The range
-    checks look at `facts`."""
+    """Results of a family, as fields of the `Solution`, before `assemble` masks those of a failed solve. `costs` holds
+    the losses and torques; the range checks look at `facts`."""
 
     elements: Elements
     costs: Costs[Losses]
@@ -61,9 +61,11 @@ def assemble(
     **Arguments:**
     - `results`: those of the family.
     - `port`: force and stiffness of the ring, in all five freedoms.
-    - `iterations`: of all solves together; those of `result` where not given.
+    - `ring`: displacement of the inner ring that results show.
+    - `iterations`: total over all solves of the family; by default those of `result`.
     - `failure_causes`: of `Solution`; none applies where the solve converged.
-    - `names`: static fields of the `Solution`.
+    - `names`: further fields of the `Solution`: always `ring_freedom`, and `stiffness_freedom` and `equation_names`
+      where the family has them.
     """
     good, nan = result.converged, jnp.asarray(jnp.nan)
     held = not port.free

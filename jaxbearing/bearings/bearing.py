@@ -2,11 +2,11 @@
 freedoms) of the inner ring are unknown.
 
 Terms: a *scene* is the complete description of a problem. The *port* is the point of the inner ring at which loads and
-displacements are exchanged with a shaft (see `ring`). The *row* of a bearing is the set of its rolling elements without
-films and friction. The first stage of the search for the equilibrium of a shaft uses this simplified model. The *seats*
-are the fits of the rings on shaft and in housing (`[fits]` in a scene file). A *catalogue load* is a load by which a
-maker rates a bearing. The *load line* is the radial direction at azimuth 0. A tilt is *exact* if the grooves move with
-the rotation of the ring, and linearised if they move with its first-order displacement.
+displacements are exchanged with a shaft (see `ring`). The *row* of a bearing is the simplified model of its rolling
+elements without films and friction. The equilibrium of a shaft is first sought with it. The *seats* are the surfaces of
+shaft and housing that the rings sit on; their fits are in `[fits]` of a scene file. A *catalogue load* is a rated load
+from a manufacturer's catalogue. The *load line* is the radial direction at azimuth 0. A tilt is *exact* if the grooves
+move with the rotation of the ring, and linearised if they move with its first-order displacement.
 """
 
 import abc
@@ -61,7 +61,8 @@ class AbstractBearing(AbstractScene):
     yield_pressure: ClassVar[float] = ROLLER_PRESSURE
     """Hertz pressure beyond which elements and races yield, Pa."""
     without_effect: ClassVar[str] = "traction on the raceways"
-    """Name, for messages, of the part of the model without which the `unused_parts` of a scene have no effect."""
+    """Name, for messages, of the part of the model that the `unused_parts` of a scene need in order to have an
+    effect."""
 
     geometry: eqx.AbstractVar[Any]
     materials: eqx.AbstractVar[Any]

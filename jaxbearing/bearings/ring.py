@@ -2,7 +2,8 @@
 its port.
 
 A load is given for each unknown freedom, and a displacement for each of the others. The *port* is the point of the ring
-at which loads and displacements are exchanged with a shaft. The *reference point* is the point whose displacements the
+at which loads and displacements are exchanged with a shaft. A *family* is a kind of bearing: ball, cylindrical roller,
+tapered roller. The *reference point* is the point whose displacements the
 results show: the port if a shaft holds the ring, otherwise the point at which the family writes its equations. A `Port`
 consists of the load that holds the ring at a displacement, and of the derivatives of that load. The load is equal and
 opposite to the force of the rolling elements on the ring.
@@ -73,8 +74,8 @@ class InnerRing(eqx.Module):
       the results leave it out. `None` if there is none.
     - `held_load`: estimate of the load that the given displacements cause, N. It only scales the equations. `None` if
       it is not needed.
-    - `asks`: True if `held_load` is needed, because the given displacements cause loads whose size cannot be estimated
-      from the given loads.
+    - `needs_held_load`: True if `held_load` is needed, because the given displacements cause loads whose size cannot be
+      estimated from the given loads.
     """
 
     load: Float[Array, " freedom"]
@@ -85,7 +86,7 @@ class InnerRing(eqx.Module):
     distance: Float[Array, ""] | None = None
     closure: Float[Array, ""] | None = None
     held_load: Float[Array, ""] | None = None
-    asks: bool = eqx.field(static=True, default=False)
+    needs_held_load: bool = eqx.field(static=True, default=False)
 
     @property
     def places(self) -> np.ndarray:
@@ -134,8 +135,9 @@ class InnerRing(eqx.Module):
         """The same ring under another load, N."""
         return dataclasses.replace(self, load=load)
 
-    def asking(self, load: Float[Array, ""]) -> "InnerRing":
-        """The same ring with an estimate of the load that its given displacements cause, N."""
+    def with_held_load(self, load: Float[Array, ""]) -> "InnerRing":
+        """The same ring with this estimate of the load that its given displacements cause, N. No derivative passes
+        through it."""
         return dataclasses.replace(self, held_load=jax.lax.stop_gradient(load))
 
     def size(self) -> Float[Array, ""]:
@@ -154,7 +156,9 @@ class InnerRing(eqx.Module):
     def released(self, size: Float[Array, ""]) -> "InnerRing":
         """The ring with all five freedoms unknown, under a load of this size, N, which only scales the equations."""
         load, held = jnp.full(5, size / jnp.sqrt(5.0)), jnp.zeros(5)
-        return dataclasses.replace(self, load=load, held=held, freedoms=RING_FREEDOMS, held_load=None, asks=False)
+        return dataclasses.replace(
+            self, load=load, held=held, freedoms=RING_FREEDOMS, held_load=None, needs_held_load=False
+        )
 
     def released_unknowns(self, globals_: Float[Array, " g"]) -> Float[Array, " g5"]:
         """The global unknowns of the `released` ring for the unknowns `globals_` of this one."""
@@ -202,7 +206,7 @@ def held_ring(
     """
     lever = jnp.asarray(lever)
     held = (shift_matrix(distance) @ displacement).at[0].add(closure) * levers(lever)
-    return InnerRing(jnp.zeros(0), held, lever, (), expansion, distance, closure, asks=True)
+    return InnerRing(jnp.zeros(0), held, lever, (), expansion, distance, closure, needs_held_load=True)
 
 
 def inner_ring(scene: AbstractBearing, lever: Array, freedoms: tuple[str, ...] | None = None) -> InnerRing:
@@ -221,5 +225,5 @@ def inner_ring(scene: AbstractBearing, lever: Array, freedoms: tuple[str, ...] |
         given = operation.held_at(name)
         if given is not None:
             held = held.at[place].set(given * by_name[name])
-    asks = operation.displaced or not freedoms
-    return InnerRing(jnp.stack(load) if load else jnp.zeros(0), held, lever, freedoms, asks=asks)
+    needs = operation.displaced or not freedoms
+    return InnerRing(jnp.stack(load) if load else jnp.zeros(0), held, lever, freedoms, needs_held_load=needs)

@@ -28,8 +28,8 @@ SPEED_SMOOTHING = 5e-7
 
 
 class ContactState(NamedTuple):
-    """State of one contact: `film` m, `temperature_rise` K above the inlet, `traction` N (None: frictionless),
-    `rolling_force` N (None: no rolling resistance), with the sign of the mean speed.
+    """State of one contact: `film`, m; `temperature_rise` above the inlet, K; `traction`, N (None: frictionless);
+    `rolling_force`, N, which has the sign of the mean speed (None: no rolling resistance).
 
     `inner_residual` is that of the nested solves for temperature rise and meniscus, in units of ln(film). `supply`
     holds the factors of starvation (None: fully flooded).
@@ -44,13 +44,14 @@ class ContactState(NamedTuple):
 
     @property
     def separation(self) -> Float[Array, "*batch"]:
-        """Film thickness in the equations that place a rolling element between the rings, m. With a supply it stays a
-        little above `film`, because a starved film cannot fill the clearance of an unloaded element."""
+        """Film thickness in the equations that place a rolling element between the rings, m. With a supply it is
+        kept a little above `film`: a starved film is too thin to bridge the clearance of an unloaded element, whose
+        equation would have no root."""
         return self.film if self.supply is None else self.supply.separation
 
 
 class ContactLaws(Checked):
-    """Laws of the lubricated raceway contacts.
+    """Laws of the lubricated line contacts of rollers; `PointLaws` are those of balls.
 
     **Arguments:**
     - `film`: film thickness law.

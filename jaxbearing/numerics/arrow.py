@@ -5,7 +5,8 @@ couple only through the ring and the cage. The Jacobian
 
 $$J = \begin{pmatrix} A_1 & & & B_1 \\ & \ddots & & \vdots \\ & & A_N & B_N \\ C_1 & \cdots & C_N & D \end{pmatrix}$$
 
-has the shape of an arrow. Forward differentiation of the element function with m + g tangents gives all blocks at once.
+has the shape of an arrow. One forward pass through the element function, with m + g tangents, gives the blocks of all
+elements; the derivatives of the few global equations come from a reverse pass.
 Each element is eliminated, and the g x g Schur complement $D - \sum_j C_j A_j^{-1} B_j$ is solved, so the work is O(N).
 
 Axes of arrays: m unknowns of one element, g globals, k totals (sums of contributions over the elements), p local inputs
@@ -29,7 +30,8 @@ Seen = TypeVar("Seen")
 
 
 class ArrowPoint(NamedTuple):
-    """Unknowns or residuals. The component axis comes first, so that operations run over the elements as vectors."""
+    """Unknowns or residuals. The component axis comes first, so that every operation is vectorised over the
+    elements."""
 
     elements: Float[Array, "m element"]
     globals: Float[Array, " g"]
@@ -141,7 +143,8 @@ class AbstractArrowSystem(eqx.Module):
 
 
 class ArrowJacobian(NamedTuple):
-    """Blocks of the arrow. $A$ is `local`, $B$ `right_border`, $C$ = `chain` `contributions`, $D$ `corner`.
+    """Blocks of the arrow. $A$ is `local`, $B$ `right_border`, $C$ the product of `chain` and `contributions`, $D$
+    `corner`.
 
     - `local`: derivatives of the local residuals with respect to the element's unknowns.
     - `right_border`: derivatives of the local residuals with respect to the globals: the right border of the matrix.
@@ -175,7 +178,8 @@ def evaluate(system: AbstractArrowSystem, point: ArrowPoint) -> Equations:
 
 
 def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations, ArrowJacobian]:
-    """Equations and Jacobian blocks, by forward differentiation with m + g tangents (m + p with `local_inputs`)."""
+    """Equations and Jacobian blocks, by one forward pass through the elements with m + g tangents (m + p with
+    `local_inputs`) and a reverse pass through the global equations."""
     values, tangents, inner = system.tangents(point.elements, seen_by_elements(system, point))
     return assembled(system, point, values, tangents, inner)
 

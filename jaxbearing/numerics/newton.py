@@ -44,7 +44,8 @@ class NewtonResult(NamedTuple):
     `jacobian`, `residual_norm` (the largest scaled residual), `inner_residual`, `worst_equation` and `worst_element`
     are values at the last trial of the given system, not at a trial of an easier one. If the lane converged, `point`
     lies one Newton step (shorter than the step tolerance) beyond that trial. `worst_equation` counts the equations of
-    one element first and the global ones after them; `worst_element` has a meaning only if it is one of the first kind.
+    one element first and the global ones after them; `worst_element` has a meaning only if that is an equation of one
+    element.
     """
 
     point: ArrowPoint
@@ -154,7 +155,7 @@ def _root(system: AbstractArrowSystem, *, options: NewtonOptions) -> _Root:
     for numbers that are not finite."""
     end = _ended(system, options)
     solved = end.status == Status.CONVERGED
-    # The Newton step that the test of convergence computed is taken as well: it squares the remaining error.
+    # One more Newton step is taken from the trial that converged: it squares the remaining error.
     step = solve_arrow(end.jacobian, end.equations.residual)
     elements = jnp.where(solved, end.trial.elements - step.elements, _finite(end.trial.elements))
     globals_ = jnp.where(solved, end.trial.globals - step.globals, _finite(end.trial.globals))
@@ -223,7 +224,7 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
     Jacobian at the solution) is that of the implicit function, in both modes and to any order. The iteration itself is
     never differentiated, and a solve that is not differentiated does not pay for derivatives. Where a program has found
     the root before (module `known_roots`), it is taken with the same derivatives and not searched again; the Jacobian
-    then has a derivative only if the caller asked for that of the stiffness, and NaN otherwise.
+    then has a derivative only if the caller asked for derivatives of the stiffness, and NaN otherwise.
 
     If the system states that each equation grows with its own unknown at the root (`increasing`), Newton's step is
     changed wherever a pivot of the Jacobian is negative (`arrow.uphill_step`). If the iteration fails and the system

@@ -23,17 +23,17 @@ BACKTRACK = (1.0, 0.3, 0.05)
 Newton step are finite."""
 LAST_ATTEMPT = len(BACKTRACK) - 1
 GROWTH = 4.0
-"""Largest growth of the residual that the first try accepts. A smaller value rejects useful steps across a maximum of
-the residual. Random roller bearings with both rings turning show this: with 1.5, three times as many solves need more
-than 20 steps. The stages of a continuation start nearer to their root and require a decrease of the residual, because a
-residual that saturates never grows by this factor."""
+"""Largest ratio of the residual after a step to that before it that the first try accepts. A smaller value rejects
+useful steps across a maximum of the residual. Random roller bearings with both rings turning show this: with 1.5, three
+times as many solves need more than 20 steps. The stages of a continuation start nearer to their root and require a
+decrease: far from the root some residuals level off, never grow by this factor, and the iteration would wander."""
 LEAST_FALL = 0.1
 """A step of a continuation must achieve at least this fraction of the decrease that the linearisation predicts
 (Armijo's condition)."""
 TURNING_BACK = 0.5
-"""A step that reverses the previous one may have at most this fraction of its length. As in bisection, two opposed
-steps halve the interval between them. Without this limit, Newton's iteration would oscillate for ever at a kink (a jump
-of the slope of an equation)."""
+"""A step that turns back on the previous one may have at most this fraction of the length of that. As in bisection, two
+opposed steps halve the interval between them. Without this limit, Newton's iteration would oscillate for ever at a kink
+(a jump of the slope of an equation)."""
 ROUNDED_STEP = 1e-12
 """Scaled Newton step below which a root counts as found although round-off keeps the residual above its tolerance. The
 residual must then be within the factor `rounding` of the system, or within the round-off of the unknowns."""
@@ -102,8 +102,8 @@ class Search(NamedTuple):
 class Proposal(NamedTuple):
     """Equations at a trial, and Newton's step from there.
 
-    - `falling`: True for elements with a negative pivot, where an equation decreases as its own unknown grows.
-      `uphill_step` has changed the sign of that pivot.
+    - `falling`: True for elements with a negative pivot (as far as they are looked for, see `uphill_step`), where an
+      equation decreases as its own unknown grows. `uphill_step` has changed the sign of that pivot.
     - `turned`: True if the sign of any pivot was changed.
     """
 
@@ -230,7 +230,7 @@ def _capped(system: AbstractArrowSystem, step: ArrowPoint) -> ArrowPoint:
 def _paced(
     system: AbstractArrowSystem, step: ArrowPoint, last: ArrowPoint, falling: Bool[Array, " element"]
 ) -> ArrowPoint:
-    """Limits the step of each element, and that of the globals, by the last step taken.
+    """Adjusts the step of each element, and that of the globals, to the last step taken.
 
     A step that reverses the last one is shortened (`TURNING_BACK`). Each element has its own factor, because elements
     reach their kinks one by one. If an element with a negative pivot (`falling`) keeps its direction, its step is made

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, overload
 
 from pydantic import BaseModel
 
@@ -27,6 +27,14 @@ from .shaft.members import at, each_bearing, put
 from .table import Table
 from .toml_files import parse_toml, read_text
 from .words import describe, shortened
+
+if TYPE_CHECKING:
+    from ..bearings.ball.scene import BallBearing
+    from ..bearings.cylindrical.scene import CylindricalRollerBearing
+    from ..bearings.tapered.scene import TaperedRollerBearing
+    from ..ehl import EHLLineContact
+    from ..machines import TwoDisk
+    from ..shafts import ShaftSystem
 
 __all__ = ["builtin_names", "builtin_summary", "builtin_text", "load_scene", "scene_from_tables"]
 
@@ -63,6 +71,23 @@ KINDS = tuple(_KINDS)
 SHAFT = "shaft"
 """Kind of the scenes whose parts include the scenes of bearings."""
 
+# Names of the built-in scenes of each kind, so that an editor knows the class of what `load_scene` returns.
+BallName: TypeAlias = Literal[
+    "angular_contact_218",
+    "deep_groove_6205",
+    "deep_groove_6205_fitted",
+    "deep_groove_6205_mounted",
+    "four_point_qj",
+    "turbine_ball",
+    "turbine_ball_dynamic",
+    "turbine_ball_mounted",
+]
+CylindricalName: TypeAlias = Literal["planet_roller", "reference_roller", "turbine_roller", "turbine_roller_dynamic"]
+TaperedName: TypeAlias = Literal["tapered_example"]
+TwoDiskName: TypeAlias = Literal["two_disk_etm", "two_disk_mobil_jet_ii", "two_disk_pennzane"]
+LineContactName: TypeAlias = Literal["satellite_contact_1", "satellite_contact_2"]
+ShaftName: TypeAlias = Literal["gear_shaft", "satellite_pair", "spindle_pair"]
+
 
 def _module(kind: _Kind, name: str) -> ModuleType:
     return importlib.import_module(f".{kind.folder}.{name}", __package__)
@@ -95,6 +120,20 @@ def plain_scene(scene: AbstractScene) -> AbstractScene:
     return _module(_KINDS[SHAFT], "writer").plain_scene(scene) if scene.kind == SHAFT else scene
 
 
+@overload
+def load_scene(source: BallName, overrides: Overrides | None = None) -> "BallBearing": ...
+@overload
+def load_scene(source: CylindricalName, overrides: Overrides | None = None) -> "CylindricalRollerBearing": ...
+@overload
+def load_scene(source: TaperedName, overrides: Overrides | None = None) -> "TaperedRollerBearing": ...
+@overload
+def load_scene(source: TwoDiskName, overrides: Overrides | None = None) -> "TwoDisk": ...
+@overload
+def load_scene(source: LineContactName, overrides: Overrides | None = None) -> "EHLLineContact": ...
+@overload
+def load_scene(source: ShaftName, overrides: Overrides | None = None) -> "ShaftSystem": ...
+@overload
+def load_scene(source: str | Path, overrides: Overrides | None = None) -> AbstractScene: ...
 def load_scene(source: str | Path, overrides: Overrides | None = None) -> AbstractScene:
     """A scene from a file or by the name of a built-in scene.
 

@@ -2,6 +2,7 @@
 
 import dataclasses
 import tomllib
+import typing
 
 import jax
 import jax.numpy as jnp
@@ -52,6 +53,17 @@ def test_builtin_scenes_load(name, tmp_path):
     copy.write_text(builtin_text(name), encoding="utf-8")
     load_scene(copy)
     load_scene(str(copy))
+
+
+def test_editors_know_the_class_of_each_builtin_scene():
+    """The overloads of `load_scene` name every built-in scene, each with the class that it has."""
+    named = {}
+    for way in typing.get_overloads(load_scene)[:-1]:
+        hints = way.__annotations__
+        named |= dict.fromkeys(typing.get_args(hints["source"]), hints["return"])
+    assert sorted(named) == sorted(builtin_names())
+    for name, kind in named.items():
+        assert type(load_scene(name)).__name__ == kind
 
 
 def test_turbine_roller():

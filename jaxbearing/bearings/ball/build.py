@@ -118,7 +118,9 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
         grooves=grooves,
         directions=row.directions,
         azimuth=row.azimuth,
-        ring=row.ring.asking(_held_load(grooves, row, form, bent.outer)) if row.ring.asks else row.ring,
+        ring=row.ring.with_held_load(_held_load(grooves, row, form, bent.outer))
+        if row.ring.needs_held_load
+        else row.ring,
         held_shift=row.held_shift,
         ring_motion=ring_motion(row.ring, row.azimuth) if tilts else None,
         out_of_round=form,

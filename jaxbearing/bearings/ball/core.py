@@ -329,7 +329,7 @@ class BallCore(AbstractBallSystem):
         return state.balance / self.ball_scale(), totals, state
 
     def global_residual(self, globals_, totals):
-        rows = self.ring_balance(globals_, totals, self.ring.asks) / self.load_scale()
+        rows = self.ring_balance(globals_, totals, self.ring.needs_held_load) / self.load_scale()
         if self.common_orbit:
             rows = jnp.append(rows, orbit_row(totals[self.ring_unknowns :], self.orbit_unit))
         return rows, jnp.zeros(())

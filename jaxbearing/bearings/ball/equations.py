@@ -208,7 +208,7 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
 
     def global_residual(self, globals_, totals):
         d = self.ring_unknowns
-        ring = self.ring_balance(globals_, totals, self.ring.asks) / self.load_scale()
+        ring = self.ring_balance(globals_, totals, self.ring.needs_held_load) / self.load_scale()
         if self.common_orbit:
             return jnp.append(ring, orbit_row(totals[d:], self.orbit_unit)), jnp.zeros(())
         if self.cage is None:

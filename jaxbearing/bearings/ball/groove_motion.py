@@ -1,24 +1,24 @@
 r"""Exact motion of the inner grooves of a ball bearing: from ball centres to the displaced and tilted inner ring.
 
-Frames. $e_x$ along the bearing axis, Y along azimuth 0, Z along azimuth 90 degrees. The centre of the circle of inner
-groove centres, of radius $R_i$, moves by $d = \delta_ae_x + \delta_rY + \delta_lZ$; the ring turns by the rotation
-vector $\theta_2Y - \theta_1Z$ of length t, and its axis becomes
+Frames. $e_x$ along the bearing axis, Y along azimuth 0, Z along azimuth 90 degrees; positions count from the centre of
+the ring without displacement. The ring has a circle of groove centres of radius $R_i$ around its axis, at a distance s
+along that from its centre: 0 if it has one groove arc. The centre moves by $d = \delta_ae_x + \delta_rY + \delta_lZ$;
+the ring turns by the rotation vector $\theta_2Y - \theta_1Z$ of length t, and its axis becomes
 $n' = \cos t\,e_x - \frac{\sin t}{t}(\theta_1Y + \theta_2Z)$. A ball at azimuth $\psi$ has its centre at B. With
-$p = B - d$, $h = p\cdot n'$, $u = p - hn'$ and $\rho = |u|$ the nearest point of the circle is
-$G = d + R_iu/\rho$, and the arm from the ball to it is $G - B = -hn' + (R_i - \rho)u/\rho$.
+$p = B - d$, $h = p\cdot n'$, $u = p - hn'$, $\rho = |u|$ and $k = R_i/\rho$, the nearest point of the circle is
+$G = d + sn' + ku$, and the arm from the ball to it is $G - B = (s - kh)n' + (k - 1)p$.
 
 The first-order form, in which the groove centre moves by $R_i\tau$ along the axis, $\tau = \theta_1\cos\psi +
-\theta_2\sin\psi$, leaves out the motion $R_i(1 - \cos t)\cos^2\psi$ towards the axis: 0.4 um at 6.5 mrad and
-$R_i$ = 19 mm, which is of the order of the deformation. Where the ring cannot tilt (neither a moment nor a misalignment
-in the scene) the first-order form is used: what it leaves out is then $d_t^2/(2R_i)$ with the displacement $d_t$ of the
-ring along the orbit, 1 nm in the bearing of table 15 at 20 kN axial and 8 kN radial load, 6e-5 of a ball's load.
+\theta_2\sin\psi$, leaves out the motion $R_i(1 - \cos t)\cos^2\psi$ towards the axis (of a tilt $\theta_1$): 0.4 um at
+6.5 mrad and $R_i$ = 19 mm, which is of the order of the deformation. The first-order form is used where the scene has
+neither a moment nor a misalignment, in ratings, in runs in time and in the first stage of a solve of a shaft. Without a
+tilt it leaves out $d_t^2/(2R_i)$ with the displacement $d_t$ of the ring along the orbit: 1 nm in the bearing
+`turbine_ball` at 20 kN axial and 8 kN radial load, 6e-5 of a ball's load.
 
-Forces on the ring. With $k = R_i/\rho$, $c = k(F\cdot n' - Wh)$ and $W = [F\cdot p - h\,F\cdot n']/\rho^2$, where p
-counts from the displaced centre, a force F on the nearest point of the circle does the work
-$F\cdot\delta(G - B) = P_d\cdot\delta d + P_n\cdot\delta n'$ with
-$P_d = cn' + kWp - (k - 1)F$ and $P_n = (s - kh)F - cp$: the derivative of the arm
-$G - B = (s - kh)n' + (k - 1)p$ of a circle at the distance s along $n'$. It is written out here, because one forward
-pass through these formulas has 0.6 of the operations of one through a reverse pass.
+Forces on the ring. With $W = [F\cdot p - h\,F\cdot n']/\rho^2$ and $c = k(F\cdot n' - Wh)$, a force F on the nearest
+point of the circle does the work $F\cdot\delta(G - B) = P_d\cdot\delta d + P_n\cdot\delta n'$ with
+$P_d = cn' + kWp - (k - 1)F$ and $P_n = (s - kh)F - cp$: the derivatives of the arm. They are written out, because
+forward differentiation of these formulas takes 0.6 of the operations of forward differentiation through a reverse pass.
 """
 
 from collections.abc import Sequence
@@ -34,10 +34,11 @@ from ..ring import LENGTH_UNIT, InnerRing
 from .arcs import added
 
 TILT_FLOOR = 1e-9
-"""Added to the tilt in squares, rad: its direction then has a slope at 0, and sine and cosine are exact to 1e-17."""
+"""The square of this is added to that of the tilt, rad, so that sin(t)/t has derivatives at t = 0. Sine and cosine
+change by 1e-17."""
 
 _OUTWARD = np.asarray([[0.0], [1.0], [0.0]])
-# parts of `half_planes`: of a component along the axis; of pairs of components across it that are turned by an azimuth
+# parts of `half_planes`: of the component that stays; of the pairs that an azimuth turns, with its cosine and its sine
 _AXIAL = np.diag([1.0, 0.0, 0.0, 0.0, 0.0])
 _IN_PLANE = np.diag([0.0, 1.0, 1.0, 1.0, 1.0])
 _ACROSS = np.zeros((5, 5))
@@ -61,7 +62,7 @@ def half_planes(azimuth: Float[Array, " ball"]) -> Float[Array, "5 5 ball"]:
 class RingFrame(NamedTuple):
     """The displaced inner ring, seen from every ball: components along the bearing axis, outward and along the orbit.
 
-    - `shift`: of the centre of the circle of groove centres, m; `axis`: direction n' of the tilted axis.
+    - `shift`: displacement d of the centre of the ring, m; `axis`: direction n' of the tilted axis.
     - `tilt`: in the half-plane of the ball and across it, rad; `square`: of its length t; `mean`: sin(t)/t.
     """
 
@@ -75,8 +76,8 @@ class RingFrame(NamedTuple):
     def turned(self) -> Float[Array, " ball"]:
         """Angle by which the inner groove turns in the half-plane of each ball, rad.
 
-        The contact angle on the tilted race is that in the fixed frame minus this one; where the ring is displaced by
-        $d_t$ along the orbit, within $t\\,d_t/R_i$, below 1e-5 rad.
+        The contact angle on the tilted race is that in the fixed frame minus this angle. If the ring is displaced by
+        $d_t$ along the orbit, the error is at most $t\\,d_t/R_i$, below 1e-5 rad.
         """
         return jnp.arctan2(-self.axis[1], self.axis[0])
 
@@ -86,7 +87,8 @@ class RingFrame(NamedTuple):
         return (moment / square)[None] * jnp.stack([self.axis[1], -self.axis[0], jnp.zeros_like(moment)])
 
     def on_tilt(self, on_axis: Float[Array, "3 ball"]) -> Float[Array, "2 ball"]:
-        r"""Moments on the tilts, N m, from $P_n$: $n'$ is $\cos t$ and $-\tau\sin(t)/t$ with the tilts $\tau$."""
+        r"""Moments on the tilts, N m, from $P_n$: $n'$ is $\cos t$ along the axis and
+        $-\frac{\sin t}{t}(\tau_1, \tau_2)$ across it, with the tilts in the half-plane and across it."""
         along, across = on_axis[0], on_axis[1:]
         bend = (self.axis[0] - self.mean) / self.square
         both = self.mean * along + bend * jnp.sum(across * self.tilt, axis=0)
@@ -138,11 +140,10 @@ def inner_arm(frame: RingFrame, centre: Float[Array, "2 ball"], lever: Values, s
     r"""The arms from ball centres to the nearest inner groove centres of a displaced and tilted ring; exact.
 
     **Arguments:**
-    - `centre`: of the balls along the axis, from the plane in which the ring's axial displacement counts, and distance
-      from the axis less $R_i$, m: small numbers, and nothing here subtracts large ones.
+    - `centre`: of the balls along the axis, from the middle plane of the ring without displacement, and distance from
+      the axis less $R_i$, m. Both are small, so that no digits are lost.
     - `lever`: $R_i$, m.
-    - `side`: distance of the circle along $n'$ from the centre that moves by `frame.shift`, m: of the arcs of a ring
-      that has two.
+    - `side`: s, distance of the circle from the centre of the ring along its axis, m.
     """
     # p less R_i outward is small; R_i^2 - rho^2 = h^2 - (p^2 - R_i^2)
     near = jnp.concatenate([centre, jnp.zeros_like(centre[:1])]) - frame.shift

@@ -37,7 +37,7 @@ class Grooves(NamedTuple):
     lever: Float[Array, ""]
     """Radius of the circle of inner groove centres, R_i."""
     groove_arm: Float[Array, ""]
-    """f_i D: of the friction at the inner race about that circle."""
+    """f_i D, radius of the inner groove: arm of the friction at the inner race about the circle of groove centres."""
 
     expansion: Float[Array, ""] | None = None
     """See `InnerRing.expansion`."""
@@ -67,16 +67,16 @@ class Grooves(NamedTuple):
 
     @property
     def turning(self) -> Array | None:
-        """e_i/R_i; `None` if the inner ring has one arc."""
+        """Distance of the inner arcs from the middle plane over R_i; `None` if the inner ring has one arc."""
         return None if self.arcs.inner is None else self.arcs.inner / self.lever
 
 
 class InnerArm(NamedTuple):
     """Vectors from the ball centres to the nearest inner groove centres, m.
 
-    Components in the half-plane of the ball (axial, outward) and, where the ring may tilt, along the orbit; and the
-    distance. `turned` is the rotation of the groove by the tilt (`RingFrame.turned`), and `None` where the ring cannot
-    tilt."""
+    Components in the half-plane of the ball (axial, outward) and, in an `exact` system, along the orbit; and the
+    distance. `turned` is the rotation of the groove by the tilt (`RingFrame.turned`), `None` if the grooves move to
+    first order."""
 
     vector: Float[Array, "component ball"]
     length: Float[Array, " ball"]
@@ -88,7 +88,7 @@ class InnerArm(NamedTuple):
 
     @property
     def along(self) -> Float[Array, " ball"] | None:
-        """Component along the orbit, m; `None` where the ring cannot tilt."""
+        """Component along the orbit, m; `None` if the grooves move to first order."""
         return None if self.turned is None else self.vector[2]
 
     @property
@@ -100,9 +100,9 @@ class InnerArm(NamedTuple):
 OnRing: TypeAlias = Callable[
     [tuple[Float[Array, "component ball"], ...], Float[Array, " ball"] | None], Float[Array, "freedom ball"]
 ]
-"""Contributions of every ball to the forces on the ring's freedoms, N (moments in units of R_i), from its forces on the
-arcs of the ring, axial, outward and, of an `exact` system, along the orbit, N, and its moment in the half-plane, N m
-(`None`: no friction)."""
+"""Contributions of every ball to the forces that hold the ring's freedoms, N (moments are divided by R_i). They follow
+from the forces of the ring on the ball at each of its arcs, axial, outward and, in an `exact` system, along the orbit,
+N, and from the moment of friction in the half-plane, N m (`None`: no friction)."""
 
 
 class Touch(NamedTuple):
@@ -111,7 +111,7 @@ class Touch(NamedTuple):
     - `apart`: distances of the groove centres from the ball centre, m; `normals`: unit vectors along them, from the
       ball to the inner ring and from the outer ring to the ball: axial, outward and, of an inner arm of an `exact`
       system, along the orbit.
-    - `direction`: of the normal forces on the ball, from the radius towards the axis, in the fixed frame, rad; `angle`:
+    - `direction`: angle of each normal from the outward radius towards $+e_x$, in the fixed frame, rad; `angle`:
       contact angles, on the inner race against the tilted ring.
     - `on_ring`: of `AbstractBallSystem.reach`.
     """
@@ -126,7 +126,7 @@ class Touch(NamedTuple):
 class Push(NamedTuple):
     """Forces of the contacts, N.
 
-    - `held`: axial and outward, on the outer ring less those on the inner one.
+    - `held`: of the ball on the outer ring less those of the inner ring on the ball, axial and outward.
     - `on_ring`: contributions to the forces on the rings: on the freedoms of the inner one, and the radial forces on
       rings that bend (`AbstractBetweenRings`).
     """
@@ -219,8 +219,8 @@ class AbstractBallSystem(AbstractBetweenRings):
         contribute to those on the ring's freedoms.
 
         The contributions are conjugate to the displacements: force times the motion of the nearest groove centre,
-        moment times the turning of the groove. To second order the moment is
-        $R_i(p_x\cos t\cos\psi - p_r\sin t\cos^2\psi)$.
+        friction moment times the turning of the groove. To second order, a force $(F_x, F_r)$ on the groove centre
+        gives the moment $R_i(F_x\cos t\cos\psi - F_r\sin t\cos^2\psi)$ on a tilt t about azimuth 0.
         """
         if self.ring_motion is None:
             arms = [groove - centre for groove in self.arcs.inner_centres(self.groove_centres(shift))]
@@ -323,7 +323,7 @@ class AbstractBallSystem(AbstractBetweenRings):
         for direction, name in zip(self.directions, self.freedoms, strict=True):
             row = jnp.sum(force * direction, axis=0)
             if name in TILTS and moment is not None:
-                # the tilt turns the axial direction of the groove's centre
+                # a tilt also turns the groove, by its axial displacement over R_i
                 row = row + moment * direction[0] / self.grooves.lever
             rows.append(self.multiplicity * row)
         return jnp.stack(rows)

@@ -62,7 +62,7 @@ class AbstractInPlane(AbstractBetweenRings):
     def ring_rows(self, globals_: Float[Array, " g"], totals: Float[Array, " k"]) -> Float[Array, " row"]:
         """Balances of both rings over `load_scale`."""
         balance = totals[: self.directions.shape[0]] - self.ring.load
-        return self.with_bending(balance, globals_, totals, self.ring.asks) / self.load_scale()
+        return self.with_bending(balance, globals_, totals, self.ring.needs_held_load) / self.load_scale()
 
     def begun(self, ring: Float[Array, " freedom"]) -> Float[Array, " row"]:
         """First guess of the unknowns of both rings, from that of the inner ring on a rigid one."""

@@ -59,7 +59,7 @@ def build_system(
     )
     clearance, held = jnp.asarray(geometry.diametral_clearance) / 2.0, None
     form, bent = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth), bending_rings(scene, azimuth)
-    if ring.asks:
+    if ring.needs_held_load:
         held = jnp.einsum("f,fn->n", ring.held[1:3], cosines)
         if ring.expansion is not None:
             held = held + ring.expansion
@@ -67,7 +67,7 @@ def build_system(
         pressed = held - clearance if form is None else held + form - clearance
         asked = pressed_load(stiffness, contact.length, pressed, jnp.zeros(()))
         asked = jnp.sum(asked) + LEAST_LOAD
-        ring = ring.asking(asked if bent.outer is None else asked + bent.outer.given_load())
+        ring = ring.with_held_load(asked if bent.outer is None else asked + bent.outer.given_load())
     common = {
         "kinematics": motion,
         "contact": contact,
@@ -183,7 +183,7 @@ def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions, ring: 
         failure_causes=causes,
         iterations=steps,
         ring_freedom=scene.shown_freedoms if ring is None else IN_PLANE,
-        stiffness_freedom=IN_PLANE if system.ring.asks else None,
+        stiffness_freedom=IN_PLANE if system.ring.needs_held_load else None,
         equation_names=system.equation_names() or NOTHING_UNKNOWN,
     )
 
@@ -196,7 +196,7 @@ def _port(
     Of the unknown freedoms; where a displacement is given, of all that the model has.
     """
     jacobian, shown = result.jacobian, system
-    if system.ring.asks:
+    if system.ring.needs_held_load:
         shown = system.in_plane()
         moved = system.ring.moved(result.point.globals[: len(system.freedoms)])[shown.ring.places] / LENGTH_UNIT
         others = result.point.globals[len(system.freedoms) :]

@@ -93,7 +93,7 @@ class TiltingRollers(AbstractRowSystem):
         at least where the outer race bears their centrifugal forces."""
         if self.guess is not None:
             return self.guess
-        if self.ring.asks:
+        if self.ring.needs_held_load:
             # where it is held, what else moves at 0
             return ArrowPoint(self._between(self.held[0]), jnp.zeros(self.ring_unknowns))
         load = self.load_scale() + self.centrifugal

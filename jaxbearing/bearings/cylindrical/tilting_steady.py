@@ -65,13 +65,13 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
         outer=bent.outer,
         inner=bent.inner,
     )
-    if not ring.asks:
+    if not ring.needs_held_load:
         return system
     pressed = system.held[0] - system.radial_clearance
     load = jnp.sum(pressed_load(stiffness, length, pressed, system.held[1]))
     if system.outer is not None:
         load = load + system.outer.given_load()
-    return dataclasses.replace(system, ring=ring.asking(load))
+    return dataclasses.replace(system, ring=ring.with_held_load(load))
 
 
 def _columns(azimuth: Float[Array, " roller"], lever: Array) -> Float[Array, "5 2 roller"]:

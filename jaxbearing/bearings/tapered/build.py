@@ -126,9 +126,9 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
         seated=None,
         multiplicity=geometry.n_rollers // azimuth.size,
     )
-    if not ring.asks:
+    if not ring.needs_held_load:
         return system
-    return dataclasses.replace(system, ring=ring.asking(_held_load(system, stiffness)))
+    return dataclasses.replace(system, ring=ring.with_held_load(_held_load(system, stiffness)))
 
 
 def _bending_rings(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"]) -> BentRings:
