@@ -108,7 +108,7 @@ def _roller_system(scene):
 
 
 def _ball_system(scene):
-    return build_core(scene), ("directions", "azimuth", "held_shift")
+    return build_core(scene), ("directions", "azimuth", "held_shift", "ring_motion")
 
 
 def _tapered_system(scene):
@@ -132,7 +132,8 @@ def test_rotation_by_one_pitch(name):
     def loads(one, shift):
         system, fields = ROTATED[name](structure.scene.replace(one))
         where = lambda s: [getattr(s, field) for field in fields]
-        system = eqx.tree_at(where, system, [jnp.roll(values, shift, axis=-1) for values in where(system)])
+        moved_on = jax.tree.map(lambda values: jnp.roll(values, shift, axis=-1), where(system))
+        system = eqx.tree_at(where, system, moved_on)
         if hasattr(system, "started"):
             hopeless = () if "ball" in name else (jnp.asarray(False),)
             system = system.started(*hopeless)[0]
