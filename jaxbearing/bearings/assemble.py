@@ -12,7 +12,7 @@ from .bearing import AbstractBearing
 from .checks import input_excess, result_excess
 from .facts import Facts
 from .frequencies import textbook_frequencies
-from .interactions import Costs
+from .interactions import FrictionTotals
 from .ring import Port
 from .ring_deflection import InnerRingDeflection, RingDeflection
 from .solution import (
@@ -32,11 +32,11 @@ from .supplied import supply_result
 
 
 class Results(NamedTuple, Generic[Elements, Losses]):
-    """Results of a family, as fields of the `Solution`, before `assemble` masks those of a failed solve. `costs` holds
+    """Results of a family, as fields of the `Solution`, before `assemble` masks those of a failed solve. `totals` holds
     the losses and torques; the range checks look at `facts`."""
 
     elements: Elements
-    costs: Costs[Losses]
+    totals: FrictionTotals[Losses]
     facts: Facts
     cage: CageState | None = None
     raceway_power: RacewayPower | None = None
@@ -72,10 +72,10 @@ def assemble(
     modelled = names.get("stiffness_freedom") or names["ring_freedom"]
     names["held_freedom"] = tuple(name for name in RING_FREEDOMS if name in modelled and name not in port.free)
     own = results._asdict()
-    facts, costs = own.pop("facts"), own.pop("costs")
+    facts, totals = own.pop("facts"), own.pop("totals")
     own["supply"] = supply_result(scene, facts.contacts[0].load, facts.contacts[0].starved)
-    shown = own | costs._asdict() | {"ring": ring, "force": port.force, "stiffness": port.stiffness}
-    by_race = costs.rolling_by_race
+    shown = own | totals._asdict() | {"ring": ring, "force": port.force, "stiffness": port.stiffness}
+    by_race = totals.rolling_by_race
     if by_race is not None:
         shown["rolling_by_race"] = RollingByRace(by_race[0], by_race[1], rolling_words(scene.contact))
     shown["textbook_frequencies"] = textbook_frequencies(scene)
@@ -86,7 +86,7 @@ def assemble(
     notes = scene.assumptions()
     if scene.unused_parts():
         unused = ", ".join(scene.unused_parts())
-        notes = (*notes, f"without {scene.without_effect} these tables have no effect: {unused}")
+        notes = (*notes, f"without {scene.required_part} these tables have no effect: {unused}")
     return Solution(
         status=result.status,
         iterations=result.iterations if iterations is None else iterations,

@@ -60,9 +60,8 @@ class AbstractBearing(AbstractScene):
     """Name of a rolling element."""
     yield_pressure: ClassVar[float] = ROLLER_PRESSURE
     """Hertz pressure beyond which elements and races yield, Pa."""
-    without_effect: ClassVar[str] = "traction on the raceways"
-    """Name, for messages, of the part of the model that the `unused_parts` of a scene need in order to have an
-    effect."""
+    required_part: ClassVar[str] = "traction on the raceways"
+    """Name, for messages, of the part of the model without which the `unused_parts` of a scene have no effect."""
 
     geometry: eqx.AbstractVar[Any]
     materials: eqx.AbstractVar[Any]
@@ -197,7 +196,7 @@ class AbstractBearing(AbstractScene):
         return getattr(self.geometry, f"n_{self.element}s")
 
     @property
-    def mean_diameter(self) -> Values:
+    def element_diameter(self) -> Values:
         """Diameter of a rolling element, at its middle, m; not the pitch diameter of the bearing."""
         return getattr(self.geometry, f"{self.element}_diameter")
 
@@ -208,8 +207,8 @@ class AbstractBearing(AbstractScene):
         return jnp.asarray(0.0 if given is None else given)
 
     @property
-    def leaning_angle(self) -> Array:
-        """Nominal contact angle on the side to which the unloaded bearing leans, rad; 0 if it leans to none."""
+    def one_way_angle(self) -> Array:
+        """Nominal contact angle of a bearing that carries axial load in one direction only, rad; 0 of others."""
         return self.drawing_angle
 
     def point_contacts(self, elements: Any) -> PointContact | None:

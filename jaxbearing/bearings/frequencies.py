@@ -84,9 +84,9 @@ def textbook_frequencies(scene: AbstractBearing) -> KinematicFrequencies:
     operation = scene.operation
     inner, outer = jnp.asarray(operation.inner_speed), jnp.asarray(operation.outer_speed)
     pitch = jnp.asarray(scene.geometry.pitch_diameter)
-    ratio = scene.mean_diameter * jnp.cos(scene.drawing_angle) / pitch
+    ratio = scene.element_diameter * jnp.cos(scene.drawing_angle) / pitch
     turning = 0.5 * (inner * (1.0 - ratio) + outer * (1.0 + ratio))
-    spin = 0.5 * (inner - outer) * (1.0 - jnp.square(ratio)) * pitch / scene.mean_diameter
+    spin = 0.5 * (inner - outer) * (1.0 - jnp.square(ratio)) * pitch / scene.element_diameter
     return _frequencies((inner, outer), scene.n_elements, turning, spin)
 
 

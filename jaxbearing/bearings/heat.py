@@ -178,7 +178,7 @@ def _contacts(scene: Any, elements: Any) -> ContactHeat:
     angle = both("contact_angle") if hasattr(elements, "contact_angle_inner") else jnp.zeros((2, 1))
     tilt = getattr(elements, "attitude_angle", None)
     rolling = 1.0 if tilt is None else jnp.cos(angle - tilt[None])
-    diameter = scene.mean_diameter
+    diameter = scene.element_diameter
     radius = 0.5 * (scene.geometry.pitch_diameter + jnp.asarray([[-1.0], [1.0]]) * diameter * jnp.cos(angle))
     ring_speed = jnp.stack([jnp.asarray(operation.inner_speed), jnp.asarray(operation.outer_speed)])[:, None]
     speeds = (
@@ -211,7 +211,7 @@ def _between(
     """Conductances between the nodes, W/K."""
     geometry, given = scene.geometry, thermal.conductance
     through = jnp.sum(contacts.conductance, axis=1) + oil_filling_conductance(
-        _elements_of(scene).conductivity, scene.mean_diameter, scene.n_elements
+        _elements_of(scene).conductivity, scene.element_diameter, scene.n_elements
     )
     inner, outer = scene.raceway_diameters
     transfer, fit = _oil_transfer(scene, solution, temperatures["oil"]), solution.fit
@@ -241,7 +241,7 @@ def _between(
 
 def _surface(scene: AbstractBearing) -> Array:
     length = None if not scene.line_contacts else scene.geometry.roller_length
-    return elements_surface(scene.mean_diameter, scene.n_elements, length)
+    return elements_surface(scene.element_diameter, scene.n_elements, length)
 
 
 def _oil_transfer(scene: AbstractBearing, solution: Solution, temperature: Array) -> Callable[[], Array]:
@@ -312,9 +312,9 @@ def _own_capacities(scene: AbstractBearing) -> dict[str, Scalar]:
         return {}
     inner, outer = scene.raceway_diameters
     of_ring = (geometry.width, rings.density, rings.heat_capacity)
-    one = math.pi / 6.0 * jnp.power(scene.mean_diameter, 3.0)
+    one = math.pi / 6.0 * jnp.power(scene.element_diameter, 3.0)
     if scene.line_contacts:
-        one = 0.25 * math.pi * jnp.square(scene.mean_diameter) * geometry.roller_length
+        one = 0.25 * math.pi * jnp.square(scene.element_diameter) * geometry.roller_length
     volume = scene.n_elements * one
     found = {
         "inner_ring": ring_capacity(geometry.bore, inner, *of_ring),

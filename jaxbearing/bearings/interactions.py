@@ -6,10 +6,12 @@ dissipations. This equality is not assumed anywhere, so it tests every sign in a
 """
 
 from collections.abc import Callable, Sequence
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import Generic, NamedTuple, Protocol, TypeVar
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
+
+from .._types import Values
 
 Losses = TypeVar("Losses")
 
@@ -32,7 +34,7 @@ class Interaction(NamedTuple):
     by_race: Float[Array, "2"] | None = None
 
 
-class Costs(NamedTuple, Generic[Losses]):
+class FrictionTotals(NamedTuple, Generic[Losses]):
     """Sums over all interactions: losses and drive power, W, and torques on the rings, N m. Power and torques are
     `None` if no loss is modelled. `rolling_by_race`: power of the rolling resistance at the inner and the outer
     raceway, W. It is the `by_race` of the first interaction that has one."""
@@ -44,15 +46,26 @@ class Costs(NamedTuple, Generic[Losses]):
     rolling_by_race: Float[Array, "2"] | None = None
 
 
-def costs(losses: Callable[..., Losses], interactions: Sequence[Interaction], motion: Any) -> Costs[Losses]:
+class TurningRings(Protocol):
+    """Anything that knows the speeds of both rings, rad/s."""
+
+    @property
+    def inner_speed(self) -> Values: ...
+
+    @property
+    def outer_speed(self) -> Values: ...
+
+
+def friction_totals(
+    losses: Callable[..., Losses], interactions: Sequence[Interaction], motion: TurningRings
+) -> FrictionTotals[Losses]:
     """Losses, drive power and ring torques of a bearing.
 
     **Arguments:** `losses`: the class that holds the losses of the family, with one field for each location and one for
-    the `total`; `interactions`: all places of friction; `motion`: object with the speeds of the rings, `inner_speed`
-    and `outer_speed`, rad/s.
+    the `total`; `interactions`: all places of friction; `motion`: speeds of the rings.
     """
     if not interactions:
-        return Costs(losses())
+        return FrictionTotals(losses())
     powers: dict[str, Array] = {}
     for one in interactions:
         if one.power is not None:
@@ -63,7 +76,7 @@ def costs(losses: Callable[..., Losses], interactions: Sequence[Interaction], mo
     )
     drive = motion.inner_speed * inner + motion.outer_speed * outer
     rolling = next((one.by_race for one in interactions if one.by_race is not None), None)
-    return Costs(losses(total=_sum(list(powers.values())), **powers), drive, inner, outer, rolling)
+    return FrictionTotals(losses(total=_sum(list(powers.values())), **powers), drive, inner, outer, rolling)
 
 
 def _sum(values: Sequence[Array]) -> Float[Array, ""]:

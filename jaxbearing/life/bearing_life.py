@@ -86,11 +86,11 @@ def with_life(scene: Any, solution: Any) -> Any:
         checks[STEEP_WARNING] = scene.drawing_angle > LARGEST_ANGLE * (1.0 + 1e-12)
     if scene.rated_to_first_order:
         checks[NO_LINEAR_LOADS] = solution.converged & ~jnp.isfinite(life.damage_rate)
-    notes = (*solution.notes, *without_effect(scene, life))
+    notes = (*solution.notes, *ineffective_inputs(scene, life))
     return dataclasses.replace(solution, life=life, checks=checks, notes=notes)
 
 
-def without_effect(scene: Any, life: Life) -> list[str]:
+def ineffective_inputs(scene: Any, life: Life) -> list[str]:
     """Notes on fields of the rating without effect: they need what the scene lacks, or belong to another kind."""
     rating: Rating = scene.rating
     if not scene.line_contacts:

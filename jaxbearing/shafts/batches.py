@@ -208,7 +208,7 @@ def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ..
 def pressure_centre(scene: AbstractBearing) -> Float[Array, ""]:
     r"""Where the contact normals of the unloaded bearing meet the axis, from the port along $e_x$, m: $-\frac{d_m}2
     \tan\alpha$, with the angle of the drawing, which of tapered bearings is that of the cup."""
-    return -0.5 * jnp.asarray(scene.geometry.pitch_diameter) * jnp.tan(scene.leaning_angle)
+    return -0.5 * jnp.asarray(scene.geometry.pitch_diameter) * jnp.tan(scene.one_way_angle)
 
 
 def largest_load(solution: Solution) -> Float[Array, ""]:

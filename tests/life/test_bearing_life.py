@@ -15,7 +15,7 @@ from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMateri
 from jaxbearing.bearings.profile import RollerProfile
 from jaxbearing.bearings.rating import Rating
 from jaxbearing.contacts import CrownedProfile
-from jaxbearing.life.bearing_life import rated_by, without_effect
+from jaxbearing.life.bearing_life import ineffective_inputs, rated_by
 from jaxbearing.life.reference import roller_damage_rate
 from jaxbearing.life.result import Life
 from jaxbearing.materials import CATALOGUE, reduced_modulus
@@ -113,7 +113,7 @@ def test_settings_of_other_kinds_of_bearings_are_said_to_have_no_effect():
         ("reference_roller", Rating(grooves="scene"), ["grooves"]),
         ("reference_roller", Rating(n_laminae=40, edge_factor=True), []),
     ):
-        notes = without_effect(jb.load_scene(name).replace({"rating": rating}), life)
+        notes = ineffective_inputs(jb.load_scene(name).replace({"rating": rating}), life)
         assert [f"rating.{field}" in note for field, note in zip(expected, notes, strict=True)] == [True] * len(
             expected
         )

@@ -21,7 +21,7 @@ from jaxbearing.life import (
     roller_static_capacity,
     roller_static_load,
 )
-from jaxbearing.life.bearing_life import without_effect
+from jaxbearing.life.bearing_life import ineffective_inputs
 from jaxbearing.life.equivalent import RELATIVE_LOADS, X, Y
 from jaxbearing.life.static import STEEL_MODULUS
 
@@ -134,7 +134,7 @@ def test_a_factor_of_contamination_is_that_of_its_class():
     with pytest.raises(ValueError, match=r"rating\.contamination_factor must be above 0 and at most 1"):
         Rating(contamination_factor=1.2)
     unknown = dataclasses.replace(given, viscosity_ratio=None)
-    (note,) = without_effect(scene.replace({"rating": Rating(contamination_factor=0.5)}), unknown)
+    (note,) = ineffective_inputs(scene.replace({"rating": Rating(contamination_factor=0.5)}), unknown)
     assert note.startswith("rating.contamination_factor has no effect without")
 
 

@@ -337,7 +337,7 @@ class BallBearing(AbstractMovingBearing):
         return jnp.asarray(self.geometry.nominal_angle)
 
     @property
-    def leaning_angle(self) -> Array:
+    def one_way_angle(self) -> Array:
         return jnp.zeros(()) if self.geometry.has_arcs else self.drawing_angle
 
     def point_contacts(self, elements: "BallResults") -> PointContact:

@@ -16,7 +16,7 @@ from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results, assemble
 from ..elastic_ring import UNSUPPORTED
 from ..facts import Facts
-from ..interactions import Costs, Interaction, costs, of_land
+from ..interactions import FrictionTotals, Interaction, friction_totals, of_land
 from ..land import LandState
 from ..mixed import boundary_power, mixed_results
 from ..parts import azimuths
@@ -134,7 +134,7 @@ def overload(scene: BallBearing) -> Float[Array, ""]:
 def _dry_results(scene: BallBearing, system: BallCore, state: BallState) -> Results[BallResults, BallPowerLoss]:
     contact = contacts_at(scene, state.angle, system.arcs.races)
     elements, contacts = ball_results(scene, system, state, contact)
-    return Results(elements, Costs(BallPowerLoss()), Facts((contacts,)))
+    return Results(elements, FrictionTotals(BallPowerLoss()), Facts((contacts,)))
 
 
 def _lubricated(
@@ -174,9 +174,9 @@ def _lubricated(
         return _rolling_alone(system, state, elements, facts)
     cage = None if land is None else _cage_state(system, result, state, land)
     parts = _raceway_power(system, state)
-    cost = costs(BallPowerLoss, _interactions(system, state, land), system.kinematics)
+    totals = friction_totals(BallPowerLoss, _interactions(system, state, land), system.kinematics)
     boundary = boundary_power(mixed, system.multiplicity, races=arcs.races)
-    return Results(elements, cost, facts, cage=cage, raceway_power=parts, boundary_power=boundary)
+    return Results(elements, totals, facts, cage=cage, raceway_power=parts, boundary_power=boundary)
 
 
 def _cage_state(system: AbstractBallEquations, result: NewtonResult, state: BallsState, land: LandState) -> CageState:
@@ -204,8 +204,8 @@ def _rolling_alone(
             balance = rolling_balance(system, state, resistance)
             torques = _ball_torques(system, state, balance.forward, balance.about, (resistance,))
         found = [Interaction("rolling_resistance", power, *torques, _by_race(system, state, resistance))]
-    cost = costs(BallPowerLoss, found, system.kinematics)
-    return Results(elements, cost, facts)
+    totals = friction_totals(BallPowerLoss, found, system.kinematics)
+    return Results(elements, totals, facts)
 
 
 def _raceway_power(system: AbstractBallEquations, state: BallsState) -> RacewayPower:

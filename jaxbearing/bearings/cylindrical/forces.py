@@ -11,7 +11,7 @@ from ...contacts import LineContact
 from ...contacts.laws import ContactState
 from ...gaps import EndForces, FlangeCoefficients, Pocket, PocketEdgeCoefficients, RollerDrag, ShortJournal
 from ...numerics.series import cosine_and_sine
-from ..interactions import Costs, Interaction, costs
+from ..interactions import FrictionTotals, Interaction, friction_totals
 from .kinematics import RollerKinematics
 from .loads import per_race
 from .solution import PowerLoss
@@ -144,14 +144,14 @@ def _against_rolling(motion: RollerKinematics, resistance: Array) -> tuple[Array
 
 def rolling_alone(
     contact: LineContact, motion: RollerKinematics, rolling: Float[Array, "2 roller"] | None
-) -> Costs[PowerLoss]:
+) -> FrictionTotals[PowerLoss]:
     r"""Power and ring torques of rollers that roll without sliding against their rolling resistances R, N.
 
     The tractions that balance each roller do no work: $T_i + T_o = (R_i + R_o)/2$ (moment), $T_i - T_o = \lambda_oR_o -
     \lambda_iR_i$ (tangential force), $\lambda$ as in `rolling_force_factor`.
     """
     if rolling is None:
-        return costs(PowerLoss, [], motion)
+        return friction_totals(PowerLoss, [], motion)
     lean = rolling_force_factor(contact, motion)
     total = 0.5 * (rolling[0] + rolling[1])
     difference = lean[1] * rolling[1] - lean[0] * rolling[0]
@@ -165,4 +165,4 @@ def rolling_alone(
         Interaction("", None, constraint[0], constraint[1]),
         Interaction("rolling_resistance", power, *_against_rolling(motion, rolling), own),
     ]
-    return costs(PowerLoss, found, motion)
+    return friction_totals(PowerLoss, found, motion)

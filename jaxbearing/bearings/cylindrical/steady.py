@@ -13,7 +13,7 @@ from ..computed import computed_results
 from ..elastic_ring import UNSUPPORTED
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
-from ..interactions import Costs, Interaction, costs, of_land
+from ..interactions import FrictionTotals, Interaction, friction_totals, of_land
 from ..land import LandState
 from ..mixed import boundary_power, mixed_results
 from ..parts import azimuths, drag_density
@@ -222,7 +222,7 @@ def _dry_results(system: DryRollerSystem, result: NewtonResult) -> Results[Rolle
         spin_speed=motion.free_spin * ones,
     )
     facts = Facts((Contacts(RACEWAYS, load, pressure, MEAN_OF_LINE),))
-    return Results(elements, Costs(PowerLoss()), facts)
+    return Results(elements, FrictionTotals(PowerLoss()), facts)
 
 
 def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results[RollerResults, PowerLoss]:
@@ -269,8 +269,8 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
     )
     facts = Facts((contacts,))
     if system.cage is None:
-        cost = rolling_alone(system.contact, motion, contact.rolling_force)
-        return Results(elements, cost, facts)
+        totals = rolling_alone(system.contact, motion, contact.rolling_force)
+        return Results(elements, totals, facts)
 
     land = system.land_at(result.point, state)
     orbit = system.orbit(result.point.globals[-1])
@@ -280,8 +280,8 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
         eccentricity_ratio=land.eccentricity_ratio,
         attitude_angle=land.attitude_angle,
     )
-    cost = costs(PowerLoss, _interactions(system, state, land), motion)
-    return Results(elements, cost, facts, cage=cage, boundary_power=boundary_power(mixed))
+    totals = friction_totals(PowerLoss, _interactions(system, state, land), motion)
+    return Results(elements, totals, facts, cage=cage, boundary_power=boundary_power(mixed))
 
 
 def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:

@@ -143,7 +143,7 @@ def _results(
         **more,
     )
     profiled = scene.profile is not None and scene.profile.shape is not None
-    costs = rolling_alone(contact, motion, rolling)
+    totals = rolling_alone(contact, motion, rolling)
     contacts = Contacts(RACEWAYS, state.load, peaks, MEAN_OF_LINE, laminae=laminae)
     facts = Facts((contacts,))
     if scene.contact is not None and scene.oil is not None:
@@ -155,7 +155,7 @@ def _results(
         contacts = contacts._replace(starved=starved)
         facts = facts._replace(contacts=(contacts,))
     laminae = LaminaLoads(inner_laminae, outer_laminae, profiled)
-    return Results(elements, costs, facts, laminae=laminae)
+    return Results(elements, totals, facts, laminae=laminae)
 
 
 def _films(

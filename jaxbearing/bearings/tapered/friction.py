@@ -50,7 +50,7 @@ from ...gaps import RollerDrag
 from ...lubricants import InletOil, Lubricant
 from ...materials import reduced_modulus
 from ..inlet import oil_elsewhere, oil_of, oil_of_races, oil_temperature
-from ..interactions import Costs, Interaction, costs
+from ..interactions import FrictionTotals, Interaction, friction_totals
 from ..parts import drag_density
 from .build import TaperedMotion, rolling_motion
 from .geometry import TaperedGeometry
@@ -119,7 +119,7 @@ class TaperedFriction(NamedTuple):
     rib: RibFriction | None
     drag_force: Array | None
     balance: RollerBalance | None
-    costs: Costs[TaperedPowerLoss]
+    totals: FrictionTotals[TaperedPowerLoss]
 
 
 class _Roller(NamedTuple):
@@ -163,7 +163,7 @@ def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> Tapere
         speed = 0.5 * geometry.pitch_diameter * motion.orbital_speed
         drag = RollerDrag(jnp.asarray(scene.drag.coefficient), area).force(speed, density)
     traction = None if rib is None else rib.traction
-    nothing = TaperedFriction(races, rib, drag, None, costs(TaperedPowerLoss, [], scene.operation))
+    nothing = TaperedFriction(races, rib, drag, None, friction_totals(TaperedPowerLoss, [], scene.operation))
     if races.rolling is None and traction is None and drag is None:
         return nothing
     balance, torques = _balance(geometry, roller, races, traction, drag)
@@ -180,7 +180,7 @@ def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> Tapere
     if drag is not None:
         power = geometry.n_rollers * drag * 0.5 * geometry.pitch_diameter * motion.orbital_speed
         found.append(Interaction("drag", power))
-    return nothing._replace(balance=balance, costs=costs(TaperedPowerLoss, found, scene.operation))
+    return nothing._replace(balance=balance, totals=friction_totals(TaperedPowerLoss, found, scene.operation))
 
 
 def _roller(geometry: TaperedGeometry) -> _Roller:

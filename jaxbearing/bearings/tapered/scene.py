@@ -101,7 +101,7 @@ class TaperedRollerBearing(AbstractBearing):
     """
 
     kind: ClassVar[str] = "tapered_roller_bearing"
-    without_effect: ClassVar[str] = "[contact]"
+    required_part: ClassVar[str] = "[contact]"
 
     geometry: TaperedGeometry
     materials: Materials
@@ -197,7 +197,7 @@ class TaperedRollerBearing(AbstractBearing):
         return rated_contacts(self, laminae, force)
 
     @property
-    def mean_diameter(self) -> Array:
+    def element_diameter(self) -> Array:
         return self.geometry.mean_roller_diameter
 
     @property

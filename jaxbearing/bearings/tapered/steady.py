@@ -18,7 +18,7 @@ from ..computed import computed_results
 from ..elastic_ring import UNSUPPORTED
 from ..facts import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of, oil_of_races
-from ..interactions import costs
+from ..interactions import friction_totals
 from ..mixed import boundary_power, mixed_results
 from ..parts import azimuths
 from ..rating import LAMINAE, rated_laminae
@@ -230,10 +230,10 @@ def _results(
     inner_laminae, outer_laminae = (
         jnp.broadcast_to(side, (count, rated)) for side in (laminae if rated == own else cut(rated))
     )
-    cost = costs(TaperedPowerLoss, [], scene.operation) if friction is None else friction.costs
+    totals = friction_totals(TaperedPowerLoss, [], scene.operation) if friction is None else friction.totals
     return Results(
         elements,
-        cost,
+        totals,
         _facts(scene, state, friction, pressure, flange, laminae, place[2]),
         laminae=LaminaLoads(
             inner_laminae, outer_laminae, scene.profile is not None and scene.profile.shape is not None

@@ -13,7 +13,7 @@ import jaxbearing as jb
 from jaxbearing.bearings.cylindrical.forces import CageParts, forces_without_pocket, friction_on_rings
 from jaxbearing.bearings.cylindrical.solution import PowerLoss
 from jaxbearing.bearings.cylindrical.steady import build_system
-from jaxbearing.bearings.interactions import costs
+from jaxbearing.bearings.interactions import friction_totals
 from jaxbearing.contacts import (
     BibouletHoupertRollingResistance,
     FullRangeRollingResistance,
@@ -119,7 +119,7 @@ def test_raceways_act_as_they_are_acted_upon():
         forces = forces_without_pocket(system.kinematics, system.contact, state, parts, *speeds)
         got = jnp.sum(forces.tangential * system.kinematics.pitch_radius + forces.moment)
         friction = friction_on_rings(system.kinematics, state, still, still, None, None)
-        found = costs(PowerLoss, friction, system.kinematics)
+        found = friction_totals(PowerLoss, friction, system.kinematics)
         return got, found.inner_torque + found.outer_torque
 
     # both kinds of force together, and each by itself

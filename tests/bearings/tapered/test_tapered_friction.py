@@ -125,13 +125,13 @@ def test_balances_in_space_and_energy(name, friction):
         scale = 1.0 + np.abs(balance.traction[:, j]).sum()
         np.testing.assert_allclose(force, 0.0, atol=1e-12 * scale)
         np.testing.assert_allclose(moment, 0.0, atol=1e-12 * scale * 0.1)
-    np.testing.assert_allclose((found.costs.inner_torque, found.costs.outer_torque), torque, rtol=1e-10)
+    np.testing.assert_allclose((found.totals.inner_torque, found.totals.outer_torque), torque, rtol=1e-10)
     inner, outer = (speed * RPM for speed in SPEEDS[name])
-    parts = inner * float(found.costs.inner_torque), outer * float(found.costs.outer_torque)
+    parts = inner * float(found.totals.inner_torque), outer * float(found.totals.outer_torque)
     size = np.abs(parts).sum()
-    np.testing.assert_allclose(sum(parts), found.costs.power_loss.total, rtol=1e-12, atol=1e-13 * size)
-    entries = [found.costs.power_loss.rolling_resistance, found.costs.power_loss.flange, found.costs.power_loss.drag]
-    np.testing.assert_allclose(sum(entries), found.costs.power_loss.total, rtol=1e-14)
+    np.testing.assert_allclose(sum(parts), found.totals.power_loss.total, rtol=1e-12, atol=1e-13 * size)
+    entries = [found.totals.power_loss.rolling_resistance, found.totals.power_loss.flange, found.totals.power_loss.drag]
+    np.testing.assert_allclose(sum(entries), found.totals.power_loss.total, rtol=1e-14)
     assert all(entry > 0 for entry in entries)
 
 
@@ -139,11 +139,11 @@ def test_the_rolling_resistance_alone_in_closed_form(friction):
     """The power is (P_i + P_o) u, with the speed of the raceways against the line of contact."""
     load, _ = some_loads()
     found, motion = friction(3000.0, 0.0, load, jnp.zeros(17))
-    assert found.costs.power_loss.flange == 0.0
+    assert found.totals.power_loss.flange == 0.0
     assert np.all(np.isnan(found.rib.film))
     speed = float(motion.spin_speed) * (DIAMETER / 2 - LENGTH / 2 * np.sin(HALF))
     np.testing.assert_allclose(
-        found.costs.power_loss.rolling_resistance, speed * np.sum(found.races.rolling), rtol=1e-13
+        found.totals.power_loss.rolling_resistance, speed * np.sum(found.races.rolling), rtol=1e-13
     )
     np.testing.assert_allclose(found.races.speed, speed, rtol=1e-13)
 
@@ -151,16 +151,16 @@ def test_the_rolling_resistance_alone_in_closed_form(friction):
 def test_nothing_touches_and_nothing_turns(friction):
     none = friction(3000.0, 0.0, jnp.zeros((2, 17)), jnp.zeros(17))[0]
     assert np.all(np.isnan(none.races.film))
-    np.testing.assert_allclose(none.costs.power_loss.total, none.costs.power_loss.drag, rtol=1e-15)
+    np.testing.assert_allclose(none.totals.power_loss.total, none.totals.power_loss.drag, rtol=1e-15)
     still = friction(0.0, 0.0, *some_loads())[0]
-    assert still.costs.power_loss.total == 0.0
-    assert (still.costs.inner_torque, still.costs.outer_torque) == (0.0, 0.0)
+    assert still.totals.power_loss.total == 0.0
+    assert (still.totals.inner_torque, still.totals.outer_torque) == (0.0, 0.0)
 
 
 def test_backwards_is_the_same(friction):
     forth, back = (friction(sign * 3000.0, sign * 500.0, *some_loads())[0] for sign in (1.0, -1.0))
-    np.testing.assert_allclose(back.costs.power_loss.total, forth.costs.power_loss.total, rtol=1e-12)
-    np.testing.assert_allclose(back.costs.inner_torque, -forth.costs.inner_torque, rtol=1e-12)
+    np.testing.assert_allclose(back.totals.power_loss.total, forth.totals.power_loss.total, rtol=1e-12)
+    np.testing.assert_allclose(back.totals.inner_torque, -forth.totals.inner_torque, rtol=1e-12)
     np.testing.assert_allclose(back.races.film, forth.races.film, rtol=1e-12)
 
 

@@ -36,7 +36,7 @@ from jaxtyping import Array, Float
 from ...._types import Scalar
 from ....numerics.arrow import ArrowPoint
 from ....numerics.series import cosine_and_sine
-from ...interactions import Costs, Interaction, costs, of_land
+from ...interactions import FrictionTotals, Interaction, friction_totals, of_land
 from ..forces import friction_on_rings
 from ..solution import PowerLoss
 from .results import RollerEnergy, RollerInstant
@@ -49,7 +49,7 @@ WORKS = ("drive", "dissipation", "pocket_films", "lever_arm", "load")
 _PALMGREN_ENERGY = 0.9 / 1.9
 
 
-def power_by_location(dynamics: "RollerDynamics", now: "MovingState") -> Costs[PowerLoss]:
+def power_by_location(dynamics: "RollerDynamics", now: "MovingState") -> FrictionTotals[PowerLoss]:
     """Losses by location, W, and what drives the rings, each from the force and the sliding speed of its own
     interaction; without the squeezing of the pocket films (see `powers`)."""
     motion, forces, parts = now.motion, now.forces, dynamics.system.cage
@@ -73,7 +73,7 @@ def power_by_location(dynamics: "RollerDynamics", now: "MovingState") -> Costs[P
         found.append(of_land(now.land.power, now.land.ring_torque, parts.guidance))
     if forces.drag_force is not None:
         found.append(Interaction("drag", jnp.sum(forces.drag_force * motion.pitch_radius * now.orbit)))
-    return costs(PowerLoss, found, motion)
+    return friction_totals(PowerLoss, found, motion)
 
 
 def powers(dynamics: "RollerDynamics", time: Scalar, now: "MovingState") -> Float[Array, " work"]:

@@ -19,7 +19,7 @@ class FrontSizes:
 
     def __init__(self, scene: AbstractBearing, shoulder: float | None = None):
         geometry = scene.geometry
-        self.diameter = millimetres(scene.mean_diameter)
+        self.diameter = millimetres(scene.element_diameter)
         self.pitch = millimetres(geometry.pitch_diameter) / 2.0
         reach = self.diameter / 2.0 if shoulder is None else shoulder
         self.inner, self.outer = self.pitch - reach, self.pitch + reach

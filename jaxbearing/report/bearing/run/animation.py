@@ -45,7 +45,7 @@ def exaggeration(scene: AbstractMovingBearing) -> float:
     """Factor on clearances, positions of elements in their pockets and offsets of cage and inner ring."""
     if scene.cage is None:
         return 1.0
-    gap = float(scene.geometry.pitch_diameter) * math.pi / scene.n_elements - float(scene.mean_diameter)
+    gap = float(scene.geometry.pitch_diameter) * math.pi / scene.n_elements - float(scene.element_diameter)
     factor = _CLEARANCE_SHOWN * gap / (0.5 * float(scene.cage.pocket_clearance))
     return max(1.0, math.floor(factor) if factor < 10.0 else 5.0 * math.floor(factor / 5.0))
 
@@ -113,7 +113,7 @@ def _draw(
     from matplotlib.colors import SymLogNorm
     from matplotlib.patches import Circle
 
-    diameter = 1e3 * float(scene.mean_diameter)
+    diameter = 1e3 * float(scene.element_diameter)
     inner, outer = (500.0 * float(one) for one in scene.raceway_diameters)
     most = max((float(load.max()) for p in pictures for load in p.loads.values()), default=0.0)
     bar = 0.3 * inner
