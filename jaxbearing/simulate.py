@@ -10,7 +10,11 @@ from .numerics.garbage import rare_garbage_collection
 from .numerics.precision import require_x64
 
 if TYPE_CHECKING:
+    from .bearings.ball.motion.results import BallInstant
+    from .bearings.ball.scene import BallBearing
     from .bearings.bearing import AbstractBearing
+    from .bearings.cylindrical.motion.results import RollerInstant
+    from .bearings.cylindrical.scene import CylindricalRollerBearing
     from .bearings.motion.family import AbstractMovingBearing
     from .bearings.motion.history import History, LastState
     from .bearings.motion.settings import Simulation
@@ -58,7 +62,7 @@ def simulate(
 ) -> "WarmUpHistory": ...
 @overload
 def simulate(
-    scene: "AbstractMovingBearing",
+    scene: "BallBearing",
     duration: float | None = None,
     *,
     simulation: "Simulation | None" = None,
@@ -66,7 +70,18 @@ def simulate(
     throw: bool = True,
     progress: Progress | None = None,
     restart: "History | LastState",
-) -> "History": ...
+) -> "History[BallInstant]": ...
+@overload
+def simulate(
+    scene: "CylindricalRollerBearing",
+    duration: float | None = None,
+    *,
+    simulation: "Simulation | None" = None,
+    interval: float | None = None,
+    throw: bool = True,
+    progress: Progress | None = None,
+    restart: "History | LastState",
+) -> "History[RollerInstant]": ...
 @overload
 def simulate(
     scene: "TaperedRollerBearing",
@@ -78,6 +93,28 @@ def simulate(
     progress: Progress | None = None,
     restart: None = None,
 ) -> "WarmUpHistory": ...
+@overload
+def simulate(
+    scene: "BallBearing",
+    duration: float | None = None,
+    *,
+    simulation: "Simulation | None" = None,
+    interval: float | None = None,
+    throw: bool = True,
+    progress: Progress | None = None,
+    restart: None = None,
+) -> "History[BallInstant] | WarmUpHistory": ...
+@overload
+def simulate(
+    scene: "CylindricalRollerBearing",
+    duration: float | None = None,
+    *,
+    simulation: "Simulation | None" = None,
+    interval: float | None = None,
+    throw: bool = True,
+    progress: Progress | None = None,
+    restart: None = None,
+) -> "History[RollerInstant] | WarmUpHistory": ...
 @overload
 def simulate(
     scene: "AbstractBearing",
@@ -174,6 +211,46 @@ def _require_moving(scene: object, method: str) -> None:
     raise TypeError(f"cannot simulate a {type(scene).__name__}; {name} takes: {taken}")
 
 
+@overload
+def simulate_batch(
+    scene: "BallBearing",
+    duration: float,
+    over: Mapping[str, object],
+    *,
+    simulation: "Simulation | None" = None,
+    interval: float = INTERVAL,
+    method: Literal["map", "vmap"] = "map",
+) -> "History[BallInstant]": ...
+@overload
+def simulate_batch(
+    scene: "CylindricalRollerBearing",
+    duration: float,
+    over: Mapping[str, object],
+    *,
+    simulation: "Simulation | None" = None,
+    interval: float = INTERVAL,
+    method: Literal["map", "vmap"] = "map",
+) -> "History[RollerInstant]": ...
+@overload
+def simulate_batch(
+    scene: "AbstractMovingBearing",
+    duration: float,
+    over: Mapping[str, object],
+    *,
+    simulation: "Simulation | None" = None,
+    interval: float = INTERVAL,
+    method: Literal["map", "vmap"] = "map",
+) -> "History": ...
+@overload
+def simulate_batch(
+    scene: AbstractScene,
+    duration: float,
+    over: Mapping[str, object],
+    *,
+    simulation: object = None,
+    interval: float = INTERVAL,
+    method: Literal["map", "vmap"] = "map",
+) -> Any: ...
 @rare_garbage_collection()
 def simulate_batch(
     scene: Any,

@@ -65,8 +65,8 @@ def _solve_any(scene: AbstractScene, options: NewtonOptions) -> AbstractSolution
 
 
 def with_checked_inputs(scene: Scene, compute: Callable[[Scene], Result]) -> Result:
-    """Result of `compute` for a scene, with checks of its inputs. With an invalid input the operating point
-    is NaN, so that iterations end at their first step."""
+    """Result of `compute` for a scene, with checks of its inputs. With an invalid input the operating point is NaN, so
+    that iterations end at their first step."""
     inputs = check_inputs(scene)
     given = gate(scene, inputs.valid)
     point = getattr(given, scene.operating_point)

@@ -90,8 +90,10 @@ def check_between(name: str, value: Scalar, low: Scalar, high: Scalar, below: st
     )
 
 
-def check_row_fits(count: int, diameter: Scalar, pitch_diameter: Scalar, element: str = "roller") -> None:
-    """**Raises:** `ValueError` where the rolling elements do not fit on the pitch circle."""
+def check_row_fits(count: int, diameter: Any, pitch_diameter: Any, element: str = "roller") -> None:
+    """**Arguments:** lengths, m; one that a file has wrong is a stand-in, of which nothing is checked.
+
+    **Raises:** `ValueError` where the rolling elements do not fit on the pitch circle."""
     name = f"geometry.n_{element}s"
     if count < 1:
         raise ValueError(f"{name} must be >= 1, got {count}")

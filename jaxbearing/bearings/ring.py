@@ -3,10 +3,10 @@ its port.
 
 A load is given for each unknown freedom, and a displacement for each of the others. The *port* is the point of the ring
 at which loads and displacements are exchanged with a shaft. A *family* is a kind of bearing: ball, cylindrical roller,
-tapered roller. The *reference point* is the point whose displacements the
-results show: the port if a shaft holds the ring, otherwise the point at which the family writes its equations. A `Port`
-consists of the load that holds the ring at a displacement, and of the derivatives of that load. The load is equal and
-opposite to the force of the rolling elements on the ring.
+tapered roller. The *reference point* is the point whose displacements the results show: the port if a shaft holds the
+ring, otherwise the point at which the family writes its equations. A `Port` consists of the load that holds the ring at
+a displacement, and of the derivatives of that load. The load is equal and opposite to the force of the rolling elements
+on the ring.
 
 Frame and signs: $e_x$ along the axis; azimuth 0 is the load line (radial), azimuth 90 degrees is lateral. A positive
 `tilt` moves the ring along $+e_x$ at azimuth 0, a positive `tilt_lateral` at azimuth 90 degrees. Loads are conjugate to

@@ -86,8 +86,8 @@ class AbstractBetweenRings(AbstractArrowSystem):
     def ring_balance(
         self, globals_: Float[Array, " g"], totals: Float[Array, " k"], floats: bool
     ) -> Float[Array, " row"]:
-        """Returns the forces of the elements on the unknown freedoms of the inner ring less the load on these, N, and
-        the forces on the amplitudes of rings that bend.
+        """Returns the forces that hold the unknown freedoms of the inner ring against the elements less the load on
+        these, N, and the forces on the amplitudes of rings that bend.
 
         **Arguments:** `floats`: whether a ring may stand where no element touches it: it is anchored then.
         """

@@ -36,6 +36,18 @@ RISE_TOLERANCE = 1e-10
 """Newton step at which the search for a temperature ends, relative to the rise or to 1 K, whichever is larger."""
 
 
+class StripPower(NamedTuple):
+    """Dissipation on the strips of a contact along rolling, in order across it.
+
+    - `power`: W; their sum is that of the contact. Strips of a half that is mirrored hold the power of both sides.
+    - `offset`: distance from the middle across rolling, m; `width`: of the strip, m.
+    """
+
+    power: Float[Array, "*batch strip"]
+    offset: Float[Array, "*#batch strip"]
+    width: Float[Array, "*#batch strip"]
+
+
 class Traction(NamedTuple):
     """Traction of a sheared film. Forces are those of body 1 on body 2, along the sliding of body 1 over body 2.
 
@@ -45,6 +57,7 @@ class Traction(NamedTuple):
     - `inner_residual`: residual of the nested solves for the temperature, K.
     - `curvature`: integral of the rolling stress times y^2, N m^2, with the distance y of a strip from the middle;
       `None` if the sliding has no part that varies with y^2 (`Sliding.curvature`).
+    - `by_strip`: power by strips; `None` where it is not known.
     """
 
     rolling: Float[Array, "*batch"]
@@ -55,6 +68,7 @@ class Traction(NamedTuple):
     surface_rise: Float[Array, "*batch"] | None = None
     inner_residual: Float[Array, "*batch"] | None = None
     curvature: Float[Array, "*batch"] | None = None
+    by_strip: StripPower | None = None
 
     def coefficient(self, load: Values) -> Float[Array, "*batch"]:
         """Traction coefficient along rolling. **Arguments:** `load`: of the contact, N, > 0."""
@@ -159,8 +173,12 @@ class DistributedTraction(AbstractTraction):
         """
         arguments = (patch, film, entrainment_speed, sliding, temperature, lubricant)
         steps, strips, extrapolate = dataclasses.astuple(self.resolution)
-        run = lambda *resolution: dataclasses.replace(self, resolution=Resolution(*resolution)).traction(*arguments)
-        found = self.traction(*arguments)
+
+        def run(*resolution):
+            law = dataclasses.replace(self, resolution=Resolution(*resolution))
+            return law.traction(*arguments)._replace(by_strip=None)
+
+        found = run(steps, strips, extrapolate)
         finer, shares = [run(2 * steps, strips, extrapolate)], [16.0 / 15.0 if extrapolate else 4.0 / 3.0]
         if not (patch.line and sliding.alike):
             finer.append(run(steps, 2 * strips, extrapolate))
@@ -210,13 +228,9 @@ class _Problem(eqx.Module):
             return fine
         coarse = self._thermal(Mesh.of(steps // 2), heating)
         better = lambda a, b: a + (a - b) / 3.0
-        return fine._replace(
-            rolling=better(fine.rolling, coarse.rolling),
-            transverse=better(fine.transverse, coarse.transverse),
-            moment=better(fine.moment, coarse.moment),
-            power=better(fine.power, coarse.power),
-            curvature=None if fine.curvature is None else better(fine.curvature, coarse.curvature),
-        )
+        names = ("rolling", "transverse", "moment", "power", "curvature", "by_strip")
+        both = ({name: getattr(one, name) for name in names} for one in (fine, coarse))
+        return fine._replace(**jax.tree.map(better, *both))
 
     def oil(self, sine: Array, rise: Values) -> Oil:
         """Oil properties at the relative pressure `sine` of each strip, at a temperature `rise` K above the base."""
@@ -327,13 +341,14 @@ class _Problem(eqx.Module):
         weight = self.half_width * self.strips.width
         total = lambda values: jnp.sum(values * weight, axis=-1)
         sign = self.direction[..., 0]
-        rolling, power = total(sums.rolling), total(sums.power * self.film)
+        by_strip = StripPower(sums.power * self.film * weight, self.strips.offset, self.strips.width)
+        rolling, power = total(sums.rolling), jnp.sum(by_strip.power, axis=-1)
         transverse = moment = jnp.zeros_like(rolling)
         if sums.transverse is not None and sums.moment is not None:
             transverse = total(sums.transverse)
             moment = total(sums.moment * self.half_width - sums.rolling * self.strips.offset)
         curvature = sign * total(sums.rolling * jnp.square(self.strips.offset)) if self.curved else None
-        return Traction(sign * rolling, sign * transverse, moment, power, curvature=curvature)
+        return Traction(sign * rolling, sign * transverse, moment, power, curvature=curvature, by_strip=by_strip)
 
 
 class _Sums(NamedTuple):

@@ -132,6 +132,7 @@ class MixedFriction(Checked):
             moment=left * sheared.moment,
             power=left * sheared.power + self._power(along, across, sliding),
             curvature=None if sheared.curvature is None else left * sheared.curvature,
+            by_strip=None,
         )
 
     def _boundary(self, load: Values, share: Values, sliding: Sliding) -> tuple[Array, Array]:

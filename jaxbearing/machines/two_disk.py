@@ -336,7 +336,8 @@ class TwoDisk(AbstractScene):
         """Forces, power and temperatures. **Arguments:** `oil`: one with another rheology than the scene's."""
         law, oil = self.traction_law, self.oil if oil is None else oil
         sliding = Sliding(state.sliding_speed)
-        return law.traction(state.patch, state.film, state.entrainment_speed, sliding, state.temperature, oil)
+        found = law.traction(state.patch, state.film, state.entrainment_speed, sliding, state.temperature, oil)
+        return found._replace(by_strip=None)
 
 
 def solve_two_disk(scene: TwoDisk, options: NewtonOptions | None = None) -> TwoDiskSolution:

@@ -129,7 +129,7 @@ def _sizes(known: Known, scene: AbstractBearing, catalogue: Catalogue, said: Sai
     else:
         words = "mean diameter (d + D)/2 is the pitch diameter of the scene (catalogue.bore, outside_diameter)"
         known.assume("mean_diameter", geometry.pitch_diameter, words)
-    known.put("element_diameter", scene.mean_diameter, "")
+    known.put("element_diameter", scene.element_diameter, "")
     angle = getattr(geometry, "contact_angle", None)
     known.put("contact_angle", angle, "geometry.contact_angle")
     if scene.kind == "tapered_roller_bearing":

@@ -108,6 +108,15 @@ def sliding_energy(history: History) -> dict[str, Float[np.ndarray, " element"]]
     return {place: _integral(time, power) for place, power in sliding_power(history).items()}
 
 
+def groove_energy(history: History) -> dict[str, Float[np.ndarray, " groove_angle"]]:
+    """Energy that sliding takes over the run in each interval of angle of the grooves (`Instant.groove_angles`), J, by
+    side: the trapezoidal rule over the instants. It is empty for families and laws that do not tell where in a contact
+    power is lost."""
+    instants, time = history.instants, np.asarray(history.time)
+    losses = {side: getattr(instants, f"groove_loss_{side}", None) for side in SIDES}
+    return {side: _integral(time, np.asarray(loss)) for side, loss in losses.items() if loss is not None}
+
+
 def _integral(time: np.ndarray, values: np.ndarray) -> np.ndarray:
     steps = np.diff(time)[:, None]
     return np.sum(0.5 * (values[1:] + values[:-1]) * steps, axis=0)

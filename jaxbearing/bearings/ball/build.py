@@ -22,7 +22,7 @@ from ..ring import LENGTH_UNIT, InnerRing, inner_ring
 from ..ring_shape import out_of_round, shaped_parts
 from .arched import ArchedBallSystem
 from .core import FORCE_FLOOR, BallCore
-from .groove_motion import ring_motion
+from .groove_motion import RingMotion, ring_motion
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
 from .kinematics import BallKinematics
 from .pairs import LubricatedBallSystem
@@ -43,13 +43,14 @@ CONTROL_AT_EQUAL_LOADS, CONTROL_BY_LOAD = -1.6, 8.0
 
 
 class Row(NamedTuple):
-    """The balls that are solved for, how the inner ring may move, and how that moves the coordinates of their inner
-    grooves (`arcs`), m: `directions` for a unit of its unknowns, `held_shift` by what it is held at."""
+    """The balls that are solved for, how the inner ring may move, and how that moves their inner grooves: the fields of
+    `AbstractBallSystem` of the same names."""
 
     azimuth: Float[Array, " ball"]
     ring: InnerRing
     directions: Float[Array, "freedom p ball"]
     held_shift: Float[Array, "p ball"]
+    ring_motion: RingMotion | None
     multiplicity: int
 
 
@@ -65,16 +66,26 @@ def ring_directions(azimuth: Float[Array, " ball"], turning: Array | None = None
     return jnp.stack([jnp.stack([*pair, third]) for pair, third in zip(changes, last, strict=True)])
 
 
-def ball_row(scene: BallBearing, ring: InnerRing | None = None) -> Row:
+def row_of(
+    azimuth: Float[Array, " ball"], ring: InnerRing, turning: Array | None, exact: bool, multiplicity: int
+) -> Row:
+    """Balls at these azimuths, rad. **Arguments:** `turning`: of `ring_directions`; `exact`: whether the grooves move
+    with the exact rotation of the ring."""
+    every = ring_directions(azimuth, turning)
+    held_shift = jnp.einsum("f,fcn->cn", ring.held, every)
+    motion = ring_motion(ring, azimuth) if exact else None
+    return Row(azimuth, ring, ring.of_unknown(every), held_shift, motion, multiplicity)
+
+
+def ball_row(scene: BallBearing, exact: bool, ring: InnerRing | None = None) -> Row:
     """All balls, or one for all where they are alike; with the ring of the scene, or with another one."""
     operation, geometry = scene.operation, scene.geometry
     azimuth = azimuths(geometry, geometry.n_balls, operation.symmetric and not shaped_parts(scene) and ring is None)
     if ring is None:
         ring = inner_ring(scene, geometry.groove_circle_radius)
     apart = geometry.arcs.inner
-    every = ring_directions(azimuth, None if apart is None else apart / geometry.groove_circle_radius)
-    held_shift = jnp.einsum("f,fcn->cn", ring.held, every)
-    return Row(azimuth, ring, ring.of_unknown(every), held_shift, geometry.n_balls // azimuth.size)
+    turning = None if apart is None else apart / geometry.groove_circle_radius
+    return row_of(azimuth, ring, turning, exact, geometry.n_balls // azimuth.size)
 
 
 def ball_grooves(scene: BallBearing, expansion: Float[Array, ""] | None = None) -> Grooves:
@@ -100,14 +111,14 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
     **Arguments:** `exact`: whether the grooves move with the exact rotation of the ring; not given: where the ring can
     tilt; `ring`: another one than the scene's, all balls then.
     """
-    geometry, operation, row = scene.geometry, scene.operation, ball_row(scene, ring)
+    geometry, operation = scene.geometry, scene.operation
+    row = ball_row(scene, operation.tilts if exact is None else exact, ring)
     grooves = ball_grooves(scene, row.ring.expansion)
     bent = _bending_rings(scene, row.azimuth)
     form = out_of_round(scene.inner_roundness, scene.outer_roundness, row.azimuth)
     density = jnp.asarray(scene.materials.balls.density)
     attitude, gyroscopic = scene.kinematics.attitude, scene.kinematics.gyroscopic
     slipping = attitude == "linear_slip" or geometry.has_arcs
-    tilts = operation.tilts if exact is None else exact
     return BallCore(
         kinematics=BallKinematics(
             jnp.asarray(operation.inner_speed),
@@ -122,7 +133,7 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
         if row.ring.needs_held_load
         else row.ring,
         held_shift=row.held_shift,
-        ring_motion=ring_motion(row.ring, row.azimuth) if tilts else None,
+        ring_motion=row.ring_motion,
         out_of_round=form,
         outer=bent.outer,
         inner=bent.inner,

@@ -102,7 +102,7 @@ def _fading(shear: Traction, load: Float[Array, "contact ball"]) -> Traction:
     share = load / smooth_abs(load, FADING_LOAD)
     more = {} if shear.curvature is None else {"curvature": share * shear.curvature}
     names = ("rolling", "transverse", "moment", "power")
-    return shear._replace(**{name: share * getattr(shear, name) for name in names}, **more)
+    return shear._replace(by_strip=None, **{name: share * getattr(shear, name) for name in names}, **more)
 
 
 def _sliding(system: AbstractLubricatedBallSystem, state: BallsState | RaceState, bend: Array | None = None) -> Sliding:

@@ -1,17 +1,18 @@
 r"""Exact motion of the inner grooves of a ball bearing: from ball centres to the displaced and tilted inner ring.
 
 Frames. $e_x$ along the bearing axis, Y along azimuth 0, Z along azimuth 90 degrees; positions count from the centre of
-the ring without displacement. The ring has a circle of groove centres of radius $R_i$ around its axis, at a distance s
-along that from its centre: 0 if it has one groove arc. The centre moves by $d = \delta_ae_x + \delta_rY + \delta_lZ$;
-the ring turns by the rotation vector $\theta_2Y - \theta_1Z$ of length t, and its axis becomes
-$n' = \cos t\,e_x - \frac{\sin t}{t}(\theta_1Y + \theta_2Z)$. A ball at azimuth $\psi$ has its centre at B. With
-$p = B - d$, $h = p\cdot n'$, $u = p - hn'$, $\rho = |u|$ and $k = R_i/\rho$, the nearest point of the circle is
-$G = d + sn' + ku$, and the arm from the ball to it is $G - B = (s - kh)n' + (k - 1)p$.
+the ring without displacement. The ring has a circle of groove centres of radius $R_i$ around its axis, in a plane at
+the distance s from the centre of the ring, along the axis: 0 if the ring has one groove arc. The centre moves by $d =
+\delta_ae_x + \delta_rY + \delta_lZ$; the ring turns by the rotation vector $\theta_2Y - \theta_1Z$ of length t, and its
+axis becomes $n' = \cos t\,e_x - \frac{\sin t}{t}(\theta_1Y + \theta_2Z)$. A ball at azimuth $\psi$ has its centre at B.
+With $p = B - d$, $h = p\cdot n'$, $u = p - hn'$, $\rho = |u|$ and $k = R_i/\rho$, the nearest point of the circle is $G
+= d + sn' + ku$, and the arm from the ball to it is $G - B = (s - kh)n' + (k - 1)p$.
 
 The first-order form, in which the groove centre moves by $R_i\tau$ along the axis, $\tau = \theta_1\cos\psi +
 \theta_2\sin\psi$, leaves out the motion $R_i(1 - \cos t)\cos^2\psi$ towards the axis (of a tilt $\theta_1$): 0.4 um at
 6.5 mrad and $R_i$ = 19 mm, which is of the order of the deformation. The first-order form is used where the scene has
-neither a moment nor a misalignment, in ratings, in runs in time and in the first stage of a solve of a shaft. Without a
+neither a moment nor a misalignment, where ratings or `reaction` are asked for it (`rating.tilt = "iso"`, `tilt =
+"linear"`), in runs in time and in the first stage of a solve of a shaft. Without a
 tilt it leaves out $d_t^2/(2R_i)$ with the displacement $d_t$ of the ring along the orbit: 1 nm in the bearing
 `turbine_ball` at 20 kN axial and 8 kN radial load, 6e-5 of a ball's load.
 
@@ -34,11 +35,13 @@ from ..ring import LENGTH_UNIT, InnerRing
 from .arcs import added
 
 TILT_FLOOR = 1e-9
-"""The square of this is added to that of the tilt, rad, so that sin(t)/t has derivatives at t = 0. Sine and cosine
-change by 1e-17."""
+"""The square of this is added to that of the tilt, rad, so that sin(t)/t has a first derivative at t = 0. Sine and
+cosine change by 1e-17. Near this tilt second derivatives of sin(t)/t are round-off; beside those of the stiffness of
+the contacts this is at most 1e-4 of the second derivatives of the loads."""
 
 _OUTWARD = np.asarray([[0.0], [1.0], [0.0]])
-# parts of `half_planes`: of the component that stays; of the pairs that an azimuth turns, with its cosine and its sine
+# `half_planes` is a sum of three matrices: one that keeps the axial component, one times the cosine of the azimuth and
+# one times its sine, which turn (radial, lateral) and both tilts
 _AXIAL = np.diag([1.0, 0.0, 0.0, 0.0, 0.0])
 _IN_PLANE = np.diag([0.0, 1.0, 1.0, 1.0, 1.0])
 _ACROSS = np.zeros((5, 5))

@@ -23,12 +23,11 @@ from ..parts import azimuths
 from ..ring import InnerRing, Port
 from ..solution import RING_FREEDOMS, TILTS, CageState, FailureCause, RacewayPower, Solution
 from .arched import ArchedBallSystem
-from .build import build_core, build_lubricated, ring_directions, with_films
+from .build import build_core, build_lubricated, row_of, with_films
 from .contact_results import ball_results, contacts_at
 from .core import BallCore, BallState
 from .equations import AbstractBallEquations
 from .friction import mixed_state
-from .groove_motion import ring_motion
 from .pairs import LubricatedBallSystem
 from .rolling import constraint_torques, rolling_balance, rolling_resistance
 from .scene import BallBearing
@@ -278,15 +277,8 @@ def _released(scene: BallBearing, system: Balls, result: NewtonResult) -> tuple[
     count = scene.geometry.n_balls
     azimuth = azimuths(scene.geometry, count)
     released = system.ring.released(system.load_scale())
-    full = dataclasses.replace(
-        system,
-        directions=ring_directions(azimuth, system.grooves.turning),
-        azimuth=azimuth,
-        ring=released,
-        held_shift=jnp.zeros((system.arcs.coordinates, count)),
-        ring_motion=ring_motion(released, azimuth) if system.exact else None,
-        multiplicity=1,
-    )
+    row = row_of(azimuth, released, system.grooves.turning, system.exact, 1)
+    full = dataclasses.replace(system, **row._asdict())
     globals_ = system.ring.released_unknowns(result.point.globals)
     return full, ArrowPoint(_wide(result.point.elements, count), globals_)
 

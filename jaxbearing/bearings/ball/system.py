@@ -109,8 +109,8 @@ class Touch(NamedTuple):
     """Contacts of the balls for given places of their centres, before any load is known.
 
     - `apart`: distances of the groove centres from the ball centre, m; `normals`: unit vectors along them, from the
-      ball to the inner ring and from the outer ring to the ball: axial, outward and, of an inner arm of an `exact`
-      system, along the orbit.
+      ball centre to the inner groove centre, and from the outer groove centre to the ball centre: axial, outward and,
+      of an inner arm of an `exact` system, along the orbit. Both point away from the axis of the bearing.
     - `direction`: angle of each normal from the outward radius towards $+e_x$, in the fixed frame, rad; `angle`:
       contact angles, on the inner race against the tilted ring.
     - `on_ring`: of `AbstractBallSystem.reach`.
@@ -127,8 +127,8 @@ class Push(NamedTuple):
     """Forces of the contacts, N.
 
     - `held`: of the ball on the outer ring less those of the inner ring on the ball, axial and outward.
-    - `on_ring`: contributions to the forces on the rings: on the freedoms of the inner one, and the radial forces on
-      rings that bend (`AbstractBetweenRings`).
+    - `on_ring`: contributions to the forces that hold the rings: the freedoms of the inner one, and the radial forces
+      on rings that bend (`AbstractBetweenRings`).
     """
 
     held: Float[Array, "2 ball"]
@@ -216,11 +216,12 @@ class AbstractBallSystem(AbstractBetweenRings):
         self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]
     ) -> tuple[tuple[InnerArm, ...], OnRing]:
         r"""From ball centres of `from_round`, m, to the centres of each inner arc; and what forces on the arcs
-        contribute to those on the ring's freedoms.
+        contribute to those that hold the ring's freedoms.
 
         The contributions are conjugate to the displacements: force times the motion of the nearest groove centre,
         friction moment times the turning of the groove. To second order, a force $(F_x, F_r)$ on the groove centre
-        gives the moment $R_i(F_x\cos t\cos\psi - F_r\sin t\cos^2\psi)$ on a tilt t about azimuth 0.
+        gives the moment $R_i(F_x\cos t\cos\psi - F_r\sin t\cos^2\psi)$ on a tilt t that moves azimuth 0 along the
+        axis.
         """
         if self.ring_motion is None:
             arms = [groove - centre for groove in self.arcs.inner_centres(self.groove_centres(shift))]
@@ -251,8 +252,9 @@ class AbstractBallSystem(AbstractBetweenRings):
         normal: Float[Array, "2 contact ball"],
         friction: Float[Array, "contact ball"] | None,
     ) -> tuple[Float[Array, "2 contact ball"], Float[Array, " ball"] | None]:
-        """Axial and outward forces of normal loads and of the friction that carries the couple, N, and its moment on
-        the inner ring (`couple_forces`; `None` without friction). **Arguments:** `normal`: of `unit_normals`."""
+        """Axial and outward forces of normal loads and of the friction that carries the couple, N, and the moment that
+        holds the inner ring against it (`couple_forces`; `None` without friction). **Arguments:** `normal`: of
+        `unit_normals`."""
         pressed = load[None] * normal
         if friction is None:
             return pressed, None
@@ -262,8 +264,8 @@ class AbstractBallSystem(AbstractBetweenRings):
     def couple_forces(
         self, normal: Float[Array, "2 contact ball"], friction: Float[Array, "contact ball"]
     ) -> tuple[Float[Array, "2 contact ball"], Float[Array, " ball"]]:
-        """Axial and outward forces of the friction that carries the couple, N, and the moment of that on the inner ring
-        about the groove centres, N m. **Arguments:** `normal`: of `unit_normals`."""
+        """Axial and outward forces of the friction that carries the couple, N, and the moment about the groove
+        centres that holds the inner ring against it, N m. **Arguments:** `normal`: of `unit_normals`."""
         moment = -self.arcs.on_inner(friction) * self.grooves.groove_arm
         return friction[None] * jnp.stack([normal[1], -normal[0]]), moment
 

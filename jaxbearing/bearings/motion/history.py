@@ -5,7 +5,7 @@ classes of an instant and of the energy balance from `Instant` and `Energy`, wit
 """
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 import equinox as eqx
 import jax
@@ -61,6 +61,8 @@ class Instant(eqx.Module):
     """Names of the components of `state_elements`."""
     cage_state: ClassVar[tuple[str, ...]] = ()
     """Names of the components of `state_cage`."""
+    groove_angles: ClassVar[np.ndarray] = np.zeros(0)
+    """Middles of the intervals of angle over which losses in grooves are added up, rad; empty without grooves."""
 
     inner_speed: Float[Array, ""] = eqx.field(metadata=label("rad/s", "inner ring speed"))
     radial_load: Float[Array, ""] = eqx.field(metadata=label("N", "load on the inner ring along the load line"))
@@ -82,6 +84,10 @@ class Instant(eqx.Module):
     )
     frame_angle: Float[Array, ""] = eqx.field(metadata=label("rad", "angle of the frame of the state"))
     frame_speed: Float[Array, ""] = eqx.field(metadata=label("rad/s", "speed of that frame"))
+
+
+Moment = TypeVar("Moment", bound=Instant)
+"""The family's class of an instant."""
 
 
 class LastState(eqx.Module):
@@ -126,7 +132,7 @@ class Energy(eqx.Module):
     error: Float[Array, ""] = eqx.field(metadata=label("1", "what the balance leaves open, over the drive work"))
 
 
-class History(AbstractHistory):
+class History(AbstractHistory, Generic[Moment]):
     """Result of a run in time: all instants up to the last good one, also where it stopped early.
 
     `instants` holds the results with the times in front: `history.instants.cage.speed` has the shape of `time`.
@@ -144,7 +150,7 @@ class History(AbstractHistory):
         metadata=label("rad/s", "speed of the frame of the state at the operating point")
     )
     operation: AbstractOperation
-    instants: Instant
+    instants: Moment
     energy: Energy
     checks: Mapping[str, Bool[Array, ""]]
     solver: str = eqx.field(static=True)
@@ -179,7 +185,7 @@ class History(AbstractHistory):
             identity=self.identity,
         )
 
-    def lane(self, index: int) -> "History":
+    def lane(self, index: int) -> "History[Moment]":
         """One run of a batch, up to the last instant that it reached."""
         one = jax.tree.map(lambda leaf: np.asarray(np.asarray(leaf)[index]), self)
         reached = np.isfinite(one.time)

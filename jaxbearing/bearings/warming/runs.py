@@ -78,8 +78,10 @@ def identity(scene: AbstractBearing) -> Identity:
     return identity_of(scene, MAY_CHANGE)
 
 
-def check_restart(scene: AbstractBearing, last: object) -> None:
-    """**Raises:** `ValueError` where the state is not one of this bearing and its nodes."""
+def check_restart(scene: AbstractBearing, last: object) -> WarmState:
+    """Returns the state.
+
+    **Raises:** `ValueError` where the state is not one of this bearing and its nodes."""
     if not isinstance(last, WarmState):
         of = getattr(last, "of", type(last).__name__)
         raise ValueError(f"restart: a state of a {of}, for a scene of a bearing with [thermal]")
@@ -90,6 +92,7 @@ def check_restart(scene: AbstractBearing, last: object) -> None:
         raise ValueError("restart: a state with numbers that are not finite")
     if last.identity is not None:
         require_same(last.identity, identity(scene), "bearing")
+    return last
 
 
 def wanted_times(begin: float, length: float, interval: float | None, instants: int = INSTANTS) -> np.ndarray:
@@ -147,7 +150,7 @@ def simulate_warm_up(
     interval: float | None,
     throw: bool,
     progress: Progress | None,
-    restart: WarmUpHistory | WarmState | None,
+    restart: object,
 ) -> WarmUpHistory:
     """See `jaxbearing.simulate`."""
     require_capacities(scene)
@@ -161,9 +164,8 @@ def simulate_warm_up(
     every = None if interval is None else static_number("interval", interval, float)
     if not (length > 0 and (every is None or every > 0)):
         raise ValueError(f"duration and interval must be > 0 s, got {length:g} and {every}")
-    last = restart.last_state() if isinstance(restart, WarmUpHistory) else restart
-    if last is not None:
-        check_restart(scene, last)
+    given = restart.last_state() if isinstance(restart, WarmUpHistory) else restart
+    last = None if given is None else check_restart(scene, given)
     begin = 0.0 if last is None else float(last.time)
     kinks = np.concatenate([np.asarray(law.kinks(), dtype=float) for law in chosen.laws])
     # length, start and number of instants of the run are no part of the program

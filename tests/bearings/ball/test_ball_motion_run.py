@@ -112,6 +112,8 @@ def test_results_have_their_places_in_files(run):
     data = history_to_dataset(history)
     for name in ("load_inner", "axial_place", "pocket_offset", "cage_tilt"):
         assert any(name in str(variable) for variable in data.data_vars), name
+    assert data.groove_loss_inner.dims == ("time", "groove_angle")
+    np.testing.assert_allclose(data.groove_energy_inner.groove_angle[[0, -1]], np.radians([-119.5, 119.5]))
 
 
 @pytest.mark.slow
@@ -129,6 +131,14 @@ def test_losses_by_ball_and_stresses_of_the_cage(run):
     summary = found["summary"]
     assert json.dumps(found, allow_nan=False)
     total = sum(own["total"] for own in summary["sliding_energy"].values())
+    for side in ("inner", "outer"):
+        across = np.asarray(getattr(instants, f"groove_loss_{side}"))
+        np.testing.assert_allclose(np.sum(across, axis=1), getattr(loss, f"{side}_raceway"), rtol=1e-10)
+        assert np.all(across >= 0)
+        own = summary["groove_energy"][side]
+        np.testing.assert_allclose(sum(own["energy"]), summary["sliding_energy"][side]["total"], rtol=1e-10)
+        angle = np.degrees(getattr(instants.elements, f"contact_angle_{side}"))
+        assert own["angle_deg"][0] < angle.min() < angle.max() < own["angle_deg"][-1]
     others = [np.trapezoid(getattr(loss, name), history.time) for name in ("cage_pilot", "drag")]
     # the run is almost steady, so that the trapezoidal rule over its instants is good
     np.testing.assert_allclose(total + sum(others), history.energy.dissipation, rtol=1e-4)

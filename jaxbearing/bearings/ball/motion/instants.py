@@ -26,6 +26,7 @@ from .energy import (
     race_losses,
     raceway_energy,
 )
+from .groove_loss import groove_loss
 from .neighbours import neighbour_place
 from .rates import BallDynamics, MovingBalls
 from .results import BallInstant
@@ -51,7 +52,9 @@ def observe(dynamics: BallDynamics, time: Scalar, state: ArrowPoint) -> BallInst
     axial, radial, lateral, moment, moment_lateral = load
     cage = now.places.cage
     walls, pocket = now.walls, now.pocket
-    races, sliding_power = now.speeds.races, race_losses(now)[0]
+    races, sliding_power, shear = now.speeds.races, race_losses(now)[0], now.friction.shear
+    strips = None if shear is None else shear.by_strip
+    in_groove = (None, None) if strips is None else groove_loss(dynamics.levers, now.meridian, strips)
     slide_to_roll = races.rolling * races.mean_speed / (jnp.square(races.mean_speed) + STILL**2)
     return BallInstant(
         inner_speed=now.rates.races[0],
@@ -89,6 +92,8 @@ def observe(dynamics: BallDynamics, time: Scalar, state: ArrowPoint) -> BallInst
         slide_to_roll_outer=slide_to_roll[1],
         sliding_power_inner=sliding_power[0],
         sliding_power_outer=sliding_power[1],
+        groove_loss_inner=in_groove[0],
+        groove_loss_outer=in_groove[1],
         pocket_power=pocket_losses(now),
         pocket_angle=None if pocket is None else jnp.arctan2(pocket.direction[1], pocket.direction[0]),
         land_load=None if now.lands is None else now.lands.load,

@@ -3,11 +3,13 @@
 from typing import ClassVar
 
 import equinox as eqx
+import numpy as np
 from jaxtyping import Array, Float
 
 from ...motion.history import Energy, Instant
 from ...solution import label
 from ..solution import BallPowerLoss, BallResults
+from .groove_loss import ANGLES
 from .layout import BALL_STATE, GLOBAL_STATE
 
 
@@ -22,6 +24,7 @@ class BallInstant(Instant):
 
     element_state: ClassVar[tuple[str, ...]] = BALL_STATE
     cage_state: ClassVar[tuple[str, ...]] = GLOBAL_STATE
+    groove_angles: ClassVar[np.ndarray] = ANGLES
 
     elements: BallResults
     power_loss: BallPowerLoss
@@ -67,6 +70,12 @@ class BallInstant(Instant):
     )
     sliding_power_outer: Float[Array, " element"] = eqx.field(
         metadata=label("W", "loss of the ball by sliding and spin on the outer raceway")
+    )
+    groove_loss_inner: Float[Array, " groove_angle"] | None = eqx.field(
+        metadata=label("W", "loss by sliding and spin on the inner raceway in each degree of its groove")
+    )
+    groove_loss_outer: Float[Array, " groove_angle"] | None = eqx.field(
+        metadata=label("W", "loss by sliding and spin on the outer raceway in each degree of its groove")
     )
     pocket_power: Float[Array, " element"] | None = eqx.field(
         metadata=label("W", "loss of the ball by sliding in its pocket")

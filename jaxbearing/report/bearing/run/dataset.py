@@ -12,7 +12,7 @@ from ....bearings.motion.history import History
 from ....numerics.status import Status
 from ...history_shocks import FACES, SHOCK, peaks_by_turn, sectors, whirl_ratio
 from ...labels import labelled
-from ...run_statistics import cage_stress, sliding_energy
+from ...run_statistics import cage_stress, groove_energy, sliding_energy
 from ...variables import attributes, flags, identity_text, variable, without_fill
 
 
@@ -28,11 +28,17 @@ def to_dataset(history: History) -> xr.Dataset:
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     count = dataset.sizes["element"]
     dataset = dataset.assign(_statistics(history)).assign(_of_elements_and_cage(history))
-    names = {"element": (np.arange(count), "number of the rolling element; azimuth says where it is")}
+    names: dict[str, tuple[np.ndarray | list[str], str, str]] = {
+        "element": (np.arange(count), "1", "number of the rolling element; azimuth says where it is")
+    }
     states = {"element_state": history.instants.element_state, "cage_state": history.instants.cage_state}
-    names |= {dim: (list(parts), "component of the state") for dim, parts in states.items()}
+    names |= {dim: (list(parts), "1", "component of the state") for dim, parts in states.items()}
+    if "groove_angle" in dataset.dims:
+        text = "contact angle at the middle of the interval over which the loss is added up"
+        names["groove_angle"] = (history.instants.groove_angles, "rad", text)
     coordinates = {
-        dim: xr.Variable((dim,), values, {"units": "1", "long_name": text}) for dim, (values, text) in names.items()
+        dim: xr.Variable((dim,), values, {"units": unit, "long_name": text})
+        for dim, (values, unit, text) in names.items()
     }
     dataset = dataset.assign_coords(coordinates).set_coords([n for n in dataset if str(n).startswith("operation_")])
     return without_fill(dataset)
@@ -73,6 +79,9 @@ def _of_elements_and_cage(history: History) -> dict[str, xr.Variable]:
         )
         for place, energy in sliding_energy(history).items()
     }
+    for side, energy in groove_energy(history).items():
+        text = f"energy that sliding takes over the run in each interval of angle of the {side} groove"
+        found[f"groove_energy_{side}"] = xr.Variable(("groove_angle",), energy, say("J", text))
     stress = cage_stress(history)
     if stress is not None:
         found["cage_hoop_stress"] = xr.Variable(("time",), stress.hoop, say("Pa", "stress of the cage by its rotation"))

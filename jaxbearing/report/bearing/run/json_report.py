@@ -14,6 +14,7 @@ from ...run_statistics import (
     SKID,
     cage_orbit,
     cage_stress,
+    groove_energy,
     load_statistics,
     skidding,
     sliding_energy,
@@ -78,6 +79,10 @@ def _in_motion(history: History) -> dict[str, Any]:
             }
             for place, own in energy.items()
         }
+    across = groove_energy(history)
+    if across:
+        angle = np.degrees(instants.groove_angles)
+        found["groove_energy"] = {side: _across(angle, own) for side, own in across.items()}
     skids = skidding(history)
     if skids:
         found["skidding"] = {"threshold": SKID} | skids
@@ -95,6 +100,18 @@ def _in_motion(history: History) -> dict[str, Any]:
             "bar_bending": float(stress.bar.max()),
         }
     return found
+
+
+def _across(angle: np.ndarray, energy: np.ndarray) -> dict[str, Any]:
+    """Energy in each interval of angle across a groove, from the first to the last with contact, and the largest."""
+    touched = np.flatnonzero(energy)
+    part = slice(touched[0], touched[-1] + 1) if touched.size else slice(0)
+    return {
+        "angle_deg": angle[part].tolist(),
+        "energy": energy[part].tolist(),
+        "largest": float(energy.max()),
+        "largest_at_deg": float(angle[np.argmax(energy)]),
+    }
 
 
 def _moved(instants: Instant) -> tuple[str, ...]:

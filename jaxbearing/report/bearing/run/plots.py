@@ -9,6 +9,7 @@ from ...backends.matplotlib.legends import clear_legend
 from ...backends.matplotlib.sheet import foot, grid_lines, head, title_of
 from ...colours import FAINT, INK, INNER, LOSS, OUTER
 from ...display import axis_unit, displayed
+from ...run_statistics import groove_energy
 from .json_report import by_side
 
 if TYPE_CHECKING:
@@ -28,7 +29,9 @@ def plot(history: History, title: str) -> "matplotlib.figure.Figure":
     time = 1e3 * np.asarray(history.time)
     head(figure, title, f"{time[-1]:.6g} ms, {int(history.accepted)} steps, {history.solver}")
     bottom = 0.08 + 0.019 * foot(figure, history.warnings if history.completed else [history.failure()])
-    grid = figure.add_gridspec(2, 3, left=0.06, right=0.98, top=0.85, bottom=bottom, wspace=0.26, hspace=0.38)
+    across = groove_energy(history)
+    size, gaps = {"left": 0.06, "right": 0.98, "top": 0.85, "bottom": bottom}, {"wspace": 0.26, "hspace": 0.38}
+    grid = figure.add_gridspec(2, 4 if across else 3, **size, **gaps)
     cage = instants.cage
     if cage is not None:
         draw_orbit(figure.add_subplot(grid[0, 0]), cage)
@@ -40,7 +43,26 @@ def plot(history: History, title: str) -> "matplotlib.figure.Figure":
     sliding = by_side(instants.elements, "sliding")
     if sliding:
         _sliding(figure.add_subplot(grid[1, 2]), instants.elements, sliding, element)
+    if across:
+        _over_grooves(figure.add_subplot(grid[:, 3]), np.degrees(instants.groove_angles), across)
     return figure
+
+
+def _over_grooves(axes: "matplotlib.axes.Axes", angle: np.ndarray, energy: dict[str, np.ndarray]) -> None:
+    unit, factor = axis_unit("J", float(max(one.max() for one in energy.values())))
+    for side, own in energy.items():
+        touched = np.flatnonzero(own)
+        colour = {"inner": INNER, "outer": OUTER}[side]
+        if touched.size:
+            part = slice(max(touched[0] - 1, 0), touched[-1] + 2)
+            axes.step(factor * own[part], angle[part], where="mid", color=colour, linewidth=1.0, label=f"{side} race")
+    axes.set_xlim(left=0.0)
+    axes.set_xlabel("energy of sliding in each degree", fontsize=9)
+    axes.set_ylabel("contact angle, deg", fontsize=9)
+    title_of(axes, f"Sliding across the grooves, {unit}")
+    grid_lines(axes)
+    if axes.lines:
+        clear_legend(axes)
 
 
 def draw_orbit(axes: "matplotlib.axes.Axes", cage: CageMotion) -> None:

@@ -98,6 +98,12 @@ def _print_motion(found: dict[str, Any], element: str, console: "Console") -> No
     if "sliding_energy" in found:
         parts = [f"{with_unit(own['total'], 'J')} {place}" for place, own in found["sliding_energy"].items()]
         console.print(f"Sliding takes {', '.join(parts)}.")
+    if "groove_energy" in found:
+        parts = [
+            f"{with_unit(own['largest'], 'J')} at {own['largest_at_deg']:.3g} deg {side}"
+            for side, own in found["groove_energy"].items()
+        ]
+        console.print(f"The degree of a groove that takes most of it: {', '.join(parts)}.")
     if "skidding" in found:
         shares = [f"{100 * found['skidding'][side]['share']:.3g} % {side}" for side in ("inner", "outer")]
         limit = f"{100 * found['skidding']['threshold']:g} %"

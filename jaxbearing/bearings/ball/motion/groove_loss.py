@@ -1,0 +1,37 @@
+r"""Loss by sliding over the cross-section of a groove.
+
+The traction law gives the power of every strip of a contact along rolling. A strip at the distance y from the middle
+lies at the angle $\alpha + s\,y/r$ of the groove, of radius r, with the contact angle $\alpha$ and s = 1 on the inner
+race, -1 on the outer one: there the traction law's axis across rolling points towards smaller angles. The power of a
+strip is spread evenly over its width, so that none is lost between strips and intervals of angle.
+"""
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from ....contacts.distributed import StripPower
+from ..friction import SIDES
+from .speeds import Levers, Meridian
+
+LIMIT = 120
+"""Largest angle of a groove, degrees: a thrust bearing's contact at 90 degrees is within it."""
+EDGES = np.radians(np.arange(-LIMIT, LIMIT + 1.0))
+"""Ends of the intervals of angle over which the loss is added up, rad: one degree each."""
+ANGLES = 0.5 * (EDGES[:-1] + EDGES[1:])
+"""Their middles, rad."""
+
+
+def groove_loss(levers: Levers, meridian: Meridian, strips: StripPower) -> Float[Array, "2 groove_angle"]:
+    """Power on the inner and the outer race in every interval of `EDGES`, W, of all balls together.
+
+    **Arguments:** `strips`: of both contacts of every ball, shape (2, ball, strip).
+    """
+    radius = (levers.grooves.offset + levers.ball_radius)[:, None, None]
+    angle = jnp.arctan2(meridian.sine, meridian.cosine)[..., None]
+    total = jnp.sum(strips.width, axis=-1, keepdims=True)
+    middle = jnp.cumsum(strips.width, axis=-1) - 0.5 * strips.width - 0.5 * total
+    width = strips.width / radius
+    start = angle + SIDES[..., None] * middle / radius - 0.5 * width
+    below = jnp.clip((EDGES.reshape(-1, 1, 1, 1) - start[None]) / width[None], 0.0, 1.0)
+    return jnp.diff(jnp.sum(strips.power[None] * below, axis=(-2, -1)), axis=0).T
