@@ -59,7 +59,7 @@ def _over_grooves(axes: "matplotlib.axes.Axes", angle: np.ndarray, energy: dict[
     axes.set_xlim(left=0.0)
     axes.set_xlabel("energy of sliding in each degree", fontsize=9)
     axes.set_ylabel("contact angle, deg", fontsize=9)
-    title_of(axes, f"Sliding across the grooves, {unit}")
+    title_of(axes, f"Sliding by groove angle, {unit}")
     grid_lines(axes)
     if axes.lines:
         clear_legend(axes)
@@ -113,12 +113,12 @@ def _power(axes: "matplotlib.axes.Axes", time: np.ndarray, instants: Instant) ->
 
 def _pocket_over_time(axes: "matplotlib.axes.Axes", time: np.ndarray, peaks: PocketPeaks, element: str) -> None:
     front, rear = np.asarray(peaks.front).max(axis=1), np.asarray(peaks.rear).max(axis=1)
-    axes.plot(time, front, color=OUTER, linewidth=0.8, label="front")
-    axes.plot(time, -rear, color=INNER, linewidth=0.8, label="rear (drawn downwards)")
+    axes.plot(time, front, color=OUTER, linewidth=0.8, label=f"front, of all {element}s")
+    axes.plot(time, -rear, color=INNER, linewidth=0.8, label="rear, downwards")
     axes.set_xlabel("time, ms", fontsize=9)
-    title_of(axes, f"Largest pocket load of all {element}s, N")
+    title_of(axes, "Largest pocket load, N")
     grid_lines(axes)
-    clear_legend(axes, ncols=2)
+    clear_legend(axes)
 
 
 def _pocket_over_azimuth(axes: "matplotlib.axes.Axes", instants: Any, element: str) -> None:
@@ -138,7 +138,7 @@ def _pocket_over_azimuth(axes: "matplotlib.axes.Axes", instants: Any, element: s
     axes.set_xlim(-180.0, 180.0)
     axes.set_xticks([-180, -90, 0, 90, 180])
     axes.set_xlabel("azimuth from the load line, deg", fontsize=9)
-    title_of(axes, "Pocket load, N: front up, rear down")
+    title_of(axes, "Pocket load, N (rear down)")
     grid_lines(axes)
     clear_legend(axes, markerscale=5)
 
