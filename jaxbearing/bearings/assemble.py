@@ -1,4 +1,4 @@
-"""From the root of a bearing's equations to its `Solution`, for every kind of bearing."""
+"""Builds the `Solution` of any bearing from its solved equations."""
 
 from typing import Any, Generic, NamedTuple
 
@@ -32,8 +32,9 @@ from .supplied import supply_result
 
 
 class Results(NamedTuple, Generic[Elements, Losses]):
-    """Results of a family, as fields of the `Solution`, before `assemble` masks those of a failed solve. `totals` holds
-    the losses and torques; the range checks look at `facts`."""
+    """What a family computes. The names are those of the fields of `Solution`, but for `totals`, the losses and
+    torques, and `facts`, the quantities that the range checks need. `assemble` sets the numbers to NaN if the solve
+    failed."""
 
     elements: Elements
     totals: FrictionTotals[Losses]
@@ -56,14 +57,15 @@ def assemble(
     failure_causes: dict[str, FailureCause] | None = None,
     **names: Any,
 ) -> Solution:
-    """The `Solution` of a solve: how it ended, and NaN for every result where it failed.
+    """Builds the `Solution` from the solved equations. If the solve failed, every result is NaN and no check of results
+    applies; how it ended and the checks of inputs remain.
 
     **Arguments:**
-    - `results`: those of the family.
+    - `scene`: the bearing; `result`: of Newton's iteration; `results`: those of the family.
     - `port`: force and stiffness of the ring, in all five freedoms.
     - `ring`: displacement of the inner ring that results show.
-    - `iterations`: total over all solves of the family; by default those of `result`.
-    - `failure_causes`: of `Solution`; none applies where the solve converged.
+    - `iterations`: steps of all solves that this bearing needed; by default those of `result`.
+    - `failure_causes`: possible causes of a failed solve (`Solution.failure_causes`).
     - `names`: further fields of the `Solution`: always `ring_freedom`, and `stiffness_freedom` and `equation_names`
       where the family has them.
     """

@@ -4,9 +4,9 @@ freedoms) of the inner ring are unknown.
 Terms: a *scene* is the complete description of a problem. The *port* is the point of the inner ring at which loads and
 displacements are exchanged with a shaft (see `ring`). The *row* of a bearing is the simplified model of its rolling
 elements without films and friction. The equilibrium of a shaft is first sought with it. The *seats* are the surfaces of
-shaft and housing that the rings sit on; their fits are in `[fits]` of a scene file. A *catalogue load* is a rated load
-from a manufacturer's catalogue. The *load line* is the radial direction at azimuth 0. A tilt is *exact* if the grooves
-move with the rotation of the ring, and linearised if they move with its first-order displacement.
+shaft and housing that the rings sit on; their fits are in `[fits]` of a scene file. The *load line* is the radial
+direction at azimuth 0. A tilt is *exact* if the grooves move with the rotation of the ring, and linearised if they move
+with its first-order displacement.
 """
 
 import abc
@@ -45,7 +45,7 @@ from .solution import RING_FREEDOMS, TILTS, LaminaLoads, Solution
 from .warm import settled, solve_warm
 
 TAKEN = "simulate takes: any bearing with [thermal], a cylindrical roller bearing, a ball bearing, a line contact"
-"""Second half of the message about a scene that `simulate` does not take."""
+"""What `simulate` accepts, for error messages."""
 Bearing = TypeVar("Bearing", bound="AbstractBearing")
 
 
@@ -82,7 +82,8 @@ class AbstractBearing(AbstractScene):
         return self.solved_running(lambda running: running.solve_ring(options))
 
     def simulated(self, duration: float | None, **settings: Any) -> AbstractHistory:
-        """Simulates the temperatures over time. The scene must have a thermal network."""
+        """Simulates the temperatures over time, which needs a thermal network. Families that move override it and
+        simulate their rolling elements where the scene has no network."""
         if self.thermal is None:
             raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; {TAKEN}")
         from .warming.runs import simulate_warm_up
@@ -90,6 +91,7 @@ class AbstractBearing(AbstractScene):
         return simulate_warm_up(self, duration, **settings)
 
     def check_restart(self, restart: object, duration: float | None = None) -> None:
+        """**Raises:** `TypeError` or `ValueError` if a run of this scene cannot go on from that state."""
         if self.thermal is None:
             raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; {TAKEN}")
         from .warming.runs import check_restart
@@ -97,10 +99,13 @@ class AbstractBearing(AbstractScene):
         check_restart(self, restart)
 
     def solved_running(self, solve: "Callable[[AbstractBearing], Solution]") -> Solution:
-        """Solves the bearing with its running dimensions, which depend on fits and temperatures. With a thermal network
-        the temperatures are unknowns too.
+        """Solves the bearing with its running dimensions. With fits, the dimensions change by the fits, the
+        temperatures and the speed; without fits they stay as given. With a thermal network the temperatures are
+        unknowns too.
 
-        **Arguments:** `solve`: function that solves a scene without thermal network and seats.
+        If the fits are impossible, the operating point is NaN, so that the solve ends at once and fails.
+
+        **Arguments:** `solve`: function that solves a scene with neither a thermal network nor fits.
         """
         if self.thermal is not None:
             return solve_warm(self, solve)
@@ -163,23 +168,23 @@ class AbstractBearing(AbstractScene):
 
     @abc.abstractmethod
     def row(self, expansion: Array) -> AbstractRow:
-        """The bearing at its speeds as a dry, frictionless row of elements under a held inner ring.
+        """The frictionless model of the bearing for a given displacement of the inner ring, from which the solve of a
+        shaft starts. Centrifugal forces act at the speeds of the bearing.
 
         **Arguments:** `expansion`: growth of the inner raceway's radius less that of the outer one, m.
         """
 
     @abc.abstractmethod
     def range_checks(self) -> RangeChecks:
-        """Checks whether results lie in the range in which the models of this family hold; those that other families
-        have too are not among them."""
+        """The checks that only this family has of whether results lie in the range in which its models hold."""
 
     @abc.abstractmethod
     def rated_contacts(self, elements: Any, laminae: LaminaLoads | None, force: Array | None = None) -> RatedContacts:
         """Sizes and loads of the raceway contacts for the life calculation.
 
         **Arguments:** fields of a solution with these names: `elements`, the state of the rolling elements; `laminae`,
-        the loads on the slices of the rollers; `force`, the loads that hold the ring. For a held ring, the catalogue
-        load is defined only if `force` is given.
+        the loads on the slices of the rollers; `force`, the loads that hold the ring. If the displacement of the ring
+        is given, the equivalent load P of ISO 281 follows from `force`; without `force` it is not known.
         """
 
     @abc.abstractmethod
@@ -208,7 +213,8 @@ class AbstractBearing(AbstractScene):
 
     @property
     def one_way_angle(self) -> Array:
-        """Nominal contact angle of a bearing that carries axial load in one direction only, rad; 0 of others."""
+        """Nominal contact angle of a bearing that carries axial load in one direction only, rad. Families whose
+        bearings carry it in both directions return 0 for these."""
         return self.drawing_angle
 
     def point_contacts(self, elements: Any) -> PointContact | None:
@@ -242,7 +248,7 @@ class AbstractBearing(AbstractScene):
     @property
     @abc.abstractmethod
     def port_distance(self) -> Array:
-        """Axial distance along the axis $e_x$ from the port to the point of the ring at which the family writes its
+        """Distance along the axis $e_x$ from the port to the point of the ring at which the family writes its
         equations, m. The field `ring` of a solution of the bearing alone gives the displacement of that point."""
 
     @property
@@ -252,7 +258,7 @@ class AbstractBearing(AbstractScene):
 
     @abc.abstractmethod
     def unused_parts(self) -> tuple[str, ...]:
-        """Tables that the scene names but that have no effect."""
+        """Tables of the scene that have no effect."""
 
     @abc.abstractmethod
     def assumptions(self) -> tuple[str, ...]:
@@ -260,7 +266,7 @@ class AbstractBearing(AbstractScene):
 
     def with_lateral_freedom(self: Bearing) -> Bearing:
         """The scene with the radial and the lateral displacement of the ring as unknowns, which the stiffness of a
-        shaft support requires. By default the scene is returned unchanged."""
+        shaft support requires. Families with fewer unknowns override it; here the scene is returned unchanged."""
         return self
 
     @property
@@ -280,7 +286,8 @@ class AbstractBearing(AbstractScene):
 
         A freedom whose displacement is given is left out, and so is a freedom that symmetry keeps at 0. If all rolling
         elements are loaded alike, only the axial one of the three displacements remains. If the load line is a line of
-        symmetry, the lateral freedom is left out. A tilt is an unknown only if its moment is given.
+        symmetry, the lateral freedom is left out. A tilt is an unknown only if its moment is given; otherwise the tilt
+        is given, and 0 if the scene says nothing.
         """
         operation: AbstractOperation = self.operation
         forces = ["axial"]

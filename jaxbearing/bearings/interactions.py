@@ -1,8 +1,9 @@
 """Friction at each place of a bearing: dissipated power and torques on the rings. Losses and drive power are sums.
 
 The power of an interaction is computed from its own force and its own sliding speed. Its torques are computed from its
-forces on the rings. The drive power is the sum of torque times speed over both rings. It must equal the sum of the
-dissipations. This equality is not assumed anywhere, so it tests every sign in a model.
+forces on the rings. The drive power is the sum of torque times speed over both rings. In a steady state it must equal
+the sum of the dissipations. This equality is not assumed anywhere. Tests compare the two, and a wrong sign of a torque
+shows as a difference.
 """
 
 from collections.abc import Callable, Sequence
@@ -17,14 +18,15 @@ Losses = TypeVar("Losses")
 
 
 class Interaction(NamedTuple):
-    """Friction at one place of a bearing.
+    """Friction, or a constraint force without power, at one place of a bearing.
 
     **Arguments:**
     - `location`: field of the family's losses that holds its power; "" for constraint forces, which do no work.
     - `power`: dissipation, W.
     - `inner_torque`, `outer_torque`: torque that drives the ring against this friction, N m; `None` if it does not act
       on that ring.
-    - `by_race`: its power at the inner and at the outer raceway, W; `None` if it is not split.
+    - `by_race`: power of the rolling resistance at the inner and at the outer raceway, W; `None` of all others. At most
+      one interaction of a bearing has it.
     """
 
     location: str
@@ -35,9 +37,9 @@ class Interaction(NamedTuple):
 
 
 class FrictionTotals(NamedTuple, Generic[Losses]):
-    """Sums over all interactions: losses and drive power, W, and torques on the rings, N m. Power and torques are
-    `None` if no loss is modelled. `rolling_by_race`: power of the rolling resistance at the inner and the outer
-    raceway, W. It is the `by_race` of the first interaction that has one."""
+    """Sums over all interactions: losses and drive power, W, and torques on the rings, N m. If no loss is modelled, the
+    drive power and the torques are `None`, and so are all fields of `power_loss`. `rolling_by_race`: the `by_race` of
+    the interaction that has it, W."""
 
     power_loss: Losses
     drive_power: Float[Array, ""] | None = None

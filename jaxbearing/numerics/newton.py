@@ -43,9 +43,10 @@ class NewtonResult(NamedTuple):
 
     `jacobian`, `residual_norm` (the largest scaled residual), `inner_residual`, `worst_equation` and `worst_element`
     are values at the last trial of the given system, not at a trial of an easier one. If the lane converged, `point`
-    lies one Newton step (shorter than the step tolerance) beyond that trial. `worst_equation` counts the equations of
-    one element first and the global ones after them; `worst_element` has a meaning only if that is an equation of one
-    element.
+    lies one Newton step (shorter than the step tolerance) beyond that trial. `inner_residual` is the largest residual
+    of equations that the system solves inside its own (nested solves). `worst_equation` is an index: the equations of
+    one element come first, the global ones after them. `worst_element` has a meaning only if that is an equation of
+    one element.
     """
 
     point: ArrowPoint
@@ -220,11 +221,12 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
     """Solve a block-arrow system from its own first guess.
 
     Returns a copy of the system and the result of the iteration. Results must be evaluated with the returned copy: it
-    has the same values, but passes no derivatives if the solve failed. The derivative of the solution (and of the
-    Jacobian at the solution) is that of the implicit function, in both modes and to any order. The iteration itself is
-    never differentiated, and a solve that is not differentiated does not pay for derivatives. Where a program has found
-    the root before (module `known_roots`), it is taken with the same derivatives and not searched again; the Jacobian
-    then has a derivative only if the caller asked for derivatives of the stiffness, and NaN otherwise.
+    has the same values, but passes no derivatives if the solve failed. The derivative of the solution is
+    that of the implicit function, in both modes and to any order. It is computed with the Jacobian of the last trial,
+    so that its error is of the order of the last step. The Jacobian that is returned has a derivative too. The
+    iteration itself is never differentiated, and a solve that is not differentiated does not pay for derivatives. Where
+    another program has found the root before (module `known_roots`), it is not searched again. The solution then has
+    the same derivatives; those of the Jacobian are NaN unless the caller asked for derivatives of the stiffness.
 
     If the system states that each equation grows with its own unknown at the root (`increasing`), Newton's step is
     changed wherever a pivot of the Jacobian is negative (`arrow.uphill_step`). If the iteration fails and the system

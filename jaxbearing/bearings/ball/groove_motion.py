@@ -2,11 +2,11 @@ r"""Exact motion of the inner grooves of a ball bearing: from ball centres to th
 
 Frames. $e_x$ along the bearing axis, Y along azimuth 0, Z along azimuth 90 degrees; positions count from the centre of
 the ring without displacement. The ring has a circle of groove centres of radius $R_i$ around its axis, in a plane at
-the distance s from the centre of the ring, along the axis: 0 if the ring has one groove arc. The centre moves by $d =
-\delta_ae_x + \delta_rY + \delta_lZ$; the ring turns by the rotation vector $\theta_2Y - \theta_1Z$ of length t, and its
-axis becomes $n' = \cos t\,e_x - \frac{\sin t}{t}(\theta_1Y + \theta_2Z)$. A ball at azimuth $\psi$ has its centre at B.
-With $p = B - d$, $h = p\cdot n'$, $u = p - hn'$, $\rho = |u|$ and $k = R_i/\rho$, the nearest point of the circle is $G
-= d + sn' + ku$, and the arm from the ball to it is $G - B = (s - kh)n' + (k - 1)p$.
+the distance s from the centre of the ring, along the axis: 0 if the ring has one groove arc. The centre moves by
+$d = \delta_ae_x + \delta_rY + \delta_lZ$; the ring turns by the rotation vector $\theta_2Y - \theta_1Z$ of length t, and
+its axis becomes $n' = \cos t\,e_x - \frac{\sin t}{t}(\theta_1Y + \theta_2Z)$. A ball at azimuth $\psi$ has its centre
+at B. With $p = B - d$, $h = p\cdot n'$, $u = p - hn'$, $\rho = |u|$ and $k = R_i/\rho$, the nearest point of the circle
+is $G = d + sn' + ku$, and the arm from the ball to it is $G - B = (s - kh)n' + (k - 1)p$.
 
 The first-order form, in which the groove centre moves by $R_i\tau$ along the axis, $\tau = \theta_1\cos\psi +
 \theta_2\sin\psi$, leaves out the motion $R_i(1 - \cos t)\cos^2\psi$ towards the axis (of a tilt $\theta_1$): 0.4 um at
@@ -16,10 +16,11 @@ neither a moment nor a misalignment, where ratings or `reaction` are asked for i
 tilt it leaves out $d_t^2/(2R_i)$ with the displacement $d_t$ of the ring along the orbit: 1 nm in the bearing
 `turbine_ball` at 20 kN axial and 8 kN radial load, 6e-5 of a ball's load.
 
-Forces on the ring. With $W = [F\cdot p - h\,F\cdot n']/\rho^2$ and $c = k(F\cdot n' - Wh)$, a force F on the nearest
-point of the circle does the work $F\cdot\delta(G - B) = P_d\cdot\delta d + P_n\cdot\delta n'$ with
-$P_d = cn' + kWp - (k - 1)F$ and $P_n = (s - kh)F - cp$: the derivatives of the arm. They are written out, because
-forward differentiation of these formulas takes 0.6 of the operations of forward differentiation through a reverse pass.
+Loads on the ring. A force F is that of the ring on the ball; the loads are those that hold the ring against the balls.
+With $W = [F\cdot p - h\,F\cdot n']/\rho^2$ and $c = k(F\cdot n' - Wh)$, a force F on the nearest point of the circle
+does, with the ball in its place, the work $F\cdot\delta(G - B) = P_d\cdot\delta d + P_n\cdot\delta n'$, where
+$P_d = cn' + kWp - (k - 1)F$ and $P_n = (s - kh)F - cp$ are the derivatives of the arm. They are written out: to
+differentiate these formulas takes 0.6 of the operations of differentiating a reverse pass.
 """
 
 from collections.abc import Sequence
@@ -35,9 +36,9 @@ from ..ring import LENGTH_UNIT, InnerRing
 from .arcs import added
 
 TILT_FLOOR = 1e-9
-"""The square of this is added to that of the tilt, rad, so that sin(t)/t has a first derivative at t = 0. Sine and
-cosine change by 1e-17. Near this tilt second derivatives of sin(t)/t are round-off; beside those of the stiffness of
-the contacts this is at most 1e-4 of the second derivatives of the loads."""
+"""The square of this is added to that of the tilt, rad, so that sin(t)/t has a first derivative at t = 0. The values
+change by less than 1e-17. Second derivatives of sin(t)/t near this tilt are inaccurate; second derivatives of the loads
+of a bearing are right to 1e-4 there, because the stiffness of the contacts dominates them."""
 
 _OUTWARD = np.asarray([[0.0], [1.0], [0.0]])
 # `half_planes` is a sum of three matrices: one that keeps the axial component, one times the cosine of the azimuth and
@@ -99,12 +100,13 @@ class RingFrame(NamedTuple):
 
 
 def length_of(vector: Float[Array, "component ball"]) -> Float[Array, " ball"]:
-    """Length over the first axis, with gradient 0 at the origin."""
+    """Length of every vector; its gradient at the origin is 0."""
     return jnp.sqrt(jnp.sum(jnp.square(vector), axis=0) + NORM_FLOOR**2)
 
 
 def ring_frame(displaced: Float[Array, "5 ball"]) -> RingFrame:
-    """The ring from its displacements in the half-plane of every ball (`half_planes`), m and rad."""
+    """The displaced ring, from its displacements in the half-plane of every ball (`half_planes`), m and rad. A
+    half-plane ends at the bearing axis and goes through the centre of the ball."""
     tilt = displaced[3:]
     square = jnp.sum(jnp.square(tilt), axis=0) + TILT_FLOOR**2
     size = jnp.sqrt(square)
@@ -190,7 +192,7 @@ class RingMotion(NamedTuple):
         return ring_frame(self.held + LENGTH_UNIT * jnp.sum(self.directions * shift[None], axis=1))
 
     def on_freedoms(self, loads: Float[Array, "5 ball"]) -> Float[Array, "freedom ball"]:
-        """Forces of every ball on the unknown freedoms, N, from `conjugate_loads`."""
+        """Contributions of every ball to the forces that hold the unknown freedoms, N, from `conjugate_loads`."""
         return jnp.sum(self.directions * loads[:, None], axis=0)
 
 

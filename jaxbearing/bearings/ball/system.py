@@ -93,7 +93,7 @@ class InnerArm(NamedTuple):
 
     @property
     def share(self) -> Float[Array, " ball"]:
-        """Part of the distance that lies in the half-plane."""
+        """Length of the part in the half-plane over the whole length."""
         return length_of(self.in_plane) / self.length
 
 
@@ -141,8 +141,8 @@ class Push(NamedTuple):
 
 
 def unit_normals(direction: Float[Array, "contact ball"]) -> Float[Array, "2 contact ball"]:
-    """Axial and outward components of the normals in the half-planes. **Arguments:** `direction`: from the radius
-    towards the axis, rad."""
+    """Axial and outward components of the normals in the half-planes. **Arguments:** `direction`: angle from
+    the outward radius towards $+e_x$, rad."""
     return jnp.stack([jnp.sin(direction), jnp.cos(direction)])
 
 
@@ -172,12 +172,12 @@ class AbstractBallSystem(AbstractBetweenRings):
     inertia: Float[Array, ""]
     gyroscopic: AbstractGyroscopic | None
     couple_share: Float[Array, ""]
-    """Part of the gyroscopic couple that acts: 1, less in an easier system."""
+    """Part of the gyroscopic couple that acts: 1, and less in the easier systems of a homotopy."""
     out_of_round: Float[Array, " ball"] | None
     outer: ElasticRing | None
     inner: ElasticRing | None
     multiplicity: int = eqx.field(static=True)
-    """Balls that each ball stands for."""
+    """Number of balls of the bearing that each ball of the equations stands for, by symmetry."""
     attitude: Attitude = eqx.field(static=True)
 
     @property
@@ -194,7 +194,8 @@ class AbstractBallSystem(AbstractBetweenRings):
         return self.grooves.arcs
 
     def free_centre(self) -> Float[Array, "2 1"]:
-        """Centre of an unloaded ball at the free contact angle, m."""
+        """Centre of an unloaded ball, on the line between the groove centres of the ring without displacement, from the
+        outer groove centre, m."""
         return self.grooves.offset[1] * self.grooves.free_normal
 
     def groove_centres(self, shift: Float[Array, "freedom ball"]) -> Float[Array, "p ball"]:
@@ -286,8 +287,8 @@ class AbstractBallSystem(AbstractBetweenRings):
     def reach(
         self, shared: Float[Array, "p ball"], centre: Float[Array, "2 ball"]
     ) -> tuple[tuple[InnerArm, ...], OnRing]:
-        """From ball centres, counted from the outer groove centre (axial, radial), m, to the inner arcs' centres;
-        and what forces there contribute to those on the ring's freedoms."""
+        """From ball centres, measured from the outer groove centre (axial, radial), m, to the centres of the inner
+        arcs; and what forces there contribute to those that hold the ring's freedoms."""
         return self.inner_arms(shared[: len(self.freedoms)], self.from_round(centre, shared))
 
     def touch(self, shared: Float[Array, "p ball"], centre: Float[Array, "2 ball"]) -> Touch:
