@@ -3,10 +3,10 @@ r"""Exact motion of the inner grooves of a ball bearing: from ball centres to th
 Frames. $e_x$ along the bearing axis, Y along azimuth 0, Z along azimuth 90 degrees; positions count from the centre of
 the ring without displacement. The ring has a circle of groove centres of radius $R_i$ around its axis, in a plane at
 the distance s from the centre of the ring, along the axis: 0 if the ring has one groove arc. The centre moves by
-$d = \delta_ae_x + \delta_rY + \delta_lZ$; the ring turns by the rotation vector $\theta_2Y - \theta_1Z$ of length t, and
-its axis becomes $n' = \cos t\,e_x - \frac{\sin t}{t}(\theta_1Y + \theta_2Z)$. A ball at azimuth $\psi$ has its centre
-at B. With $p = B - d$, $h = p\cdot n'$, $u = p - hn'$, $\rho = |u|$ and $k = R_i/\rho$, the nearest point of the circle
-is $G = d + sn' + ku$, and the arm from the ball to it is $G - B = (s - kh)n' + (k - 1)p$.
+$d = \delta_ae_x + \delta_rY + \delta_lZ$; the ring turns by the rotation vector $\theta_2Y - \theta_1Z$ of length t,
+and its axis becomes $n' = \cos t\,e_x - \frac{\sin t}{t}(\theta_1Y + \theta_2Z)$. A ball at azimuth $\psi$ has its
+centre at B. With $p = B - d$, $h = p\cdot n'$, $u = p - hn'$, $\rho = |u|$ and $k = R_i/\rho$, the nearest point of the
+circle is $G = d + sn' + ku$, and the arm from the ball to it is $G - B = (s - kh)n' + (k - 1)p$.
 
 The first-order form, in which the groove centre moves by $R_i\tau$ along the axis, $\tau = \theta_1\cos\psi +
 \theta_2\sin\psi$, leaves out the motion $R_i(1 - \cos t)\cos^2\psi$ towards the axis (of a tilt $\theta_1$): 0.4 um at
