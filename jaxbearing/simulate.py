@@ -84,6 +84,17 @@ def simulate(
 ) -> "History[RollerInstant]": ...
 @overload
 def simulate(
+    scene: "AbstractMovingBearing",
+    duration: float | None = None,
+    *,
+    simulation: "Simulation | None" = None,
+    interval: float | None = None,
+    throw: bool = True,
+    progress: Progress | None = None,
+    restart: "History | LastState",
+) -> "History": ...
+@overload
+def simulate(
     scene: "TaperedRollerBearing",
     duration: float | None = None,
     *,

@@ -67,6 +67,9 @@ def test_types_say_what_a_run_gives():
         said.append((text(one.args.args[0].annotation), given, text(one.returns)))
     assert ("AbstractBearing", (), "History | WarmUpHistory") in said
     assert ("AbstractMovingBearing", ("History | LastState",), "History") in said
+    for scene, instant in (("BallBearing", "BallInstant"), ("CylindricalRollerBearing", "RollerInstant")):
+        assert (scene, (), f"History[{instant}] | WarmUpHistory") in said
+        assert (scene, ("History | LastState",), f"History[{instant}]") in said
     assert ("AbstractBearing", ("WarmUpSimulation",), "WarmUpHistory") in said
     assert ("TaperedRollerBearing", (), "WarmUpHistory") in said
 
