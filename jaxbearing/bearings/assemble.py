@@ -32,7 +32,7 @@ from .supplied import supply_result
 
 
 class Results(NamedTuple, Generic[Elements, Losses]):
-    """What a family computes. The names are those of the fields of `Solution`, but for `totals`, the losses and
+    """Results that a family computes. They have the names of the fields of `Solution`, but for `totals`, the losses and
     torques, and `facts`, the quantities that the range checks need. `assemble` sets the numbers to NaN if the solve
     failed."""
 

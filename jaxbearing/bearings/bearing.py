@@ -45,7 +45,7 @@ from .solution import RING_FREEDOMS, TILTS, LaminaLoads, Solution
 from .warm import settled, solve_warm
 
 TAKEN = "simulate takes: any bearing with [thermal], a cylindrical roller bearing, a ball bearing, a line contact"
-"""What `simulate` accepts, for error messages."""
+"""Second half of error messages: it lists the scenes that `simulate` accepts."""
 Bearing = TypeVar("Bearing", bound="AbstractBearing")
 
 

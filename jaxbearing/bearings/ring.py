@@ -105,7 +105,7 @@ class InnerRing(eqx.Module):
 
     def of_unknown(self, every: Float[Array, "5 ..."]) -> Float[Array, "freedom ..."]:
         """Selects the rows of the unknown freedoms from an array with a row for each of the five freedoms."""
-        return every[self.places]
+        return every if self.freedoms == RING_FREEDOMS else every[self.places]
 
     def of_each(self, value: Callable[[str], Scalar]) -> Float[Array, " freedom"]:
         """Values of `value(name)` for the unknown freedoms."""

@@ -20,6 +20,7 @@ from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..parts import azimuths, drag_density
 from ..ring import LENGTH_UNIT, InnerRing, inner_ring
 from ..ring_shape import out_of_round, shaped_parts
+from ..solution import RING_FREEDOMS
 from .arched import ArchedBallSystem
 from .core import FORCE_FLOOR, BallCore
 from .groove_motion import RingMotion, ring_motion
@@ -72,7 +73,8 @@ def row_of(
     """Balls at these azimuths, rad. **Arguments:** `turning`: of `ring_directions`; `exact`: whether the grooves move
     with the exact rotation of the ring."""
     every = ring_directions(azimuth, turning)
-    held_shift = jnp.einsum("f,fcn->cn", ring.held, every)
+    free = ring.freedoms == RING_FREEDOMS
+    held_shift = jnp.zeros(every.shape[1:]) if free else jnp.einsum("f,fcn->cn", ring.held, every)
     motion = ring_motion(ring, azimuth) if exact else None
     return Row(azimuth, ring, ring.of_unknown(every), held_shift, motion, multiplicity)
 

@@ -11,10 +11,10 @@ circle is $G = d + sn' + ku$, and the arm from the ball to it is $G - B = (s - k
 The first-order form, in which the groove centre moves by $R_i\tau$ along the axis, $\tau = \theta_1\cos\psi +
 \theta_2\sin\psi$, leaves out the motion $R_i(1 - \cos t)\cos^2\psi$ towards the axis (of a tilt $\theta_1$): 0.4 um at
 6.5 mrad and $R_i$ = 19 mm, which is of the order of the deformation. The first-order form is used where the scene has
-neither a moment nor a misalignment, where ratings or `reaction` are asked for it (`rating.tilt = "iso"`, `tilt =
-"linear"`), in runs in time and in the first stage of a solve of a shaft. Without a
-tilt it leaves out $d_t^2/(2R_i)$ with the displacement $d_t$ of the ring along the orbit: 1 nm in the bearing
-`turbine_ball` at 20 kN axial and 8 kN radial load, 6e-5 of a ball's load.
+neither a moment nor a misalignment, where the user chooses it (`rating.tilt = "iso"`; `tilt="linear"` of `reaction`),
+in runs in time and in the first stage of a solve of a shaft. Without a tilt it leaves out $d_t^2/(2R_i)$ with the
+displacement $d_t$ of the ring along the orbit: 1 nm in the bearing `turbine_ball` at 20 kN axial and 8 kN radial load,
+6e-5 of a ball's load.
 
 Loads on the ring. A force F is that of the ring on the ball; the loads are those that hold the ring against the balls.
 With $W = [F\cdot p - h\,F\cdot n']/\rho^2$ and $c = k(F\cdot n' - Wh)$, a force F on the nearest point of the circle

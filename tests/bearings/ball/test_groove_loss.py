@@ -1,5 +1,6 @@
 """Where across a groove sliding takes power: places of strips, sums, and the side to which the strips count."""
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -15,6 +16,10 @@ from jaxbearing.contacts.distributed import StripPower
 SCENE = jb.load_scene("turbine_ball")
 CORE = build_core(SCENE)
 LEVERS = Levers(CORE.grooves, 0.5 * CORE.kinematics.ball_diameter, 0.5 * CORE.kinematics.pitch_diameter)
+RADII = float(SCENE.geometry.ball_diameter) * np.array(
+    [float(SCENE.geometry.conformity_inner), float(SCENE.geometry.conformity_outer)]
+)
+"""Of the grooves of both races, m."""
 
 
 def losses(power, width, angle):
@@ -29,10 +34,7 @@ def losses(power, width, angle):
 def test_strips_lie_where_their_angles_are():
     """One strip of three has all the power: on the inner race the last one lies at larger angles, on the outer one at
     smaller ones; both with the width of the strip over the radius of the groove."""
-    geometry = SCENE.geometry
-    conformity = np.array([float(geometry.conformity_inner), float(geometry.conformity_outer)])
-    radius = conformity * float(geometry.ball_diameter)
-    width = np.radians([5.0, 4.0, 3.0])[None] * radius[:, None]
+    width = np.radians([5.0, 4.0, 3.0])[None] * RADII[:, None]
     found = losses([[0.0, 0.0, 6.0], [0.0, 0.0, 9.0]], width, np.radians([30.0, 20.0]))
     touched = [np.degrees(ANGLES[np.flatnonzero(one > 1e-9)]) for one in found]
     np.testing.assert_allclose(touched[0], [33.5, 34.5, 35.5])
@@ -47,6 +49,25 @@ def test_nothing_is_lost_between_intervals():
     found = losses(power, width, [1.55, -0.7])
     np.testing.assert_allclose(np.sum(found, axis=1), np.sum(power, axis=1), rtol=1e-12)
     assert EDGES[0] < -np.pi / 2 < np.pi / 2 < EDGES[-1]
+
+
+def test_derivatives():
+    """A turn of the contact moves all of its loss along: the mean angle times the loss grows by the loss; the loss of
+    all intervals together does not change. Strips of whole degrees make both exact."""
+    width = jnp.asarray(np.radians([5.0, 4.0, 3.0])[None, None] * RADII[:, None, None])
+    power = jnp.asarray([[[1.0, 0.0, 6.0]], [[2.0, 3.0, 9.0]]])
+
+    def moments(angle):
+        one = jnp.ones((2, 1))
+        place = Meridian(jnp.sin(angle), jnp.cos(angle), one, one[0])
+        found = groove_loss(LEVERS, place, StripPower(power, jnp.zeros_like(width), width))
+        return jnp.stack([jnp.sum(found, axis=1), jnp.sum(found * ANGLES[None], axis=1)])
+
+    slopes = jax.jacfwd(moments)(jnp.asarray([[0.513], [-0.402]]))[..., 0]
+    np.testing.assert_allclose(slopes[0], 0.0, atol=1e-9)
+    np.testing.assert_allclose(slopes[1], np.diag(np.sum(power, axis=(1, 2))), rtol=1e-9, atol=1e-9)
+    backward = jax.jacrev(moments)(jnp.asarray([[0.513], [-0.402]]))[..., 0]
+    np.testing.assert_allclose(backward, slopes, rtol=1e-9, atol=1e-9)
 
 
 @pytest.mark.parametrize("race", [0, 1])
