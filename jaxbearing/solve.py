@@ -26,7 +26,7 @@ from jax.core import Tracer
 
 from ._checks import Checks
 from ._scene import AbstractScene, AbstractSolution, Scene
-from .life.bearing_life import with_life
+from .bearings.bearing_life import with_life
 from .numerics.checks import check_inputs, gate, nan_unless
 from .numerics.compiling import inside_a_program, is_tracing
 from .numerics.garbage import rare_garbage_collection

@@ -33,8 +33,9 @@ RANK = {
     # seats of a bearing, which know no bearing
     "mounting": 4,
     "thermal": 4,
+    # formulas of standards; bearings feed them with their contacts
+    "life": 4,
     "bearings": 5,
-    "life": 6,
     # formulas of catalogues beside a solution
     "makers": 6,
     # several bearings together: they know bearings, and no verb

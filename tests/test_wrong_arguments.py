@@ -438,7 +438,7 @@ def test_runs_in_time_are_no_part_of_a_program():
 OF_ANOTHER_TYPE = """
 import jaxbearing, sys
 from jaxbearing.contacts import DistributedTraction
-from jaxbearing.life.bearing_life import bearing_life
+from jaxbearing.bearings.bearing_life import bearing_life
 sys.path.insert(0, {folder!r})
 import test_wrong_arguments as cases
 

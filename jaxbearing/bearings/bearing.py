@@ -36,6 +36,7 @@ from .growth import Growth, Play
 from .mounted import fit_excess, running_scene
 from .operation import AbstractOperation
 from .outline import Outline
+from .parts import AbstractGeometry
 from .rated import RatedContacts
 from .rating import Rating
 from .ring import InnerRing
@@ -63,6 +64,7 @@ class AbstractBearing(AbstractScene):
     required_part: ClassVar[str] = "traction on the raceways"
     """Name, for messages, of the part of the model without which the `unused_parts` of a scene have no effect."""
 
+    # a type checker lets a family narrow a field of this class only if it is Any here
     geometry: eqx.AbstractVar[Any]
     materials: eqx.AbstractVar[Any]
     operation: eqx.AbstractVar[Any]
@@ -198,12 +200,14 @@ class AbstractBearing(AbstractScene):
     @property
     def n_elements(self) -> int:
         """Number of rolling elements."""
-        return getattr(self.geometry, f"n_{self.element}s")
+        geometry: AbstractGeometry = self.geometry
+        return geometry.n_elements
 
     @property
     def element_diameter(self) -> Values:
         """Diameter of a rolling element, at its middle, m; not the pitch diameter of the bearing."""
-        return getattr(self.geometry, f"{self.element}_diameter")
+        geometry: AbstractGeometry = self.geometry
+        return geometry.element_diameter
 
     @property
     def drawing_angle(self) -> Array:

@@ -3,7 +3,7 @@
 import abc
 import math
 from collections.abc import Callable, Iterator
-from typing import Any, ClassVar, Literal
+from typing import ClassVar, Generic, Literal, TypeVar
 
 import jax.numpy as jnp
 
@@ -13,7 +13,7 @@ from ..gaps import AbstractTurbulence, BlendedTurbulence, ShortJournal
 from ..numerics.checks import Checked, numbers_or_none
 from ..numerics.refusals import refusals_of, refuse_all
 from ..numerics.structure import choice, count
-from .parts import check_between
+from .parts import AbstractGeometry, check_between
 
 Ends = Callable[[], tuple[Scalar, Scalar]]
 ASSUMED_LANDS = 2
@@ -22,7 +22,11 @@ ASSUMED_MATERIAL = "bronze"
 """Material of a moving cage for which the scene gives none."""
 
 
-class AbstractCage(Checked):
+Geometry = TypeVar("Geometry", bound=AbstractGeometry)
+"""Class of the dimensions of a bearing family."""
+
+
+class AbstractCage(Checked, Generic[Geometry]):
     """One-piece cage, guided by one ring on `n_lands` lands. It has the fields too, against the habit of this
     package: they are the same in every cage, and so are their checks.
 
@@ -55,30 +59,26 @@ class AbstractCage(Checked):
     turbulence: AbstractTurbulence = BlendedTurbulence()
 
     @abc.abstractmethod
-    def row(self, geometry: Any) -> tuple[int, Scalar]:
-        """Number and diameter, m, of the rolling elements in a bearing of this kind."""
-
-    @abc.abstractmethod
-    def pocket_opening(self, geometry: Any) -> tuple[Scalar, Scalar]:
+    def pocket_opening(self, geometry: Geometry) -> tuple[Scalar, Scalar]:
         """Size of a pocket along the axis and along the circumference, m."""
 
     @property
     def lands(self) -> int:
         return ASSUMED_LANDS if self.n_lands is None else self.n_lands
 
-    def bore(self, geometry: Any) -> Scalar:
+    def bore(self, geometry: Geometry) -> Scalar:
         """Inner diameter, m."""
         if self.inner_diameter is not None:
             return self.inner_diameter
-        return geometry.pitch_diameter - self.assumed_inner * self.row(geometry)[1]
+        return geometry.pitch_diameter - self.assumed_inner * geometry.element_diameter
 
-    def outside(self, geometry: Any) -> Scalar:
+    def outside(self, geometry: Geometry) -> Scalar:
         """Outer diameter, m."""
         if self.outer_diameter is not None:
             return self.outer_diameter
-        return geometry.pitch_diameter + self.assumed_outer * self.row(geometry)[1]
+        return geometry.pitch_diameter + self.assumed_outer * geometry.element_diameter
 
-    def land(self, geometry: Any) -> ShortJournal:
+    def land(self, geometry: Geometry) -> ShortJournal:
         """The film of the guiding lands in a bearing of this geometry."""
         diameter = self.bore(geometry) if self.guidance == "inner_ring" else self.outside(geometry)
         return ShortJournal(
@@ -102,7 +102,7 @@ class AbstractCage(Checked):
             if getattr(self, name) is None
         ]
 
-    def check_fits(self, geometry: Any) -> None:
+    def check_fits(self, geometry: Geometry) -> None:
         """**Raises:** `ValueError` where the cage cannot exist between the rings (where the numbers are known)."""
         problems: dict[str, list[ValueError]] = {}
         for name, *limit in self._limits(geometry):
@@ -111,17 +111,17 @@ class AbstractCage(Checked):
                 problems[name] = list(refusals_of(_check_limit, name, *limit))
         refuse_all(error for found in problems.values() for error in found)
 
-    def _limits(self, geometry: Any) -> Iterator[tuple[str, Scalar, Ends, str, str]]:
+    def _limits(self, geometry: Geometry) -> Iterator[tuple[str, Scalar, Ends, str, str]]:
         """Field, its value, what it must lie between, and these limits in words. Each limit is found by itself, so that
         one is checked also where what another one needs is refused."""
         pitch, bore, outside = geometry.pitch_diameter, self.bore(geometry), self.outside(geometry)
 
         def neighbours() -> tuple[Scalar, Scalar]:
-            count, diameter = self.row(geometry)
-            return 0.0, pitch * math.sin(math.pi / max(count, 2)) - diameter
+            gap = pitch * math.sin(math.pi / max(geometry.n_elements, 2)) - geometry.element_diameter
+            return 0.0, gap
 
-        inside = lambda: (pitch - self.row(geometry)[1], outside)
-        beyond = lambda: (bore, pitch + self.row(geometry)[1])
+        inside = lambda: (pitch - geometry.element_diameter, outside)
+        beyond = lambda: (bore, pitch + geometry.element_diameter)
         yield "inner_diameter", bore, inside, "inner raceway", "cage outside diameter"
         yield "outer_diameter", outside, beyond, "cage bore", "outer raceway"
         gap = f"gap between neighbouring {self.element}s"

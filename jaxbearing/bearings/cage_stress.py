@@ -15,13 +15,14 @@ Left out: warping and twist of the rails, notches, the shape of a bar between ro
 along), loads along the axis, and fatigue.
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
+from .parts import AbstractGeometry
 from .solution import label
 
 if TYPE_CHECKING:
@@ -74,7 +75,7 @@ def tangential_bending(angle: Array) -> Array:
     return 0.75 * jnp.sin(angle) - half * (1.0 - jnp.cos(angle))
 
 
-def cage_section(cage: "AbstractCage", geometry: Any, density: Scalar) -> CageSection:
+def cage_section(cage: "AbstractCage", geometry: AbstractGeometry, density: Scalar) -> CageSection:
     """The section of a cage: rails as wide as its lands and as high as the cage is thick, bars as wide as the pockets
     leave them at the mean radius.
 
@@ -83,7 +84,7 @@ def cage_section(cage: "AbstractCage", geometry: Any, density: Scalar) -> CageSe
     bore, outside = (0.5 * jnp.asarray(size, dtype=float) for size in (cage.bore(geometry), cage.outside(geometry)))
     radius, height = 0.5 * (bore + outside), outside - bore
     across, along = cage.pocket_opening(geometry)
-    width = 2.0 * jnp.pi * radius / cage.row(geometry)[0] - along
+    width = 2.0 * jnp.pi * radius / geometry.n_elements - along
     # pockets that meet leave no bar, which has no strength
     width = jnp.maximum(width, 0.0)
     rails = cage.lands * jnp.asarray(cage.land_width)

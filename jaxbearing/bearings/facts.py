@@ -92,8 +92,8 @@ class Facts(NamedTuple):
 class SolvedBearing(NamedTuple):
     """A solved bearing, as the checks of results see it.
 
-    **Arguments:** `scene`: an `AbstractBearing`; `held`: whether the ring is where it is told to be, whatever the loads
-    of the scene.
+    **Arguments:** `scene`: an `AbstractBearing`, which a check of a family takes as its own class; `held`: whether the
+    ring is where it is told to be, whatever the loads of the scene.
     """
 
     scene: Any

@@ -170,7 +170,7 @@ def _joined(flanks: Sequence[Array]) -> Array:
     return flanks[0] if len(flanks) == 1 else jnp.concatenate(flanks, axis=1)
 
 
-def _contacts(scene: Any, elements: Any) -> ContactHeat:
+def _contacts(scene: AbstractBearing, elements: Any) -> ContactHeat:
     """Heat flow of the raceway contacts, races first, from the ring to the element."""
     operation = scene.operation
     both = lambda name: jnp.stack([getattr(elements, f"{name}_inner"), getattr(elements, f"{name}_outer")])
@@ -187,6 +187,7 @@ def _contacts(scene: Any, elements: Any) -> ContactHeat:
     )
     oil = scene.oil.conductivity
     own = scene.oil_temperatures
+    assert own is not None
     conductivity = oil.conductivity(jnp.stack([jnp.asarray(own.inner_raceway), jnp.asarray(own.outer_raceway)]))
     bodies = (_solid(scene.materials.rings), _solid(_elements_of(scene)))
     points, lines = scene.point_contacts(elements), scene.race_lines(elements)
@@ -197,6 +198,7 @@ def _contacts(scene: Any, elements: Any) -> ContactHeat:
         ellipse = points.ellipse(pressing)
         sizes = (jnp.where(some, ellipse.rolling, 0.0), jnp.where(some, ellipse.transverse, 0.0))
         return ellipse_contact_heat(*sizes, film, conductivity[:, None], bodies, speeds)
+    assert lines is not None
     width = jnp.where(some, lines.half_width(pressing), 0.0)
     return line_contact_heat(width, lines.length, film, conductivity[:, None], bodies, speeds)
 

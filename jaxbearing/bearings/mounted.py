@@ -20,6 +20,7 @@ from .._types import Scalar
 from ..materials import Material
 from ..mounting import Annulus, Fit, Fits, FitState, PartTemperatures
 from ..mounting.annulus import REFERENCE_TEMPERATURE
+from ..mounting.seats import Seat
 from ..numerics.checks import demand, numbers_or_none
 from ..numerics.refusals import refusals_of, refuse_all
 from .facts import Excess
@@ -153,12 +154,13 @@ def running_play(scene: AbstractBearing) -> Play:
     return scene.play(_rings(scene, *_RUNNING).growth)
 
 
-def _seats_of(fits: Fits) -> tuple[str, ...]:
+def _seats_of(fits: Fits) -> tuple[Seat, ...]:
     """Names of the seats that the scene has."""
-    return tuple(name for name, there in (("shaft", fits.on_shaft), ("housing", fits.in_housing)) if there)
+    seats: tuple[tuple[Seat, bool], ...] = (("shaft", fits.on_shaft), ("housing", fits.in_housing))
+    return tuple(name for name, there in seats if there)
 
 
-def _rings(scene: Any, warm: Array | bool, turning: Array | bool) -> _Rings:
+def _rings(scene: AbstractBearing, warm: Array | bool, turning: Array | bool) -> _Rings:
     """Growth and stress of the rings, and the state of the seats.
 
     Rings and seats are computed as arrays. With scalars, JAX would compile a small program for each of many operations.
@@ -166,6 +168,7 @@ def _rings(scene: Any, warm: Array | bool, turning: Array | bool) -> _Rings:
     **Arguments:** `warm`: False for the cold bearing; `turning`: False for the bearing at rest.
     """
     fits, operation, geometry = scene.fits, scene.operation, scene.geometry
+    assert fits is not None
     raceways, bore, outside = _together(scene.raceway_diameters), geometry.bore, geometry.outside_diameter
     speeds = jnp.where(turning, _together([operation.inner_speed, operation.outer_speed]), 0.0)
     cold = scene.temperatures is None

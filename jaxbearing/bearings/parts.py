@@ -1,5 +1,6 @@
 """Parts that bearing families share: the contact laws, materials, drag, checks of their sizes, azimuths."""
 
+import abc
 import math
 from typing import Any, ClassVar
 
@@ -19,6 +20,31 @@ from ..numerics.safe import safe_norm
 from .operation import AbstractOperation
 
 __all__ = ["AbstractScene", "ContactLaws", "Drag", "Materials", "number", "optional_number"]
+
+
+class AbstractGeometry(Checked):
+    """Base of the dimensions of all bearing families: what the parts that families share ask for.
+
+    A family states its own dimensions as fields. `first_element_angle` is the azimuth of the first rolling element, rad
+    (`None`: 0, and the load line is a line of symmetry); lengths are in m; `bore`, `outside_diameter` and `width` are
+    `None` where they are not known.
+    """
+
+    first_element_angle: eqx.AbstractVar[Scalar | None]
+    bore: eqx.AbstractVar[Scalar | None]
+    outside_diameter: eqx.AbstractVar[Scalar | None]
+    width: eqx.AbstractVar[Scalar | None]
+    pitch_diameter: eqx.AbstractVar[Scalar]
+
+    @property
+    @abc.abstractmethod
+    def n_elements(self) -> int:
+        """Number of rolling elements."""
+
+    @property
+    @abc.abstractmethod
+    def element_diameter(self) -> Scalar:
+        """Diameter of a rolling element, at its middle, m."""
 
 
 class Materials(eqx.Module):
@@ -115,7 +141,7 @@ def check_row_fits(count: int, diameter: Any, pitch_diameter: Any, element: str 
 FIRST_ELEMENT = label("rad", "azimuth of the first rolling element")
 
 
-def azimuths(geometry: Any, count: int, alone: bool = False) -> Float[Array, " element"]:
+def azimuths(geometry: AbstractGeometry, count: int, alone: bool = False) -> Float[Array, " element"]:
     """Azimuths of the rolling elements, rad; `alone`: of one that stands for all."""
     places = jnp.asarray(2.0 * np.pi * np.arange(1 if alone else count) / count)
     first = geometry.first_element_angle

@@ -5,7 +5,7 @@ The command line, JSON, files and pages read this metadata, so that no second li
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
 import equinox as eqx
 import numpy as np
@@ -14,6 +14,7 @@ from jaxtyping import Array, Bool, Float, Int
 from .._scene import AbstractSolution, derived_part
 from .._scene import derived as derived
 from .._scene import label as label
+from ..life.result import Life
 from ..numerics.status import Status
 from ..thermal.result import ThermalResult
 from .frequencies import KinematicFrequencies, frequencies_of_motion
@@ -219,8 +220,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     thermal: ThermalResult | None = None
     failure_causes: dict[str, FailureCause] = eqx.field(default_factory=dict)
     """Possible causes of a failed solve: text with places for numbers, such as `{:.3g}` -> its `FailureCause`."""
-    life: Any = None
-    """A `life.result.Life` if the scene has a rating."""
+    life: Life | None = None
+    """Life of the bearing, if the scene has a rating."""
     rolling_by_race: RollingByRace | None = None
     boundary_power: BoundaryPower | None = None
     supply: SupplyResult | None = None

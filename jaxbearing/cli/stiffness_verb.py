@@ -113,6 +113,7 @@ def _check(scene: str, model: "AbstractScene", values: list[float], ross: Path |
     from ..report.shaft.ross import require_rotor
     from ..report.shaft.stiffness import shaft_at_speeds
     from ..report.stiffness import at_speeds
+    from ..shafts.scene import ShaftSystem
 
     shaft = model.kind == SHAFT
     try:
@@ -123,7 +124,7 @@ def _check(scene: str, model: "AbstractScene", values: list[float], ross: Path |
         )
     except ValueError as error:
         refuse(f"--speeds: {error}")
-    if shaft and ross is not None:
+    if isinstance(model, ShaftSystem) and ross is not None:
         try:
             require_rotor(model)
         except ValueError as error:
@@ -151,8 +152,10 @@ def _write(
     from ..report.ross import write_ross
     from ..report.shaft.ross import write_ross_rotor
     from ..report.shaft.stiffness import ShaftStiffness
+    from ..shafts.scene import ShaftSystem
 
     if isinstance(table, ShaftStiffness):
+        assert isinstance(model, ShaftSystem)
         write_ross_rotor(table, model, file, labelled(Path(scene).name, changes), load_direction=angle)
         return
     name = Path(scene).stem

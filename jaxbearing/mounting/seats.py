@@ -16,6 +16,8 @@ from ..numerics.structure import choice
 from . import iso286
 from .iso286 import HOLE_CLASSES, SHAFT_CLASSES, Limits
 
+Seat = Literal["shaft", "housing"]
+"""Name of a seat."""
 SMOOTHING = 2e-6
 """Loss of interference of a ground seat where none is given, m: ISO 286 knows none; makers' catalogues say 1 to 2.5 um
 for ground and 5 to 7 um for turned seats."""
@@ -75,14 +77,14 @@ class Fits(Checked):
         """True if the outer ring has a seat."""
         return self.housing_interference is not None or self.housing_tolerance is not None
 
-    def limits(self, seat: Literal["shaft", "housing"], diameter: Scalar) -> Limits:
+    def limits(self, seat: Seat, diameter: Scalar) -> Limits:
         """Smallest and largest interference of a seat, m. **Arguments:** `diameter`: of the seat, m."""
         interference = getattr(self, f"{seat}_interference")
         if interference is not None:
             return Limits(jnp.asarray(interference), jnp.asarray(interference))
         return getattr(iso286, f"{seat}_interference")(getattr(self, f"{seat}_tolerance"), diameter)
 
-    def interference(self, seat: Literal["shaft", "housing"], diameter: Scalar) -> Float[Array, ""]:
+    def interference(self, seat: Seat, diameter: Scalar) -> Float[Array, ""]:
         """Interference of a seat that counts, m, before smoothing."""
         low, high = self.limits(seat, diameter)
         match self.at:

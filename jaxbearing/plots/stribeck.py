@@ -1,7 +1,7 @@
 """The Stribeck curve of a bearing: its friction torque against speed, with the part of boundary friction."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -80,11 +80,11 @@ def stribeck(
     return figure
 
 
-def _solved(scene: Any, speeds: Sequence[float] | None) -> "xr.Dataset":
+def _solved(scene: "AbstractScene", speeds: Sequence[float] | None) -> "xr.Dataset":
     """The sweep over speed."""
     from ..sweep import sweep
 
-    given = np.geomspace(SLOWEST, 1.0, COUNT) * float(scene.operation.inner_speed) if speeds is None else speeds
+    given = np.geomspace(SLOWEST, 1.0, COUNT) * float(scene.part_at(SPEED)) if speeds is None else speeds
     return sweep(scene, {SPEED: np.asarray(given, dtype=float)}, elements=False)
 
 

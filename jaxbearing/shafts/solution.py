@@ -145,7 +145,7 @@ class DutyResult(eqx.Module):
     bearing_hours: dict[str, _Number]
     system_hours: _Number | None = eqx.field(metadata=label("h", "life of the system under the duty cycle"))
     shares: Float[Array, " state"] = eqx.field(metadata=label("1", "shares of the time"))
-    states: Any
+    states: "ShaftSolution"
     names: tuple[str, ...] = eqx.field(static=True)
 
 

@@ -2,7 +2,6 @@
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -10,8 +9,8 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from ..bearings.bearing import AbstractBearing
+from ..bearings.bearing_life import with_life
 from ..bearings.solution import RING_FREEDOMS, RingDisplacement, Solution
-from ..life.bearing_life import with_life
 from ..numerics.known_roots import own_roots
 from ..numerics.newton import NewtonOptions
 from ..numerics.precision import as_float
@@ -267,9 +266,10 @@ def _bearings(
 
 def _has_angle(place: Place) -> bool:
     """True for a ball bearing that is given by its contact angle and has one groove arc on each ring."""
-    scene: Any = place.scene
-    balls = isinstance(scene, AbstractBearing) and not scene.line_contacts
-    return balls and scene.geometry.contact_angle is not None and not scene.geometry.has_arcs
+    scene = place.scene
+    if not isinstance(scene, AbstractBearing) or scene.line_contacts:
+        return False
+    return scene.geometry.contact_angle is not None and not scene.geometry.has_arcs
 
 
 def _set_result(

@@ -15,6 +15,7 @@ from .._types import Scalar
 from ..bearings.solution import Solution
 from ..lanes import LaneProgram, default_method
 from ..life.duty import spectrum_life
+from ..life.result import Life
 from ..numerics.compiling import inside_a_program, is_tracing
 from ..numerics.garbage import rare_garbage_collection
 from ..numerics.newton import NewtonOptions
@@ -118,7 +119,13 @@ def solve_cases(
 
 def _spectrum(names: tuple[str, ...], shares: Array, solutions: tuple[Solution, ...]) -> Spectrum:
     speeds = jnp.stack([_speed(one) for one in solutions])
-    return Spectrum(names, shares, solutions, spectrum_life([one.life for one in solutions], shares, speeds))
+    lives = [_life(one) for one in solutions]
+    return Spectrum(names, shares, solutions, spectrum_life(lives, shares, speeds))
+
+
+def _life(solution: Solution) -> Life:
+    assert solution.life is not None, "scenes without a rating are refused"
+    return solution.life
 
 
 def _speed(solution: Solution) -> Array:

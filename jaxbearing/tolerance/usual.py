@@ -8,7 +8,7 @@ assumptions, listed here with their reasons; they rank inputs, and are no substi
 import fnmatch
 import math
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import equinox as eqx
 import jax
@@ -164,10 +164,10 @@ def _assumed(path: str, value: float, among: tuple[Assumed, ...] = ASSUMED) -> U
     return None
 
 
-def _of_standard(scene: Any, path: str, value: float) -> UsualTolerance | None:
+def _of_standard(scene: AbstractScene, path: str, value: float) -> UsualTolerance | None:
     """Tolerances that follow from a table, or from the size of the bearing."""
     rule = _STANDARDS.get(path)
-    return None if rule is None else rule(scene, value)
+    return None if rule is None or not isinstance(scene, AbstractBearing) else rule(scene, value)
 
 
 def _half(limits: iso286.Limits) -> float:

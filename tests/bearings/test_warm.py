@@ -9,9 +9,9 @@ import pytest
 from warm_cases import CHANGES, NAMES, SEATS, warm
 
 import jaxbearing as jb
+from jaxbearing.bearings.bearing_life import with_life
 from jaxbearing.bearings.heat import bearing_network
 from jaxbearing.bearings.warm import at_temperatures
-from jaxbearing.life.bearing_life import with_life
 from jaxbearing.numerics.status import Status
 from jaxbearing.thermal.shares import OilTemperatures
 from jaxbearing.thermal.solve import UNSTABLE

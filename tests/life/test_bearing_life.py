@@ -12,10 +12,10 @@ import pytest
 import jaxbearing as jb
 from jaxbearing.bearings.ball.geometry import BallGeometry
 from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
+from jaxbearing.bearings.bearing_life import ineffective_inputs, rated_by
 from jaxbearing.bearings.profile import RollerProfile
 from jaxbearing.bearings.rating import Rating
 from jaxbearing.contacts import CrownedProfile
-from jaxbearing.life.bearing_life import ineffective_inputs, rated_by
 from jaxbearing.life.reference import roller_damage_rate
 from jaxbearing.life.result import Life
 from jaxbearing.materials import CATALOGUE, reduced_modulus
@@ -78,7 +78,7 @@ def test_laminae_of_the_rating_are_those_asked_for(case, asked, monkeypatch):
         counts.append((inner.shape[1], outer.shape[1], len(factors)))
         return roller_damage_rate(inner, outer, *args, factors=factors)
 
-    monkeypatch.setattr("jaxbearing.life.bearing_life.roller_damage_rate", seen)
+    monkeypatch.setattr("jaxbearing.bearings.bearing_life.roller_damage_rate", seen)
     eqx.filter_eval_shape(lambda: jb.solve(scene, throw=False))
     assert counts == [(asked or own,) * 3]
 

@@ -9,6 +9,7 @@ import pytest
 
 import jaxbearing as jb
 from jaxbearing.bearings.ball.scene import BallOperation
+from jaxbearing.bearings.bearing_life import ineffective_inputs
 from jaxbearing.bearings.rated import sizes_of_loads
 from jaxbearing.bearings.rating import Rating
 from jaxbearing.contacts import LineContact
@@ -21,7 +22,6 @@ from jaxbearing.life import (
     roller_static_capacity,
     roller_static_load,
 )
-from jaxbearing.life.bearing_life import ineffective_inputs
 from jaxbearing.life.equivalent import RELATIVE_LOADS, X, Y
 from jaxbearing.life.static import STEEL_MODULUS
 

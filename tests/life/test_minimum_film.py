@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
+from jaxbearing.bearings.minimum_films import minimum_films
 from jaxbearing.contacts import DowsonHigginson, DowsonToyoda, LineContact, MartinBlend, Moes, PanHamrockMinimum
 from jaxbearing.contacts.minimum_film import LINE_SHARE
-from jaxbearing.life.minimum_film import minimum_films
 
 
 @pytest.mark.parametrize(

@@ -10,17 +10,17 @@ from jaxtyping import Array, Float
 from ..._scene import number, optional_number
 from ..._types import Scalar, Values
 from ...contacts import PointContact
-from ...numerics.checks import Checked, demand, numbers_or_none
+from ...numerics.checks import demand, numbers_or_none
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import count
-from ..parts import FIRST_ELEMENT, check_row_fits
+from ..parts import FIRST_ELEMENT, AbstractGeometry, check_row_fits
 from .arcs import Arcs, added
 
 LEAST_SHIM = 1.0
 """Least shim angle of a ring with two arcs, degrees. With less, both contacts of a ring are one and count twice."""
 
 
-class BallGeometry(Checked):
+class BallGeometry(AbstractGeometry):
     """Main dimensions of a single-row ball bearing; give the contact angle or the clearance, the other follows.
 
     **Arguments:**
@@ -54,6 +54,14 @@ class BallGeometry(Checked):
     bore: Scalar | None = optional_number(bound="> 0", unit="m")
     outside_diameter: Scalar | None = optional_number(bound="> 0", unit="m")
     width: Scalar | None = optional_number(bound="> 0", unit="m")
+
+    @property
+    def n_elements(self) -> int:
+        return self.n_balls
+
+    @property
+    def element_diameter(self) -> Scalar:
+        return self.ball_diameter
 
     def __check_init__(self):
         super().__check_init__()

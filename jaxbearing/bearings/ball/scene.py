@@ -126,7 +126,7 @@ class BallAttitude(eqx.Module):
             raise ValueError("kinematics.gyroscopic: 'resolved' needs kinematics.attitude = 'equilibrium'")
 
 
-class BallCage(AbstractCage):
+class BallCage(AbstractCage[BallGeometry]):
     """One-piece cage with cylindrical pockets, guided by one ring on `n_lands` lands.
 
     **Arguments:** those of `AbstractCage`, and
@@ -142,9 +142,6 @@ class BallCage(AbstractCage):
     pocket_superposition: Literal["root_of_squares", "sum"] = choice(
         "cage.pocket_superposition", SUPERPOSITIONS, "root_of_squares"
     )
-
-    def row(self, geometry: BallGeometry) -> tuple[int, Scalar]:
-        return geometry.n_balls, geometry.ball_diameter
 
     def pocket_opening(self, geometry: BallGeometry) -> tuple[Scalar, Scalar]:
         hole = geometry.ball_diameter + self.pocket_clearance

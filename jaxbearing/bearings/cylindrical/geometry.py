@@ -11,7 +11,7 @@ from ...numerics.checks import Checked, demand, numbers_or_none
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import choice, count
 from ..cage import AbstractCage
-from ..parts import FIRST_ELEMENT, check_between, check_row_fits, number, optional_number
+from ..parts import FIRST_ELEMENT, AbstractGeometry, check_between, check_row_fits, number, optional_number
 from .thrust import SIDES, ThrustFlanges, check_flanges
 
 ASSUMED_CAGE_INNER = 7.0 / 12.0
@@ -22,7 +22,7 @@ ASSUMED_FLANGE_HEIGHT = 2.5 / 12.0
 """Flange height over roller diameter, where a scene does not give it."""
 
 
-class RollerGeometry(Checked):
+class RollerGeometry(AbstractGeometry):
     """Main dimensions, m. `diametral_clearance` may be negative (preload).
 
     **Arguments:**
@@ -55,6 +55,14 @@ class RollerGeometry(Checked):
     bore: Scalar | None = optional_number(bound="> 0", unit="m")
     outside_diameter: Scalar | None = optional_number(bound="> 0", unit="m")
     width: Scalar | None = optional_number(bound="> 0", unit="m")
+
+    @property
+    def n_elements(self) -> int:
+        return self.n_rollers
+
+    @property
+    def element_diameter(self) -> Scalar:
+        return self.roller_diameter
 
     def __check_init__(self):
         super().__check_init__()
@@ -108,7 +116,7 @@ class RollerGeometry(Checked):
         return self.pitch_radius + self.roller_radius
 
 
-class RollerCage(AbstractCage):
+class RollerCage(AbstractCage[RollerGeometry]):
     """One-piece cage, guided by one ring on `n_lands` lands, with a pocket film in front of and behind each roller.
 
     **Arguments:** those of `AbstractCage`, and
@@ -122,9 +130,6 @@ class RollerCage(AbstractCage):
     assumed_outer: ClassVar[float] = ASSUMED_CAGE_OUTER
 
     pocket_axial_clearance: Scalar | None = optional_number(bound="> 0", unit="m")
-
-    def row(self, geometry: RollerGeometry) -> tuple[int, Scalar]:
-        return geometry.n_rollers, geometry.roller_diameter
 
     def pocket_opening(self, geometry: RollerGeometry) -> tuple[Scalar, Scalar]:
         axial = 0.0 if self.pocket_axial_clearance is None else self.pocket_axial_clearance

@@ -17,17 +17,17 @@ from jaxtyping import Array
 from ..._scene import number, optional_number
 from ..._types import Scalar
 from ...contacts import PointContact
-from ...numerics.checks import Checked, array_module, demand, numbers_or_none
+from ...numerics.checks import array_module, demand, numbers_or_none
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import count
-from ..parts import FIRST_ELEMENT
+from ..parts import FIRST_ELEMENT, AbstractGeometry
 from .usual_ends import USUAL_END_RADIUS, USUAL_RIB_HEIGHT, usual_end_radius, usual_flange_angle
 
 LEAST_HALF_ANGLE = math.radians(0.3)
 """Least half angle of the rollers: below, the apex goes to infinity and the bearing is a cylindrical one."""
 
 
-class TaperedGeometry(Checked):
+class TaperedGeometry(AbstractGeometry):
     """Main dimensions; the pitch diameter follows from them.
 
     **Arguments:**
@@ -59,6 +59,14 @@ class TaperedGeometry(Checked):
     bore: Scalar | None = optional_number(bound="> 0", unit="m")
     outside_diameter: Scalar | None = optional_number(bound="> 0", unit="m")
     width: Scalar | None = optional_number(bound="> 0", unit="m")
+
+    @property
+    def n_elements(self) -> int:
+        return self.n_rollers
+
+    @property
+    def element_diameter(self) -> Scalar:
+        return self.mean_roller_diameter
 
     def __check_init__(self):
         super().__check_init__()

@@ -197,10 +197,6 @@ class TaperedRollerBearing(AbstractBearing):
         return rated_contacts(self, laminae, force)
 
     @property
-    def element_diameter(self) -> Array:
-        return self.geometry.mean_roller_diameter
-
-    @property
     def slips(self) -> bool:
         """Rollers roll without sliding on the raceways."""
         return False

@@ -1,7 +1,6 @@
 """Facts about the life of a bearing, in words: lives, ratings and loads, static safety, least load, lubrication."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -24,6 +23,7 @@ _LIVES = (
 def life_facts(solution: Solution) -> Iterator[tuple[str, str]]:
     """Name and text of each fact about the life of a solution that has one."""
     life = solution.life
+    assert life is not None
     of = lambda name: float(np.asarray(getattr(life, name)))
     # what the catalogues' formulas do not give is NaN
     there = lambda name: getattr(life, name) is not None and not np.isnan(of(name))
@@ -57,7 +57,8 @@ def life_facts(solution: Solution) -> Iterator[tuple[str, str]]:
 
 def _least_load(solution: Solution, least: float) -> str:
     """A maker's rule of thumb beside the load, and the slip of the cage where it is modelled."""
-    life: Any = solution.life
+    life = solution.life
+    assert life is not None
     load = float(np.asarray(life.equivalent_load))
     below = ", which is less" if load < least else ""
     rule = f"{digits(1e-3 * least)} kN by a maker's rule of thumb, {MINIMUM_LOADS[life.family]:g} C"

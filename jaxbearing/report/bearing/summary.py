@@ -4,8 +4,8 @@ narrower terminals lose the bars, then get the table of loads in pieces."""
 import dataclasses
 import math
 from collections.abc import Iterable
-from typing import Any
 
+import equinox as eqx
 import numpy as np
 from rich.console import Console
 
@@ -202,7 +202,7 @@ def _print_load_table(solution: Solution, loaded: np.ndarray, shown: list[tuple[
         print_table(piece, fractions, _LOAD_BAR, "cyan", console)
 
 
-def _unit(elements: Any, name: str) -> str:
+def _unit(elements: eqx.Module, name: str) -> str:
     """Unit of a result of the elements."""
     return type(elements).__dataclass_fields__[name].metadata["unit"]
 

@@ -6,10 +6,9 @@ gyroscopic effect: frequencies of the shaft that stands still, on bearings as st
 bearings act across the axis; their tilting stiffness is left out, as it is in ROSS.
 """
 
-from typing import Any
-
 import numpy as np
 
+from ...shafts.forces import Mass
 from ...shafts.scene import ShaftSystem
 from .bending import cowper
 from .ross import rotor_nodes, section_between
@@ -19,7 +18,7 @@ _LATERAL = (1, 2)
 """Places of the radial and the lateral freedom."""
 
 
-def natural_frequencies(table: ShaftStiffness, scene: Any, place: int = 0) -> np.ndarray:
+def natural_frequencies(table: ShaftStiffness, scene: ShaftSystem, place: int = 0) -> np.ndarray:
     """Natural frequencies, rad/s, in ascending order.
 
     **Arguments:** `place`: of the speed in the table whose stiffness counts.
@@ -41,7 +40,7 @@ def natural_frequencies(table: ShaftStiffness, scene: Any, place: int = 0) -> np
         at = [4 * node, 4 * node + 2]
         stiffness[np.ix_(at, at)] += values[place][np.ix_(_LATERAL, _LATERAL)]
     for one in scene.forces:
-        if one.kind == "mass":
+        if isinstance(one, Mass):
             node = int(np.argmin(np.abs(nodes - float(one.position))))
             for freedom in (4 * node, 4 * node + 2):
                 mass[freedom, freedom] += float(one.mass)

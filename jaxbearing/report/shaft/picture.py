@@ -6,11 +6,11 @@ A picture is a list of shapes in millimetres, x along the shaft and y across it,
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from ...bearings.bearing import AbstractBearing
+from ...shafts.forces import Gear
 from ...shafts.mounting import LinearBearing
 from ...shafts.scene import Place, ShaftSystem
 from ...shafts.solution import ShaftSolution
@@ -125,11 +125,11 @@ def _ends(scene: ShaftSystem) -> tuple[float, float]:
     return min(at) - room, max(at) + room
 
 
-def _outer_radius(scene: Any) -> float:
+def _outer_radius(scene: ShaftSystem) -> float:
     """Largest radius of what is drawn, mm."""
     radii = [500.0 * float(section.outer_diameter) for section in scene.shaft.sections]
     radii += [_outside(place.scene) for place in scene.places]
-    radii += [1e3 * float(one.pitch_radius) for one in scene.forces if one.kind == "gear"]
+    radii += [1e3 * float(one.pitch_radius) for one in scene.forces if isinstance(one, Gear)]
     return max(radii)
 
 
@@ -183,13 +183,13 @@ def _circle(diameter: float) -> list[Point]:
     return [(0.5 * diameter * math.cos(angle), 0.5 * diameter * math.sin(angle)) for angle in angles]
 
 
-def _disks(scene: Any, length: float) -> Iterator[Item]:
+def _disks(scene: ShaftSystem, length: float) -> Iterator[Item]:
     """Gears, pulleys and masses behind the shaft."""
     for one in sorted(scene.forces, key=lambda force: force.kind != "gear"):
         if one.kind == "point":
             continue
         x, half = 1e3 * float(one.position), 0.5 * _DISK * length
-        radius = 1e3 * float(one.pitch_radius) if one.kind == "gear" else 0.6 * _outer_radius(scene)
+        radius = 1e3 * float(one.pitch_radius) if isinstance(one, Gear) else 0.6 * _outer_radius(scene)
         half = min(half, 0.6 * radius) * (0.7 if one.kind == "mass" else 1.0)
         yield Area([(x - half, -radius), (x + half, -radius), (x + half, radius), (x - half, radius)], GEAR, FAINT)
 

@@ -31,7 +31,7 @@ SAME = 1e-9
 _COLOUR = "#525252"
 
 
-def require_rotor(scene: Any) -> None:
+def require_rotor(scene: ShaftSystem) -> None:
     """**Raises:** `ValueError` for a shaft that is no rotor of ROSS."""
     if not scene.shaft.sections:
         raise ValueError("found a rigid shaft, expected one with shaft.sections: ROSS has no rigid rotors")
@@ -122,7 +122,7 @@ def _element(scene: ShaftSystem, left: float, right: float, number: int) -> dict
 
 def write_ross_rotor(
     table: ShaftStiffness,
-    scene: Any,
+    scene: ShaftSystem,
     file: str | os.PathLike[str],
     scene_label: str = "",
     *,

@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 from pydantic import create_model
 
 from ...shafts.forces import FORCES
+from ...shafts.scene import ShaftSystem
 from ..drafts import Unreadable
 from ..errors import SceneError, nearest, one_of
 from ..kinds import KIND, kind_named
@@ -206,7 +207,7 @@ def _mixed_set(kinds: tuple[str, ...]) -> type[Table]:
     return create_model("MixedSetTable", __base__=SetMountTable, __module__=__name__, __doc__=doc, **fields)
 
 
-def model_of_scene(scene: Any) -> type[ShaftTable]:
+def model_of_scene(scene: ShaftSystem) -> type[ShaftTable]:
     """The schema of the file of a shaft."""
     bearings = tuple((one.name, one.scene.kind) for one in scene.bearings)
     kinds = lambda one: tuple(each.kind for each in one.scene) if isinstance(one.scene, tuple) else one.scene.kind

@@ -1,11 +1,12 @@
 """Sizes of a bearing seen along its axis."""
 
 import math
-from typing import Any, SupportsFloat
+from typing import SupportsFloat
 
 from ....bearings.bearing import AbstractBearing
 from ....bearings.cage import AbstractCage
 from ....bearings.outline import RING_THICKNESS
+from ....bearings.parts import AbstractGeometry
 
 DRAWN_CLEARANCE = 0.07
 """A clearance in a drawing, in diameters of the element."""
@@ -41,6 +42,6 @@ def millimetres(metres: SupportsFloat) -> float:
     return 1e3 * float(metres)
 
 
-def first_angle(geometry: Any) -> float:
+def first_angle(geometry: AbstractGeometry) -> float:
     """Azimuth of the first rolling element, rad."""
     return 0.0 if geometry.first_element_angle is None else float(geometry.first_element_angle)

@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+import equinox as eqx
 import numpy as np
 from jaxtyping import Array
 
@@ -125,7 +126,7 @@ def _excursion(instants: Instant) -> float:
     return float(np.abs(along - along.mean(axis=1, keepdims=True)).max())
 
 
-def by_side(elements: Any, name: str) -> dict[str, np.ndarray]:
+def by_side(elements: eqx.Module, name: str) -> dict[str, np.ndarray]:
     """A result of the contacts on either raceway, as far as the elements of a family have it."""
     found = {side: getattr(elements, f"{name}_{side}", None) for side in ("inner", "outer")}
     return {side: np.asarray(values) for side, values in found.items() if values is not None}

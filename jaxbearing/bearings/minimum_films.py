@@ -5,10 +5,10 @@ from typing import Any
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ..bearings.bearing import AbstractBearing
-from ..bearings.inlet import oil_of_races
 from ..contacts import AbstractLineFilm, HamrockDowsonMinimum, PointContact, RigidBlend
 from ..contacts.minimum_film import line_share, minimum_share
+from .bearing import AbstractBearing
+from .inlet import oil_of_races
 
 
 def minimum_films(scene: AbstractBearing, elements: Any) -> tuple[Float[Array, " element"], Float[Array, " element"]]:

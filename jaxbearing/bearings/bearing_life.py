@@ -2,27 +2,19 @@
 
 import dataclasses
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeVar
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
+from .._scene import AbstractScene, AbstractSolution
 from .._types import Scalar
-from ..bearings.bearing import AbstractBearing
-from ..bearings.flanks import on_heavier_flanks
-from ..bearings.inlet import race_temperatures
-from ..bearings.operation import AbstractOperation
-from ..bearings.rated import RatedContacts
-from ..bearings.rating import CATALOGUE_CONFORMITY, Rating, rated_laminae
-from ..bearings.solution import Solution
-from ..lubricants import Lubricant
-from .basic import EXPONENTS, HOURS, RELIABILITY_FACTORS, basic_life, tapered_equivalent_load
-from .capacity import ball_capacity, roller_capacity
-from .equivalent import LARGEST_ANGLE, ball_equivalent_load, ball_static_load, roller_static_load
-from .minimum_film import minimum_films
-from .modification import (
+from ..life.basic import EXPONENTS, HOURS, RELIABILITY_FACTORS, basic_life, tapered_equivalent_load
+from ..life.capacity import ball_capacity, roller_capacity
+from ..life.equivalent import LARGEST_ANGLE, ball_equivalent_load, ball_static_load, roller_static_load
+from ..life.modification import (
     KAPPA_RANGE,
     Family,
     contamination_factor,
@@ -31,15 +23,24 @@ from .modification import (
     modification_factor,
     reference_viscosity,
 )
-from .reference import (
+from ..life.reference import (
     ball_contact_capacities,
     ball_damage_rate,
     edge_factors,
     roller_contact_capacities,
     roller_damage_rate,
 )
-from .result import Life
-from .static import ball_static_capacity, contact_safety, rated_modulus, roller_static_capacity
+from ..life.result import Life
+from ..life.static import ball_static_capacity, contact_safety, rated_modulus, roller_static_capacity
+from ..lubricants import Lubricant
+from .bearing import AbstractBearing
+from .flanks import on_heavier_flanks
+from .inlet import race_temperatures
+from .minimum_films import minimum_films
+from .operation import AbstractOperation
+from .rated import RatedContacts
+from .rating import CATALOGUE_CONFORMITY, Rating, rated_laminae
+from .solution import Solution
 
 FEWEST_LAMINAE = 30
 """Laminae that ISO 16281 asks for at least."""
@@ -58,6 +59,9 @@ THIN_WARNING = (
 )
 
 
+AnySolution = TypeVar("AnySolution", bound=AbstractSolution)
+
+
 class Rated(NamedTuple):
     """Ratings of a bearing, and the rate at which its contacts take damage."""
 
@@ -71,10 +75,9 @@ class Rated(NamedTuple):
     """Equivalent static load P0 of ISO 76, N."""
 
 
-def with_life(scene: Any, solution: Any) -> Any:
+def with_life(scene: AbstractScene, solution: AnySolution) -> AnySolution:
     """The solution of a bearing with the life in it where the scene has a rating; any other as it is."""
-    rating = getattr(scene, "rating", None)
-    if rating is None:
+    if not isinstance(scene, AbstractBearing) or not isinstance(solution, Solution) or scene.rating is None:
         return solution
     scene = scene.settled(solution)
     life = bearing_life(scene, solution)
@@ -90,9 +93,10 @@ def with_life(scene: Any, solution: Any) -> Any:
     return dataclasses.replace(solution, life=life, checks=checks, notes=notes)
 
 
-def ineffective_inputs(scene: Any, life: Life) -> list[str]:
+def ineffective_inputs(scene: AbstractBearing, life: Life) -> list[str]:
     """Notes on fields of the rating without effect: they need what the scene lacks, or belong to another kind."""
-    rating: Rating = scene.rating
+    rating = scene.rating
+    assert rating is not None
     if not scene.line_contacts:
         others = {"n_laminae": rating.n_laminae, "edge_factor": rating.edge_factor}
         found = [
@@ -116,7 +120,7 @@ def ineffective_inputs(scene: Any, life: Life) -> list[str]:
     return found
 
 
-def bearing_life(scene: Any, solution: Solution) -> Life:
+def bearing_life(scene: object, solution: Solution) -> Life:
     """Life from the contact loads of a solution, pure; NaN where the solve failed.
 
     Needs `scene.rating`. The modified life takes the viscosity ratio, and the load ratio at `equivalent_load`, for the
@@ -147,7 +151,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     equivalent = jnp.where(loaded, rated.dynamic_capacity * safe_rate ** (1.0 / exponent), 0.0 * rate)
     hours = lambda revolutions: revolutions * HOURS / jnp.abs(speed)
     reliability = RELIABILITY_FACTORS[rating.reliability]
-    kappa = _viscosity_ratio(scene, pitch_diameter, speed)
+    kappa = _viscosity_ratio(scene, rating, pitch_diameter, speed)
     more: dict[str, Array | None] = {}
     if kappa is not None:
         more["viscosity_ratio"] = kappa
@@ -189,11 +193,13 @@ def _turning(operation: AbstractOperation) -> tuple[Bool[Array, ""], Bool[Array,
     return inner | ~outer, outer
 
 
-def _viscosity_ratio(scene: Any, pitch_diameter: Array, speed: Array) -> Float[Array, ""] | None:
+def _viscosity_ratio(
+    scene: AbstractBearing, rating: Rating, pitch_diameter: Array, speed: Array
+) -> Float[Array, ""] | None:
     """kappa as given, or from the oil at its inlet temperature; where the raceways have temperatures of their own at
     that of the hotter one. `None` where the scene says neither."""
-    if scene.rating.viscosity_ratio is not None:
-        return jnp.asarray(scene.rating.viscosity_ratio)
+    if rating.viscosity_ratio is not None:
+        return jnp.asarray(rating.viscosity_ratio)
     oil: Lubricant | None = scene.oil
     if oil is None or oil.density is None:
         return None
