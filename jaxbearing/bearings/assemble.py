@@ -58,23 +58,25 @@ def assemble(
     **names: Any,
 ) -> Solution:
     """Builds the `Solution` from the solved equations. If the solve failed, every result is NaN and no check of results
-    applies; how it ended and the checks of inputs remain.
+    applies. The operating point, the checks of inputs, the notes, and the data on how the solve ended remain.
 
     **Arguments:**
-    - `scene`: the bearing; `result`: of Newton's iteration; `results`: those of the family.
-    - `port`: force and stiffness of the ring, in all five freedoms.
+    - `scene`: the bearing; `result`: result of Newton's iteration; `results`: what the family computed.
+    - `port`: load and stiffness of the ring in all five freedoms, and the names of the freedoms that were unknowns.
     - `ring`: displacement of the inner ring that results show.
     - `iterations`: steps of all solves that this bearing needed; by default those of `result`.
     - `failure_causes`: possible causes of a failed solve (`Solution.failure_causes`).
-    - `names`: further fields of the `Solution`: always `ring_freedom`, and `stiffness_freedom` and `equation_names`
-      where the family has them.
+    - `names`: further fields of the `Solution`: always `ring_freedom` and `equation_names`, and `stiffness_freedom` if
+      it differs from `ring_freedom`.
     """
     good, nan = result.converged, jnp.asarray(jnp.nan)
+    # the ring is held if no freedom was an unknown; `held_freedom` names each freedom that was not
     held = not port.free
     modelled = names.get("stiffness_freedom") or names["ring_freedom"]
     names["held_freedom"] = tuple(name for name in RING_FREEDOMS if name in modelled and name not in port.free)
     own = results._asdict()
     facts, totals = own.pop("facts"), own.pop("totals")
+    # the first contacts are those of the raceways, whose oil the supply is about
     own["supply"] = supply_result(scene, facts.contacts[0].load, facts.contacts[0].starved)
     shown = own | totals._asdict() | {"ring": ring, "force": port.force, "stiffness": port.stiffness}
     by_race = totals.rolling_by_race

@@ -1,5 +1,6 @@
 """Base class of all bearing scenes. It defines what a bearing family implements, and which degrees of freedom (short:
-freedoms) of the inner ring are unknown.
+freedoms) of the inner ring are unknown. A family is a kind of bearing, such as ball or cylindrical roller bearings; a
+folder beside this file holds it.
 
 Terms: a *scene* is the complete description of a problem. The *port* is the point of the inner ring at which loads and
 displacements are exchanged with a shaft (see `ring`). The *row* of a bearing is the simplified model of its rolling
@@ -84,8 +85,8 @@ class AbstractBearing(AbstractScene):
         return self.solved_running(lambda running: running.solve_ring(options))
 
     def simulated(self, duration: float | None, **settings: Any) -> AbstractHistory:
-        """Simulates the temperatures over time, which needs a thermal network. Families that move override it and
-        simulate their rolling elements where the scene has no network."""
+        """Simulates the temperatures over time, for which the scene needs a thermal network. A family whose rolling
+        elements can be simulated overrides this method, and simulates them if the scene has no network."""
         if self.thermal is None:
             raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; {TAKEN}")
         from .warming.runs import simulate_warm_up
@@ -105,7 +106,8 @@ class AbstractBearing(AbstractScene):
         temperatures and the speed; without fits they stay as given. With a thermal network the temperatures are
         unknowns too.
 
-        If the fits are impossible, the operating point is NaN, so that the solve ends at once and fails.
+        If the fits are impossible, the solve gets an operating point of NaN, so that it ends at once and fails. The
+        solution shows the given operating point.
 
         **Arguments:** `solve`: function that solves a scene with neither a thermal network nor fits.
         """
@@ -222,11 +224,13 @@ class AbstractBearing(AbstractScene):
         return self.drawing_angle
 
     def point_contacts(self, elements: Any) -> PointContact | None:
-        """Raceway contacts of a solution as point contacts, shape (2 races, element); `None` for line contacts."""
+        """Raceway contacts of a solution as point contacts, shape (2 races, element); `None` for line contacts, which
+        is the answer here. Families with point contacts override it."""
         return None
 
     def race_lines(self, elements: Any) -> LineContact | None:
-        """Raceway contacts as uniformly loaded line contacts, shape (2 races, 1); `None` for point contacts."""
+        """Raceway contacts as uniformly loaded line contacts, shape (2 races, 1); `None` for point contacts, which is
+        the answer here. Families with line contacts override it."""
         return None
 
     @property
@@ -288,10 +292,10 @@ class AbstractBearing(AbstractScene):
     def unknown_freedoms(self) -> tuple[str, ...]:
         """Freedoms of the inner ring that are unknowns of a solve, under given loads.
 
-        A freedom whose displacement is given is left out, and so is a freedom that symmetry keeps at 0. If all rolling
-        elements are loaded alike, only the axial one of the three displacements remains. If the load line is a line of
-        symmetry, the lateral freedom is left out. A tilt is an unknown only if its moment is given; otherwise the tilt
-        is given, and 0 if the scene says nothing.
+        A freedom that the bearing does not resist (`modelled_freedoms`) is left out, and so is one whose displacement
+        is given or that symmetry keeps at 0. If all rolling elements are loaded alike, only the axial one of the three
+        displacements remains. If the load line is a line of symmetry, the lateral freedom is left out. A tilt is an
+        unknown only if its moment is given; otherwise the tilt is given, and 0 if the scene says nothing.
         """
         operation: AbstractOperation = self.operation
         forces = ["axial"]

@@ -1,9 +1,10 @@
-"""Friction at each place of a bearing: dissipated power and torques on the rings. Losses and drive power are sums.
+"""Friction of a bearing. An *interaction* is the friction, or a constraint force, at one place; losses, torques and
+drive power are sums over all interactions.
 
-The power of an interaction is computed from its own force and its own sliding speed. Its torques are computed from its
-forces on the rings. The drive power is the sum of torque times speed over both rings. In a steady state it must equal
-the sum of the dissipations. This equality is not assumed anywhere. Tests compare the two, and a wrong sign of a torque
-shows as a difference.
+The power of an interaction is computed from its own force and its own sliding speed. Its torques are those that drive
+the rings against it, the opposite of the moments of its forces on the rings. The drive power is the sum of driving
+torque times speed over both rings. In a steady state it must equal the sum of the dissipations. This equality is not
+assumed anywhere. Tests compare the two, and a wrong sign of a torque shows as a difference.
 """
 
 from collections.abc import Callable, Sequence
@@ -21,12 +22,12 @@ class Interaction(NamedTuple):
     """Friction, or a constraint force without power, at one place of a bearing.
 
     **Arguments:**
-    - `location`: field of the family's losses that holds its power; "" for constraint forces, which do no work.
-    - `power`: dissipation, W.
+    - `location`: field of the family's losses that takes this power; "" for a constraint force.
+    - `power`: dissipation, W; `None` for a constraint force, which does no work.
     - `inner_torque`, `outer_torque`: torque that drives the ring against this friction, N m; `None` if it does not act
       on that ring.
-    - `by_race`: power of the rolling resistance at the inner and at the outer raceway, W; `None` of all others. At most
-      one interaction of a bearing has it.
+    - `by_race`: power of the rolling resistance at the inner and at the outer raceway, W. At most one interaction of a
+      bearing has it; it is `None` for all others.
     """
 
     location: str
@@ -37,9 +38,9 @@ class Interaction(NamedTuple):
 
 
 class FrictionTotals(NamedTuple, Generic[Losses]):
-    """Sums over all interactions: losses and drive power, W, and torques on the rings, N m. If no loss is modelled, the
-    drive power and the torques are `None`, and so are all fields of `power_loss`. `rolling_by_race`: the `by_race` of
-    the interaction that has it, W."""
+    """Sums over all interactions: losses, drive power, W, and torques that drive the rings, N m. If no loss is
+    modelled, the drive power and the torques are `None`, and so are all fields of `power_loss`. `rolling_by_race`:
+    the `by_race` of the interaction that has it, W."""
 
     power_loss: Losses
     drive_power: Float[Array, ""] | None = None
@@ -86,10 +87,11 @@ def _sum(values: Sequence[Array]) -> Float[Array, ""]:
 
 
 def of_land(power: Array, ring_torque: Array, guidance: str) -> Interaction:
-    """Friction of the cage's lands.
+    """The interaction of the cage's lands, the surfaces by which a ring guides the cage (loss `cage_pilot`).
 
     **Arguments:** `power`: dissipation, W; `ring_torque`: torque that the friction exerts on the ring that guides the
-    cage, N m (the drive must supply its opposite); `guidance`: field of the cage; "inner_ring", or else the outer ring.
+    cage, N m (the drive must supply its opposite); `guidance`: "inner_ring" if the inner ring guides the cage, else the
+    outer one does.
     """
     ring = "inner_torque" if guidance == "inner_ring" else "outer_torque"
     return Interaction("cage_pilot", power, **{ring: -ring_torque})

@@ -1,17 +1,19 @@
 """The inner ring of a bearing: its five degrees of freedom (short: freedoms), its given loads and displacements, and
 its port.
 
-A load is given for each unknown freedom, and a displacement for each of the others. The *port* is the point of the ring
+Each unknown freedom has a load, 0 if none is given. Each other freedom is *held* at a displacement, 0 if none is given;
+a ring is held if all of its freedoms are. The *port* is the point of the ring
 at which loads and displacements are exchanged with a shaft. A *family* is a kind of bearing: ball, cylindrical roller,
 tapered roller. The *reference point* is the point whose displacements the results show: the port if a shaft holds the
-ring, otherwise the point at which the family writes its equations. A `Port` consists of the load that holds the ring at
-a displacement, and of the derivatives of that load. The load is equal and opposite to the force of the rolling elements
-on the ring.
+ring, otherwise the point at which the family writes its equations. The class `Port` contains the load that keeps the
+ring at a displacement, and the derivatives of that load. This load acts at the reference point, and it is equal and
+opposite to the force of the rolling elements on the ring.
 
-Frame and signs: $e_x$ along the axis; azimuth 0 is the load line (radial), azimuth 90 degrees is lateral. A positive
-`tilt` moves the ring along $+e_x$ at azimuth 0, a positive `tilt_lateral` at azimuth 90 degrees. Loads are conjugate to
-displacements: force times displacement, or moment times tilt, is the work on the ring. Inside the equations every
-freedom is a length: a tilt is multiplied by a reference length of the family, its lever, and a moment is divided by it.
+Frame and signs: $e_x$ points along the axis. Azimuth 0 is the load line (radial direction), and azimuth 90 degrees is
+the lateral direction; axis, radial and lateral direction form a right-handed frame. A positive `tilt` moves the ring
+along $+e_x$ at azimuth 0, a positive `tilt_lateral` at azimuth 90 degrees. Loads are conjugate to displacements: force
+times displacement, or moment times tilt, is the work on the ring. Inside the equations every freedom is a length: a
+tilt is multiplied by a reference length of the family, its lever, and a moment is divided by it.
 """
 
 import dataclasses
@@ -45,8 +47,8 @@ much would change derivatives of barely loaded rollers by 6e-6 of their value.""
 
 
 class Port(NamedTuple):
-    """The load that holds the inner ring at a displacement, with its derivatives. It acts at the reference point of the
-    results (see the module).
+    """The load that keeps the inner ring at a displacement, with its derivatives. It acts at the reference point of the
+    results (see the module), which is the port only if a shaft holds the ring.
 
     - `force`: loads on its five freedoms that balance the forces of the rolling elements, N and N m.
     - `stiffness`: derivatives of `force` with respect to the displacements, with all else in equilibrium, N/m, N/rad,
@@ -70,8 +72,8 @@ class InnerRing(eqx.Module):
     - `expansion`: growth of the inner raceway's radius less that of the outer one, m; `None` if there is none.
     - `distance`: axial distance from the reference point of the results to the point whose displacements are used here,
       m; `None` if they are the same point.
-    - `closure`: axial displacement that mounting has given the ring of a preloaded set, m. The contacts feel it, and
-      the results leave it out. `None` if there is none.
+    - `closure`: axial displacement that mounting has given the ring, m, if the bearing is one of several that are
+      preloaded against each other. The contacts feel it, and the results leave it out. `None` if there is none.
     - `held_load`: estimate of the load that the given displacements cause, N. It only scales the equations. `None` if
       it is not needed.
     - `needs_held_load`: True if `held_load` is needed, because the given displacements cause loads whose size cannot be
@@ -122,7 +124,7 @@ class InnerRing(eqx.Module):
     def displacement(self, globals_: Float[Array, " g"]) -> RingDisplacement:
         """The displacement that results show, m and rad.
 
-        **Arguments:** `globals_`: global unknowns, beginning with those of the ring.
+        **Arguments:** `globals_`: the unknowns that belong to no single rolling element; those of the ring come first.
         """
         every = self.moved(globals_[: len(self.freedoms)]) * self.units
         if self.closure is not None:

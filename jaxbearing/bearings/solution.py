@@ -24,7 +24,8 @@ from .ring_deflection import InnerRingDeflection, RingDeflection
 from .supplied import SupplyResult
 
 INNER_TOLERANCE = 1e-8
-"""A nested solve with a larger residual is named as the cause of a failure."""
+"""If the residual of a nested solve (`inner_residual`, which is not about the inner ring) is larger, the message of a
+failure names the nested solve as its cause."""
 
 RING_FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
 """Degrees of freedom of the inner ring, in the order of `ring` and `stiffness`."""
@@ -36,12 +37,12 @@ _CONJUGATE = {"m": "N", "rad": "N m"}
 
 
 class RingDisplacement(eqx.Module):
-    """Displacement of the inner ring. A degree of freedom that the bearing does not model is 0.
+    """Displacement of the inner ring. The entry of a freedom that the bearing does not model is 0.
 
     The zero of `axial` is the middle of the play for ball bearings that are given by their clearance (the planes of the
     grooves coincide there) and for cylindrical roller bearings with flanges. It is the first contact of elements and
     races for ball bearings that are given by their contact angle and for tapered bearings. If a tapered bearing has
-    seats (`[fits]`), its zero is the first contact with the dimensions of the drawing.
+    fits on shaft and housing (`[fits]`), its zero is the first contact with the dimensions of the drawing.
     """
 
     axial: Float[Array, ""] = eqx.field(
@@ -116,7 +117,8 @@ class BoundaryPower(eqx.Module):
 
 
 class RollingByRace(eqx.Module):
-    """Rolling resistance of each raceway; `law`: its law and the inlet heating, in words."""
+    """Rolling resistance of each raceway, which is no part of `RacewayPower`; `law`: its law and the inlet heating, in
+    words."""
 
     inner: Float[Array, ""] = eqx.field(metadata=label("W", "rolling resistance of the inner raceway"))
     outer: Float[Array, ""] = eqx.field(metadata=label("W", "rolling resistance of the outer raceway"))
@@ -137,7 +139,8 @@ class LaminaLoads(eqx.Module):
 
 
 class FailureCause(NamedTuple):
-    """A possible cause of a failed solve: `applies` is True where it is one, `numbers` fill the places of its text."""
+    """A possible cause of a failed solve. `applies` is True where it is one; `numbers` fill the places of the text
+    that is its key in `Solution.failure_causes`."""
 
     applies: Bool[Array, ""]
     numbers: Float[Array, "..."]
@@ -246,7 +249,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
 
     @property
     def not_modelled(self) -> tuple[str, ...]:
-        """Names in `power_loss` of the losses that the scene does not model."""
+        """Names of the losses that the scene does not model, with those that no scene of its kind models."""
         return losses_not_modelled(self.power_loss)
 
     @property
@@ -254,7 +257,10 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
         return self.status == Status.CONVERGED
 
     def solver_failure(self) -> str:
-        """One sentence on a failed solve: status, residual, worst equation and possible causes."""
+        """One line on a failed solve: how it ended, and the possible causes that apply.
+
+        The residual and the worst equation are in it unless the input was invalid or there is no equilibrium.
+        """
         found = [
             text.format(*np.atleast_1d(np.asarray(cause.numbers)).tolist())
             for text, cause in self.failure_causes.items()
@@ -279,7 +285,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
         return f"{ending}; of the last solve of the bearing the worst equation is: {name}"
 
     def _ending(self) -> str:
-        """One sentence on a failed solve: status, residual and worst equation."""
+        """The end of a failed solve in words: its residual and its worst equation, unless there is no equilibrium."""
         local_equations = len(self.equation_names) - self.global_equations
         worst = int(self.worst_equation)
         name = self.equation_names[worst]

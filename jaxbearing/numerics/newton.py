@@ -2,8 +2,9 @@
 coupled only through a few global unknowns (module `arrow`). Each member of a batch, a lane, has a status of its own;
 derivatives follow from the implicit function theorem.
 
-`newton_steps` computes a step, tests a trial and chooses the next one; `continuation` chooses an easier system if the
-first try fails.
+A *trial* is a point at which the equations are evaluated. The *given system* is the one that the caller wants solved.
+The module `newton_steps` computes a step, judges a trial and chooses the next one; the module `continuation` chooses
+easier systems that lead to the given one if the first try fails.
 """
 
 from collections.abc import Callable
@@ -39,7 +40,8 @@ _GOING = -1
 
 
 class NewtonResult(NamedTuple):
-    """Result of the iteration. If the lane failed, `point` is finite and not a solution.
+    """Result of the iteration. If the lane failed, `point` is finite and not a solution; it may be a trial of an easier
+    system, to which the other values do not belong.
 
     `jacobian`, `residual_norm` (the largest scaled residual), `inner_residual`, `worst_equation` and `worst_element`
     are values at the last trial of the given system, not at a trial of an easier one. If the lane converged, `point`
@@ -99,9 +101,9 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         if continuation is not None:
             at_system = continuation.at_system
             spent = iterations >= (1 + MOST_STEPS * homotopies) * options.max_steps
-            end = StageEnd(verdict.converged, failed, hopeless & at_system, spent)
+            stage_end = StageEnd(verdict.converged, failed, hopeless & at_system, spent)
             continuation, restart, guess, lost = advance(
-                continuation, steps, end, search.trial, easiest, 1 + homotopies
+                continuation, steps, stage_end, search.trial, easiest, 1 + homotopies
             )
             won = verdict.converged & at_system
             following = following.begun_anew(restart, guess)
@@ -136,11 +138,14 @@ class _End(NamedTuple):
 
 
 def _ended(system: AbstractArrowSystem, options: NewtonOptions) -> _End:
-    def search(system: AbstractArrowSystem) -> _End:
-        end = _iterate(system, options)
-        return _End(end.search.trial, end.equations, end.jacobian, end.status, end.iterations)
+    """The end of the iteration. The lanes of a batch run one after the other, unless the system states that they should
+    run together (`lanes_together`)."""
 
-    return search(system) if system.lanes_together else in_turn(search, system)
+    def solve_lane(system: AbstractArrowSystem) -> _End:
+        last = _iterate(system, options)
+        return _End(last.search.trial, last.equations, last.jacobian, last.status, last.iterations)
+
+    return solve_lane(system) if system.lanes_together else in_turn(solve_lane, system)
 
 
 class _Root(NamedTuple):
@@ -152,8 +157,8 @@ class _Root(NamedTuple):
 
 @eqx.filter_custom_jvp
 def _root(system: AbstractArrowSystem, *, options: NewtonOptions) -> _Root:
-    """The root, and the Jacobian at the last trial before it. If the lane failed, the point is the last trial, with 0
-    for numbers that are not finite."""
+    """The root, and the Jacobian at the last trial of the given system before it. If the lane failed, the point is the
+    last trial of all, which may be one of an easier system, with 0 for numbers that are not finite."""
     end = _ended(system, options)
     solved = end.status == Status.CONVERGED
     # One more Newton step is taken from the trial that converged: it squares the remaining error.
@@ -205,7 +210,7 @@ def _implicit(system: System, system_dot: System, root: _Root, stiffness: bool =
 
 
 def _directional(function: Callable[..., Tree], primals: tuple, tangents: tuple) -> Tree:
-    """Directional derivative of a function of pytrees. Outputs that do not depend on the direction get zeros, not
+    """Directional derivative of a function of pytrees. Outputs that do not depend on the inputs get zeros, not
     `None`."""
     values, dots = eqx.filter_jvp(function, primals, tangents)
     return jax.tree.map(
@@ -237,7 +242,8 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
     and the returned system passes no derivative for it, so that NaN times zero cannot reach a parameter that lanes
     share. The caller must mask results that it computes from the point by `converged`.
 
-    **Arguments:** `system`: equations and parameters; `options`: tolerances and limits.
+    **Arguments:** `system`: equations and parameters; `options`: tolerances and limits. `max_steps` limits one try; a
+    solve that goes over easier systems may take more.
     """
     chosen = NewtonOptions() if options is None else options
     root = at_known_root(

@@ -140,7 +140,7 @@ class ArchedBallSystem(AbstractBallEquations):
         touch = self.touch(shared, state.centre)
         carried = jnp.asarray(self.arcs.senses * state.traction.transverse)
         push, bare = self.push(touch, state.load, carried), self.push(touch, state.load, None)
-        more = (push.held - bare.held) / self.ball_scale()
+        more = (push.net - bare.net) / self.ball_scale()
         return state._replace(
             friction=carried, fit=state.fit + more, on_ring=state.on_ring + (push.on_ring - bare.on_ring)
         )

@@ -21,6 +21,9 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+RACE_SENSES = np.asarray([[1.0], [-1.0]])
+"""Sense of the contact's x axis along the orbit, of one contact on the inner and one on the outer race."""
+
 
 def added(values: Iterable[Array]) -> Array:
     """Sum of one value or more. A single one stays as it is."""
@@ -80,7 +83,7 @@ class Arcs(NamedTuple):
     def senses(self) -> Float[np.ndarray, "contact 1"]:
         """1 of contacts on the inner ring, -1 of those on the outer one: the sense of the contact's x axis along the
         orbit."""
-        return np.where(np.asarray(self.races) == 0, 1.0, -1.0)[:, None]
+        return RACE_SENSES[np.asarray(self.races)]
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -35,12 +35,10 @@ from ...contacts.shear import Sliding
 from ...gaps.ball_pocket import BallPocketFilm
 from ...numerics.roots import monotone_root
 from ...numerics.safe import smooth_abs
-from .arcs import Arcs, added
+from .arcs import added
 from .lubricated import AbstractLubricatedBallSystem
 from .state import BallsState, RaceState
 
-SIDES = Arcs().senses
-"""Sense of the contact's x axis along the orbit, at the inner and the outer contact of balls with two contacts."""
 FADING_LOAD = 1e-3
 """Load of a contact at which its traction fades where balls have more than two, N."""
 PART_TOLERANCE = 1e-12

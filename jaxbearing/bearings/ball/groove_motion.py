@@ -1,12 +1,16 @@
 r"""Exact motion of the inner grooves of a ball bearing: from ball centres to the displaced and tilted inner ring.
 
-Frames. $e_x$ along the bearing axis, Y along azimuth 0, Z along azimuth 90 degrees; positions count from the centre of
-the ring without displacement. The ring has a circle of groove centres of radius $R_i$ around its axis, in a plane at
-the distance s from the centre of the ring, along the axis: 0 if the ring has one groove arc. The centre moves by
-$d = \delta_ae_x + \delta_rY + \delta_lZ$; the ring turns by the rotation vector $\theta_2Y - \theta_1Z$ of length t,
-and its axis becomes $n' = \cos t\,e_x - \frac{\sin t}{t}(\theta_1Y + \theta_2Z)$. A ball at azimuth $\psi$ has its
-centre at B. With $p = B - d$, $h = p\cdot n'$, $u = p - hn'$, $\rho = |u|$ and $k = R_i/\rho$, the nearest point of the
-circle is $G = d + sn' + ku$, and the arm from the ball to it is $G - B = (s - kh)n' + (k - 1)p$.
+Frames. $e_x$ points along the bearing axis, Y to azimuth 0 and Z to azimuth 90 degrees; positions count from the centre
+of the ring without displacement. The *half-plane* of a ball ends at the bearing axis and contains the centre of the
+ball; *outward* is the radial direction in it, *along the orbit* the direction normal to it, of growing azimuth. The
+ring has the axial, radial and lateral displacement $\delta_a, \delta_r, \delta_l$ and the tilts $\theta_1, \theta_2$,
+which move it along $+e_x$ at azimuth 0 and at azimuth 90 degrees. It has a circle of groove centres of radius $R_i$
+around its axis, in a plane at the distance s from the centre of the ring, along the axis: 0 if the ring has one groove
+arc. The centre moves by $d = \delta_ae_x + \delta_rY + \delta_lZ$; the ring turns by the rotation vector
+$\theta_2Y - \theta_1Z$ of length t, and its axis becomes $n' = \cos t\,e_x - \frac{\sin t}{t}(\theta_1Y + \theta_2Z)$.
+A ball at azimuth $\psi$ has its centre at B. With $p = B - d$, $h = p\cdot n'$, $u = p - hn'$, $\rho = |u|$ and
+$k = R_i/\rho$, the nearest point of the circle is $G = d + sn' + ku$, and the arm from the ball to it is
+$G - B = (s - kh)n' + (k - 1)p$.
 
 The first-order form, in which the groove centre moves by $R_i\tau$ along the axis, $\tau = \theta_1\cos\psi +
 \theta_2\sin\psi$, leaves out the motion $R_i(1 - \cos t)\cos^2\psi$ towards the axis (of a tilt $\theta_1$): 0.4 um at
@@ -16,11 +20,12 @@ in runs in time and in the first stage of a solve of a shaft. Without a tilt it 
 displacement $d_t$ of the ring along the orbit: 1 nm in the bearing `turbine_ball` at 20 kN axial and 8 kN radial load,
 6e-5 of a ball's load.
 
-Loads on the ring. A force F is that of the ring on the ball; the loads are those that hold the ring against the balls.
-With $W = [F\cdot p - h\,F\cdot n']/\rho^2$ and $c = k(F\cdot n' - Wh)$, a force F on the nearest point of the circle
-does, with the ball in its place, the work $F\cdot\delta(G - B) = P_d\cdot\delta d + P_n\cdot\delta n'$, where
-$P_d = cn' + kWp - (k - 1)F$ and $P_n = (s - kh)F - cp$ are the derivatives of the arm. They are written out: to
-differentiate these formulas takes 0.6 of the operations of differentiating a reverse pass.
+Loads on the ring. F is the force of the ring on the ball. The load that balances the reaction of the ball on the ring
+is also F, and acts at the nearest point of the circle. With $W = [F\cdot p - h\,F\cdot n']/\rho^2$ and
+$c = k(F\cdot n' - Wh)$, a force F on the nearest point of the circle does, with the ball in its place, the work
+$F\cdot\delta(G - B) = P_d\cdot\delta d + P_n\cdot\delta n'$, where $P_d = cn' + kWp - (k - 1)F$ and
+$P_n = (s - kh)F - cp$ are the derivatives of $F\cdot(G - B)$ by d and n'. They are written out: to differentiate these
+formulas takes 0.6 of the operations of differentiating a reverse pass.
 """
 
 from collections.abc import Sequence
@@ -66,11 +71,11 @@ def half_planes(azimuth: Float[Array, " ball"]) -> Float[Array, "5 5 ball"]:
 class RingFrame(NamedTuple):
     """The displaced inner ring, seen from every ball: components along the bearing axis, outward and along the orbit.
 
-    - `shift`: displacement d of the centre of the ring, m; `axis`: direction n' of the tilted axis.
-    - `tilt`: in the half-plane of the ball and across it, rad; `square`: of its length t; `mean`: sin(t)/t.
+    - `displacement`: d, of the centre of the ring, m; `axis`: direction n' of the tilted axis of the ring.
+    - `tilt`: tilts in the half-plane of the ball and across it, rad; `square`: t^2; `mean`: sin(t)/t.
     """
 
-    shift: Float[Array, "3 ball"]
+    displacement: Float[Array, "3 ball"]
     axis: Float[Array, "3 ball"]
     tilt: Float[Array, "2 ball"]
     square: Float[Array, " ball"]
@@ -86,7 +91,7 @@ class RingFrame(NamedTuple):
         return jnp.arctan2(-self.axis[1], self.axis[0])
 
     def on_turned(self, moment: Float[Array, " ball"]) -> Float[Array, "3 ball"]:
-        """Share in $P_n$ of a moment that does work on `turned`, N m."""
+        """The part of $P_n$, N m, that comes from a moment which does work on `turned`."""
         square = jnp.square(self.axis[0]) + jnp.square(self.axis[1])
         return (moment / square)[None] * jnp.stack([self.axis[1], -self.axis[0], jnp.zeros_like(moment)])
 
@@ -105,8 +110,7 @@ def length_of(vector: Float[Array, "component ball"]) -> Float[Array, " ball"]:
 
 
 def ring_frame(displaced: Float[Array, "5 ball"]) -> RingFrame:
-    """The displaced ring, from its displacements in the half-plane of every ball (`half_planes`), m and rad. A
-    half-plane ends at the bearing axis and goes through the centre of the ball."""
+    """The displaced ring, from its displacements in the half-plane of every ball (`half_planes`), m and rad."""
     tilt = displaced[3:]
     square = jnp.sum(jnp.square(tilt), axis=0) + TILT_FLOOR**2
     size = jnp.sqrt(square)
@@ -133,7 +137,7 @@ class GrooveArm(NamedTuple):
     def conjugate(
         self, axis: Float[Array, "3 ball"], force: Float[Array, "3 ball"]
     ) -> tuple[Float[Array, "3 ball"], Float[Array, "3 ball"]]:
-        """$P_d$, N, and $P_n$, N m, of a force on the circle, N. **Arguments:** `axis`: n'."""
+        """$P_d$, N, and $P_n$, N m, of the load F at the circle, N (see the module). **Arguments:** `axis`: n'."""
         along, ratio = jnp.sum(force * axis, axis=0), 1.0 + self.excess
         weight = (jnp.sum(force * self.place, axis=0) - self.height * along) / self.square
         both = ratio * (along - weight * self.height)
@@ -151,7 +155,7 @@ def inner_arm(frame: RingFrame, centre: Float[Array, "2 ball"], lever: Values, s
     - `side`: s, distance of the circle from the centre of the ring along its axis, m.
     """
     # p less R_i outward is small; R_i^2 - rho^2 = h^2 - (p^2 - R_i^2)
-    near = jnp.concatenate([centre, jnp.zeros_like(centre[:1])]) - frame.shift
+    near = jnp.concatenate([centre, jnp.zeros_like(centre[:1])]) - frame.displacement
     outward = lever * _OUTWARD
     place = near + outward
     height = jnp.sum(place * frame.axis, axis=0)
@@ -169,7 +173,8 @@ def conjugate_loads(
     forces: Sequence[Float[Array, "3 ball"]],
     moment: Float[Array, " ball"] | None,
 ) -> Float[Array, "5 ball"]:
-    """Forces, N, and moments, N m, on the displacements in the half-planes, which do the same work.
+    """Loads in the half-planes, N and N m, that do the same work on the five displacements as the given forces do on
+    the circles and the moment does on `turned`.
 
     **Arguments:** `forces`: on the circle of each arm, N; `moment`: on `frame.turned`, N m; `None` without friction.
     """
@@ -181,8 +186,8 @@ def conjugate_loads(
 
 
 class RingMotion(NamedTuple):
-    """Displacements of the inner ring in the half-plane of every ball (`half_planes`), m and rad: `held` by what the
-    ring is held at, and `directions` for a unit of each unknown freedom, which is a length."""
+    """Displacements of the inner ring in the half-plane of every ball (`half_planes`), m and rad: `held` by the given
+    displacements of the ring, and `directions` for a unit of each unknown freedom, which is a length."""
 
     held: Float[Array, "5 ball"]
     directions: Float[Array, "5 freedom ball"]

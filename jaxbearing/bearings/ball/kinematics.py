@@ -9,9 +9,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..._types import Values
-
-PAIR = np.asarray([[1.0], [-1.0]])
-"""Senses of one contact on each race, see `BallKinematics.races`."""
+from .arcs import RACE_SENSES
 
 
 class BallMotion(NamedTuple):
@@ -130,7 +128,10 @@ class BallKinematics(eqx.Module):
         return self._over(motion, angle, -1.0, self.outer_speed)
 
     def races(
-        self, motion: BallMotion, angle: Float[Array, "contact ball"], senses: Float[np.ndarray, "contact 1"] = PAIR
+        self,
+        motion: BallMotion,
+        angle: Float[Array, "contact ball"],
+        senses: Float[np.ndarray, "contact 1"] = RACE_SENSES,
     ) -> RaceMotion:
         """Relative motion at every contact of balls.
 

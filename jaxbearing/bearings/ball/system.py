@@ -18,8 +18,7 @@ from .gyroscopic import NO_LOAD, AbstractGyroscopic
 from .kinematics import BallKinematics, BallMotion
 
 Attitude = Literal["outer", "inner", "linear_slip", "min_power", "equilibrium"]
-
-
+"""Rule that gives the attitude angle of the balls, the direction of their spin axis."""
 _OUTWARD = np.asarray([[0.0], [1.0]])
 
 
@@ -35,7 +34,7 @@ class Grooves(NamedTuple):
     """Axial displacement of the ring at which the planes of the grooves coincide, m: 0, or less than 0 where
     displacements count from first contact."""
     lever: Float[Array, ""]
-    """Radius of the circle of inner groove centres, R_i."""
+    """Radius R_i of the circle of inner groove centres, m."""
     groove_arm: Float[Array, ""]
     """f_i D, radius of the inner groove: arm of the friction at the inner race about the circle of groove centres."""
 
@@ -45,7 +44,8 @@ class Grooves(NamedTuple):
 
     @property
     def free_angle(self) -> Float[Array, ""]:
-        """Contact angle of the unloaded bearing, rad."""
+        """Contact angle at first contact without `expansion`, rad. It may differ from the angle of `free_normal`, which
+        belongs to the ring without displacement."""
         return jnp.arctan2(self.free_sine, self.free_cosine)
 
     @property
@@ -126,18 +126,18 @@ class Touch(NamedTuple):
 class Push(NamedTuple):
     """Forces of the contacts, N.
 
-    - `held`: of the ball on the outer ring less those of the inner ring on the ball, axial and outward.
+    - `net`: of the ball on the outer ring less those of the inner ring on the ball, axial and outward.
     - `on_ring`: contributions to the forces that hold the rings: the freedoms of the inner one, and the radial forces
       on rings that bend (`AbstractBetweenRings`).
     """
 
-    held: Float[Array, "2 ball"]
+    net: Float[Array, "2 ball"]
     on_ring: Float[Array, "row ball"]
 
     def balance(self, outward: Float[Array, " ball"]) -> Float[Array, "2 ball"]:
-        """Left side minus right side of the balances of forces on the balls, N. **Arguments:** `outward`: all other
-        forces on them, N."""
-        return self.held - outward[None] * _OUTWARD
+        """Left side minus right side of the balances of forces on the balls, N. **Arguments:** `outward`: sum of all
+        other forces on a ball, which act outward, N."""
+        return self.net - outward[None] * _OUTWARD
 
 
 def unit_normals(direction: Float[Array, "contact ball"]) -> Float[Array, "2 contact ball"]:
@@ -149,12 +149,12 @@ def unit_normals(direction: Float[Array, "contact ball"]) -> Float[Array, "2 con
 class AbstractBallSystem(AbstractBetweenRings):
     """Balls between two grooved rings.
 
-    Ball centres count from the centre of the outer groove at the azimuth of the ball, which moves outwards by the
-    deflection of the outer ring there, as the inner groove does by that of the inner ring.
+    Ball centres count from the centre of the outer groove at the azimuth of the ball. This centre moves outwards by the
+    deflection of the outer ring there, and the inner groove by that of the inner ring.
 
     - `directions[f]`: changes of the coordinates of the inner groove (`arcs`; of one arc its centre, axial and radial)
       at every ball for a unit of freedom f, to first order; the lever of the `ring` is R_i.
-    - `held_shift`: changes of these by what the ring is held at, m.
+    - `held_shift`: changes of these by the given displacements of the ring, m.
     - `ring_motion`: the motion of the ring as the balls see it, of grooves that move with its exact rotation
       (`groove_motion`); `None`: to first order.
     - `out_of_round`: displacement towards each ball of races that are not round, m; `outer`, `inner`: the rings if they
@@ -239,7 +239,7 @@ class AbstractBallSystem(AbstractBetweenRings):
         return tuple(InnerArm(arm.vector, length_of(arm.vector), frame.turned) for arm in found), on_ring
 
     def centrifugal(self, orbital_speed: Array) -> Array:
-        """N, of balls on the pitch circle."""
+        """Centrifugal force of balls on the pitch circle, N."""
         return 0.5 * self.mass * self.kinematics.pitch_diameter * jnp.square(orbital_speed)
 
     def couple(self, motion: BallMotion) -> Array:
@@ -287,8 +287,11 @@ class AbstractBallSystem(AbstractBetweenRings):
     def reach(
         self, shared: Float[Array, "p ball"], centre: Float[Array, "2 ball"]
     ) -> tuple[tuple[InnerArm, ...], OnRing]:
-        """From ball centres, measured from the outer groove centre (axial, radial), m, to the centres of the inner
-        arcs; and what forces there contribute to those that hold the ring's freedoms."""
+        """Returns what `inner_arms` does, for ball centres that count from the outer groove centre (axial, radial), m.
+
+        **Arguments:** `shared`: the unknowns that all balls share, as each ball sees them; those of the ring come
+        first.
+        """
         return self.inner_arms(shared[: len(self.freedoms)], self.from_round(centre, shared))
 
     def touch(self, shared: Float[Array, "p ball"], centre: Float[Array, "2 ball"]) -> Touch:
@@ -297,9 +300,10 @@ class AbstractBallSystem(AbstractBetweenRings):
         rests = self.arcs.from_outer(centre)
         lengths = [*(arm.length for arm in arms), *(safe_norm(rest[0], rest[1]) for rest in rests)]
         leaning = [*(arm.vector for arm in arms), *rests]
-        across, outward = jnp.stack([one[:2] for one in leaning], axis=1)
-        direction = angle = jnp.arctan2(across, outward)
+        axial, outward = jnp.stack([one[:2] for one in leaning], axis=1)
+        direction = angle = jnp.arctan2(axial, outward)
         if arms[0].turned is not None:
+            # senses are 1 at inner arcs and -1 at outer ones: only the inner race turns with the ring
             angle = direction - arms[0].turned[None] * np.maximum(self.arcs.senses, 0.0)
         normals = tuple(one / length[None] for one, length in zip(leaning, lengths, strict=True))
         return Touch(jnp.stack(lengths), normals, direction, angle, on_ring)

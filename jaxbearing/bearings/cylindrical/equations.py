@@ -5,8 +5,9 @@ roller has three equations (source eqs. (27)-(29), (38)):
 
 - approach: $J_d/2 + \delta_i + \delta_o - h_i - h_o = d\cdot n$, with the diametral clearance $J_d$, the elastic
   approaches $\delta$, the film thicknesses h, the ring displacement d and the direction n of the roller. The residual
-  is the logarithm of the ratio of the positive terms on the two sides. Its unknown is ln Qi. The load at the outer race
-  is $Q_o = Q_i + m R_m W^2$. The pocket friction, about 0.1 % of the centrifugal force, is left out here, so that Q
+  is the logarithm of the ratio of the positive terms on the two sides. Its unknown is ln Qi, with the load $Q_i$ at the
+  inner race. The load at the outer race is $Q_o = Q_i + m R_m W^2$, with the roller mass m and the pitch radius $R_m$.
+  The pocket friction, about 0.1 % of the centrifugal force, is left out here, so that Q
   does not depend on the pocket;
 - moment: $R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} + \frac{R_R}{2}(P_i + P_o) = 0$, with the roller
   radius $R_R$, the friction forces $F_{C1}, F_{C2}$ of the pocket and $F_i, F_o$ of the races, and the rolling
@@ -23,15 +24,16 @@ unknown, and the moment balance of the cage (source eq. (33)), with W as unknown
 land must carry the sum of the pocket forces, and its eccentricity is the root of a monotone scalar equation
 (`gaps.ShortJournal.static_equilibrium`).
 
-Rolling resistance, if the scene models it (the source omits it): in each contact the film pressure opposes the motion
-with the force $P = \ell\int h\,dp/dx\,dx$. The shear of the film, -P/2, brakes both surfaces. The line of action of the
-pressure passes through both centres. The pressure pushes the roller forward by $P R/R_R$, with R the reduced radius,
-and it pushes the ring by the rest of P. The force on the roller is $F_P = P_i (R_i'/R_R - 1/2) - P_o (R_o'/R_R - 1/2)$,
-with $R_i', R_o'$ the reduced radii. Each ring is braked by P/2 at its raceway. The dissipation is P times the mean
-speed.
+Rolling resistance, if the scene models it (the source omits it): the pressure gradient of the film in each contact
+defines the force $P = \ell\int h\,dp/dx\,dx$. The shear of the film brakes each of the two surfaces with P/2. The
+pressure on a surface acts through the centre of that body, so that it has no moment about this centre. It pushes the
+roller forward with the force $P R/R_R$, where R is the reduced radius, and it pushes the ring with the rest of P. The
+force on the roller is $F_P = P_i (R_i'/R_R - 1/2) - P_o (R_o'/R_R - 1/2)$, with the reduced radii $R_i', R_o'$. Each
+ring is braked by P/2 at its raceway. The dissipation is P times the mean speed.
 
 The sign of $F_{C2} - F_{C1}$ in the x balance of the cage differs from the source's eq. (31). That equation contradicts
-the source's eq. (32) and action = reaction. The force and the dissipation of an interaction use the same speed.
+the source's eq. (32) and action = reaction. Force and dissipation of a contact are computed with the same sliding
+speed.
 """
 
 import dataclasses
@@ -113,7 +115,7 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
     # -- scales ---------------------------------------------------------------------------------------------------
 
     def friction_scale(self) -> Array:
-        """Scale of friction forces, N: 1 % of a roller's share of the load plus its centrifugal force."""
+        """Scale of friction forces, N: 1 % of the sum of a roller's share of the load and its centrifugal force."""
         return 0.01 * (self.load_scale() / self.azimuth.shape[0] + self.centrifugal(self.kinematics.free_orbit))
 
     def centrifugal(self, orbital_speed: Array) -> Array:
@@ -356,8 +358,8 @@ class DryRollerSystem(AbstractInPlane):
     def initial(self) -> ArrowPoint:
         """Starts with the whole load on one roller. The bearing is then in contact, and the root is approached from
         above."""
-        stiff = jnp.sum(self.contact.palmgren_compliance)
-        shift = self.radial_clearance + stiff * (self.load_scale() + self.centrifugal()) ** 0.9
+        compliance = jnp.sum(self.contact.palmgren_compliance)
+        shift = self.radial_clearance + compliance * (self.load_scale() + self.centrifugal()) ** 0.9
         shift = jnp.maximum(shift, 0.1 * LENGTH_UNIT)
         if self.out_of_round is not None:
             shift = shift + jnp.max(jnp.abs(self.out_of_round))
@@ -367,9 +369,10 @@ class DryRollerSystem(AbstractInPlane):
     def loads(self, shift: Array) -> tuple[Float[Array, "2 roller"], Array]:
         r"""Loads on both races from the inward displacement of the inner ring at each roller, and the root's residual.
 
-        $k_i Q^{0.9} + k_o (Q + F_c)^{0.9} = d\cdot n - J_d/2$. Q is 0 until the displacement exceeds the approach that
-        the centrifugal force causes at the outer race. The equation is solved for $t = Q^{0.9}$, in which it is nearly
-        linear. Where contact begins, Q is continuously differentiable with slope 0.
+        $k_i Q^{0.9} + k_o (Q + F_c)^{0.9} = d\cdot n - J_d/2$, with the load Q at the inner race. Q is 0 until
+        $d\cdot n$ exceeds $J_d/2$ plus the approach that the centrifugal force causes at the outer race. The equation
+        is solved for $t = Q^{0.9}$, in which it is nearly linear. Where contact begins, Q is continuously
+        differentiable with slope 0.
         """
         kappa = per_race(self.contact.palmgren_compliance)
         fc = self.centrifugal()
@@ -386,8 +389,8 @@ class DryRollerSystem(AbstractInPlane):
 
         args = (x, fc, kappa[1] / kappa[0], outer_rest / kappa[0])
         root = monotone_root(balance, args, 1e-3 * x, 1.001 * x, 0.5 * x)
-        inner = jnp.where(taken, jnp.where(taken, root.value, 1.0) ** (10.0 / 9.0), 0.0)
-        return jnp.stack([inner, inner + fc]), jnp.max(root.residual / x)
+        at_inner = jnp.where(taken, jnp.where(taken, root.value, 1.0) ** (10.0 / 9.0), 0.0)
+        return jnp.stack([at_inner, at_inner + fc]), jnp.max(root.residual / x)
 
     def inward_shift(self, point: ArrowPoint) -> Array:
         """Displacement of the rings towards each other at each roller, m."""
@@ -403,10 +406,10 @@ class DryRollerSystem(AbstractInPlane):
 
     def element(self, unknowns, shared):
         if self.bent:
-            load, inner = self.loads(shared[0])
-            return unknowns, load, inner
-        load, inner = self.loads(self.inward(shared))
-        return unknowns, load[0][None, :] * self.directions, inner
+            load, nested = self.loads(shared[0])
+            return unknowns, load, nested
+        load, nested = self.loads(self.inward(shared))
+        return unknowns, load[0][None, :] * self.directions, nested
 
     def global_residual(self, globals_, totals):
         return self.ring_rows(globals_, totals), jnp.zeros(())

@@ -2,7 +2,8 @@
 
 A family that moves has a scene that derives from `AbstractMovingBearing` and a folder with two classes: one of
 equations of motion (`AbstractDynamics`) and one that makes them from a scene (`AbstractMotion`). Integration, restart,
-batches, history and files are those of this folder, for every family.
+batches, history and files are those of this folder, for every family. An *instant* holds all results of a run at one
+time. A function is *pure* if JAX can transform it: its result depends on its arguments alone.
 """
 
 import abc
@@ -34,7 +35,8 @@ class AbstractDynamics(eqx.Module):
     """
 
     works: ClassVar[tuple[str, ...]]
-    """Names of the works that are integrated beside the motion, in their order in the state."""
+    """Names of the works, integrals of power over time in J, that are integrated beside the motion, in their order in
+    the state."""
     reference_speed: eqx.AbstractVar[Float[Array, ""]]
     """Speed of the frame at the operating point, rad/s."""
 
@@ -76,7 +78,8 @@ class AbstractDynamics(eqx.Module):
 
 
 class Start(NamedTuple):
-    """Equations of motion, state at time 0, and how the quasi-static solve ended that gave it."""
+    """Equations of motion and state at time 0. `status` and `residual` are those of the quasi-static solve from which
+    the state follows."""
 
     dynamics: AbstractDynamics
     state: ArrowPoint
@@ -103,7 +106,10 @@ class AbstractMotion(abc.ABC):
         """**Raises:** `ValueError` for a scene whose rolling elements nothing drives."""
 
     def require_settings(self, scene: Any, simulation: Simulation) -> None:
-        """Refuses settings before anything is solved. **Raises:** `ValueError` where one lacks or does not belong."""
+        """Checks the settings before anything is solved. Here all are accepted; families override it.
+
+        **Raises:** `ValueError` if a setting is missing or does not belong to the scene.
+        """
         return
 
     @abc.abstractmethod
@@ -121,7 +127,8 @@ class AbstractMotion(abc.ABC):
     def resume(self, scene: Any, simulation: Simulation, last: LastState) -> Resumed:
         """The equations of motion and the state that an earlier run ended with; pure.
 
-        Speeds and loads over time may be other ones: no place and no speed jumps.
+        Speeds and loads over time may differ from those of the earlier run; places and speeds of the elements are
+        continuous all the same.
         """
 
     @abc.abstractmethod
@@ -135,7 +142,7 @@ class AbstractMotion(abc.ABC):
 
 
 class AbstractMovingBearing(AbstractBearing):
-    """Base of the bearings that `jaxbearing.simulate` takes."""
+    """Base of the bearings whose rolling elements `jaxbearing.simulate` moves in time."""
 
     runs_in_programs: ClassVar[bool] = True
     loads_over_time: ClassVar[tuple[str, ...]] = ("radial_load", "radial_load_lateral")
@@ -149,7 +156,7 @@ class AbstractMovingBearing(AbstractBearing):
     @property
     @abc.abstractmethod
     def motion(self) -> AbstractMotion:
-        """The motion of the family."""
+        """The object that makes the equations of motion of the family from a scene."""
 
     @property
     def cage_section(self) -> CageSection | None:

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
+from jaxbearing.bearings.ball.arcs import RACE_SENSES
 from jaxbearing.bearings.ball.build import build_core
-from jaxbearing.bearings.ball.friction import SIDES
 from jaxbearing.bearings.ball.kinematics import BallMotion
 from jaxbearing.bearings.ball.motion.groove_loss import ANGLES, EDGES, groove_loss
 from jaxbearing.bearings.ball.motion.speeds import Levers, Meridian
@@ -77,6 +77,6 @@ def test_spin_tells_the_side_of_a_strip(race):
     kinematics = CORE.kinematics
     motion = BallMotion(*(jnp.asarray([value]) for value in (610.0, 5200.0, 0.3, 40.0)))
     angle, y, radius = jnp.asarray([[0.5], [0.4]]), 1e-6, 0.5 * float(SCENE.geometry.ball_diameter)
-    here, there = (kinematics.races(motion, angle + turn * SIDES * y / radius) for turn in (-1.0, 1.0))
-    slope = (SIDES * (there.rolling - here.rolling) / (2.0 * y))[race]
+    here, there = (kinematics.races(motion, angle + turn * RACE_SENSES * y / radius) for turn in (-1.0, 1.0))
+    slope = (RACE_SENSES * (there.rolling - here.rolling) / (2.0 * y))[race]
     np.testing.assert_allclose(slope, -kinematics.races(motion, angle).spin[race], rtol=1e-8)

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ....contacts.distributed import StripPower
-from ..friction import SIDES
+from ..arcs import RACE_SENSES
 from .speeds import Levers, Meridian
 
 LIMIT = 120
@@ -32,6 +32,6 @@ def groove_loss(levers: Levers, meridian: Meridian, strips: StripPower) -> Float
     total = jnp.sum(strips.width, axis=-1, keepdims=True)
     middle = jnp.cumsum(strips.width, axis=-1) - 0.5 * strips.width - 0.5 * total
     width = strips.width / radius
-    start = angle + SIDES[..., None] * middle / radius - 0.5 * width
+    start = angle + RACE_SENSES[..., None] * middle / radius - 0.5 * width
     below = jnp.clip((EDGES.reshape(-1, 1, 1, 1) - start[None]) / width[None], 0.0, 1.0)
     return jnp.diff(jnp.sum(strips.power[None] * below, axis=(-2, -1)), axis=0).T

@@ -12,7 +12,8 @@ from ....contacts.distributed import Traction
 from ....contacts.point_laws import PointFilm
 from ....numerics.roots import monotone_root
 from ....numerics.safe import safe_norm
-from ..friction import SIDES, race_friction
+from ..arcs import RACE_SENSES
+from ..friction import race_friction
 from ..kinematics import RaceMotion
 from ..pairs import LubricatedBallSystem
 from ..state import RaceState
@@ -94,10 +95,10 @@ class LubricatedRaces(AbstractRaceLaw):
         held = safe_norm(load, LOAD_FLOOR)
         found = race_friction(self.system, RaceState(held, pressed.contact, races, pressed.film))
         shear, rolling, curvature = found
-        moments = [jnp.asarray(-SIDES * moment) for moment in (rolling, curvature) if moment is not None]
+        moments = [jnp.asarray(-RACE_SENSES * moment) for moment in (rolling, curvature) if moment is not None]
         return RaceFriction(
-            rolling=jnp.asarray(-SIDES * shear.rolling),
-            transverse=jnp.asarray(-SIDES * shear.transverse),
+            rolling=jnp.asarray(-RACE_SENSES * shear.rolling),
+            transverse=jnp.asarray(-RACE_SENSES * shear.transverse),
             spin=-shear.moment,
             roll=sum(moments[1:], moments[0]) if moments else None,
             resistance=None if rolling is None else moments[0],
