@@ -35,6 +35,12 @@ LAWS = (
 )
 """Lines of a file with an oil."""
 
+CLEANLINESS_HINT = (
+    "# The cleanliness of the oil gives the modified life: an ISO 4406 code (an example), or a class (grease_normal).",
+    '# cleanliness = "-/17/14"',
+)
+"""Lines of the table `rating` of a file with an oil, whose viscosity ratio the modified life needs."""
+
 
 def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, float], duty: Duty) -> str:
     """The file: boundary dimensions, internal geometry with intervals, materials, rating, oil and operation."""
@@ -63,6 +69,8 @@ def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, flo
     left = {0: "C and C0 are", 1: "the other rating is"}.get(len(rating))
     parts += _table("rating", rating, f"  # {left} computed from the geometry" if left else "")
     if not dry:
+        # into the table, whose last line is empty
+        parts[-1:] = [*CLEANLINESS_HINT, ""]
         name = Line("designation", quoted(bearing.text), "for `jaxbearing compare`: no result depends on it")
         parts += _table("catalogue", [name])
     mean = 0.5 * (bearing.bore + bearing.outside)

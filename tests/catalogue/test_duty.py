@@ -1,12 +1,14 @@
 """Oil and operation of standard bearings: what is given, what is an example, and losses from catalogue data alone."""
 
 import math
+import tomllib
 
 import numpy as np
 import pytest
 
 import jaxbearing as jb
 from jaxbearing.catalogue import find
+from jaxbearing.scenes.reader import scene_from_tables
 
 OIL = {"oil": "ISO VG 68", "inner_speed": 1500.0 * math.pi / 30.0}
 
@@ -42,6 +44,14 @@ def test_without_an_oil_the_scene_is_dry():
     assert found.scene().contact is None
     assert '# laws = "best"' in found.text()
     assert 'jaxbearing new 6207 --oil "ISO VG 68"' in found.text()
+
+
+def test_the_line_for_the_cleanliness_gives_a_modified_life():
+    text = find("NU 311", **OIL).text()
+    assert "# cleanliness" in text
+    tables = tomllib.loads(text.replace("# cleanliness", "cleanliness"))
+    assert scene_from_tables(tables, "NU 311").rating.says_cleanliness
+    assert "cleanliness" not in find("NU 311").text()
 
 
 def test_an_example_keeps_its_ratio_to_the_load_that_is_given():
