@@ -3,7 +3,7 @@
 from ..bearings.parts import ContactLaws
 from ..contacts import AbstractTraction, MeanPressureTraction, Supply
 from ..lubricants import Lubricant
-from .bearing.build import part
+from .bearing.build import laws_of, part
 from .cylindrical.schema import ContactTable
 from .laws import ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
 from .mixed import mixed_friction
@@ -12,16 +12,15 @@ from .mixed import mixed_friction
 def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:
     """The laws that a table names. Traction laws take the exponent with which the oil's data were fitted."""
     rolling = None if table.rolling_resistance is None else ROLLING[table.rolling_resistance]()
-    return ContactLaws(
+    return laws_of(
+        ContactLaws,
+        table,
         film=ROLLER_FILMS[table.film](),
         thermal=thermal_factor(table.thermal),
         traction=_traction(table, oil),
         rolling=rolling,
-        rolling_heating=table.rolling_heating,
-        entrainment_offset=table.entrainment_offset,
         supply=part(Supply, table.supply, exclude_none=True),
         mixed=mixed_friction(table.mixed),
-        hysteresis=table.hysteresis,
     )
 
 

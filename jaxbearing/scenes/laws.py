@@ -248,7 +248,9 @@ def thermal_factor(name: str | None) -> AbstractThermalFactor:
 def viscous_function(name: str, oil: Lubricant | None) -> AbstractViscousFunction:
     """The flow law of this name, with the exponent with which the oil's data were fitted."""
     name = ReeEyring.name if name == MAXWELL_EYRING else name
-    return viscous_function_named(name, None if oil is None else oil.rheology) if name in VISCOUS else VISCOUS[name]()
+    if name not in VISCOUS_LAWS:
+        return VISCOUS[name]()
+    return viscous_function_named(name, None if oil is None else oil.rheology)
 
 
 def distributed_traction(

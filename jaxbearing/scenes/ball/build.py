@@ -19,7 +19,7 @@ from ...bearings.rating import Rating
 from ...bearings.warming.settings import WarmUpSimulation
 from ...contacts import PointLaws, Supply
 from ...lubricants import Lubricant
-from ..bearing.build import built, cage, part, seats, shapes, solids
+from ..bearing.build import built, cage, laws_of, part, seats, shapes, solids
 from ..bearing.simulation import simulation, warm_up
 from ..laws import BALL_FILMS, POINT_ROLLING, distributed_traction, thermal_factor
 from ..mixed import mixed_friction
@@ -99,14 +99,13 @@ def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
     traction = None
     if table.traction is not None:
         traction = distributed_traction(table.traction, table.traction_accuracy, oil, spin=True)
-    return PointLaws(
+    return laws_of(
+        PointLaws,
+        table,
         film=BALL_FILMS[table.film](),
         thermal=thermal_factor(table.thermal),
         traction=traction,
         rolling=None if table.rolling_resistance is None else POINT_ROLLING[table.rolling_resistance](),
-        rolling_heating=table.rolling_heating,
-        heathcote=table.heathcote,
         supply=part(Supply, table.supply, exclude_none=True),
         mixed=mixed_friction(table.mixed),
-        hysteresis=table.hysteresis,
     )

@@ -17,7 +17,7 @@ from ...contacts import (
 )
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant, NoPressureViscosity
-from ..bearing.build import built, part, seats, shapes, solids
+from ..bearing.build import built, laws_of, part, seats, shapes, solids
 from ..bearing.profile import roller_profile
 from ..bearing.simulation import warm_up
 from ..laws import RIB_FILMS, ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
@@ -53,15 +53,15 @@ def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
     """Laws of the raceways."""
     rolling = None if table.rolling_resistance is None else ROLLING[table.rolling_resistance]()
     traction = None if table.traction is None else MeanPressureTraction(viscous_function(table.traction, oil))
-    return ContactLaws(
+    return laws_of(
+        ContactLaws,
+        table,
         film=ROLLER_FILMS[table.film](),
         thermal=thermal_factor(table.thermal),
         traction=traction,
         rolling=rolling,
-        rolling_heating=table.rolling_heating,
         supply=part(Supply, table.supply, exclude_none=True),
         mixed=mixed_friction(table.mixed),
-        hysteresis=table.hysteresis,
     )
 
 
