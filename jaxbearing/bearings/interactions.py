@@ -1,7 +1,8 @@
 """Friction of a bearing. An *interaction* is the friction, or a constraint force, at one place; losses, torques and
 drive power are sums over all interactions.
 
-The power of an interaction is computed from its own force and its own sliding speed. Its torques are those that drive
+The power of an interaction is computed from its own force and its own speed: the sliding speed, and the mean speed for
+rolling resistance. Its torques are those that drive
 the rings against it, the opposite of the moments of its forces on the rings. The drive power is the sum of driving
 torque times speed over both rings. In a steady state it must equal the sum of the dissipations. This equality is not
 assumed anywhere. Tests compare the two, and a wrong sign of a torque shows as a difference.

@@ -72,8 +72,8 @@ class InnerRing(eqx.Module):
     - `expansion`: growth of the inner raceway's radius less that of the outer one, m; `None` if there is none.
     - `distance`: axial distance from the reference point of the results to the point whose displacements are used here,
       m; `None` if they are the same point.
-    - `closure`: axial displacement that mounting has given the ring, m, if the bearing is one of several that are
-      preloaded against each other. The contacts feel it, and the results leave it out. `None` if there is none.
+    - `closure`: axial displacement that mounting has given the ring, m, of a bearing that is preloaded or adjusted. The
+      contacts feel it, and the results leave it out. `None` if there is none.
     - `held_load`: estimate of the load that the given displacements cause, N. It only scales the equations. `None` if
       it is not needed.
     - `needs_held_load`: True if `held_load` is needed, because the given displacements cause loads whose size cannot be

@@ -259,7 +259,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     def solver_failure(self) -> str:
         """One line on a failed solve: how it ended, and the possible causes that apply.
 
-        The residual and the worst equation are in it unless the input was invalid or there is no equilibrium.
+        It tells the residual and the worst equation, or the nested solve that failed, unless there is no equilibrium.
+        With a thermal network it tells the hottest node in place of the residual.
         """
         found = [
             text.format(*np.atleast_1d(np.asarray(cause.numbers)).tolist())
@@ -285,7 +286,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
         return f"{ending}; of the last solve of the bearing the worst equation is: {name}"
 
     def _ending(self) -> str:
-        """The end of a failed solve in words: its residual and its worst equation, unless there is no equilibrium."""
+        """The end of a failed solve in words: its residual, and the worst equation or the nested solve that failed,
+        unless there is no equilibrium."""
         local_equations = len(self.equation_names) - self.global_equations
         worst = int(self.worst_equation)
         name = self.equation_names[worst]

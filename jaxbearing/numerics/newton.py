@@ -210,8 +210,8 @@ def _implicit(system: System, system_dot: System, root: _Root, stiffness: bool =
 
 
 def _directional(function: Callable[..., Tree], primals: tuple, tangents: tuple) -> Tree:
-    """Directional derivative of a function of pytrees. Outputs that do not depend on the inputs get zeros, not
-    `None`."""
+    """Directional derivative of a function of pytrees. Outputs that do not depend on inputs with a tangent get
+    zeros, not `None`."""
     values, dots = eqx.filter_jvp(function, primals, tangents)
     return jax.tree.map(
         lambda dot, value: jnp.zeros_like(value) if dot is None else dot, dots, values, is_leaf=lambda x: x is None

@@ -14,6 +14,7 @@ def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:
     rolling = None if table.rolling_resistance is None else ROLLING[table.rolling_resistance]()
     return laws_of(
         ContactLaws,
+        ContactTable,
         table,
         film=ROLLER_FILMS[table.film](),
         thermal=thermal_factor(table.thermal),

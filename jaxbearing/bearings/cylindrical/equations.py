@@ -32,8 +32,8 @@ force on the roller is $F_P = P_i (R_i'/R_R - 1/2) - P_o (R_o'/R_R - 1/2)$, with
 ring is braked by P/2 at its raceway. The dissipation is P times the mean speed.
 
 The sign of $F_{C2} - F_{C1}$ in the x balance of the cage differs from the source's eq. (31). That equation contradicts
-the source's eq. (32) and action = reaction. Force and dissipation of a contact are computed with the same sliding
-speed.
+the source's eq. (32) and action = reaction. The friction force of an interaction and its
+dissipation use the same sliding speed; only rolling resistance dissipates with the mean speed.
 """
 
 import dataclasses

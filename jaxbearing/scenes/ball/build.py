@@ -101,6 +101,7 @@ def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
         traction = distributed_traction(table.traction, table.traction_accuracy, oil, spin=True)
     return laws_of(
         PointLaws,
+        BallContactTable,
         table,
         film=BALL_FILMS[table.film](),
         thermal=thermal_factor(table.thermal),

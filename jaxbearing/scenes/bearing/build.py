@@ -89,15 +89,14 @@ def part(kind: type[Part], table: Table | None, exclude_none: bool = False) -> P
     return None if table is None else kind(**table.model_dump(exclude_none=exclude_none))
 
 
-def laws_of(kind: type[Part], table: object, **made: Any) -> Part:
+def laws_of(kind: type[Part], model: type[Table], table: Table, **made: Any) -> Part:
     """The laws of the raceways.
 
-    **Arguments:** `made`: fields that are made from what the table has, such as a law from its name. The other fields
-    of the class are taken as the table has them, or have their defaults where it lacks them.
+    **Arguments:** `model`: class of the table; `made`: fields that are made from what the table has, such as a law from
+    its name. The other fields of the class are taken as the table has them, or have their defaults where it lacks them.
     """
-    names = [field.name for field in dataclasses.fields(kind) if field.name not in made]  # pyright: ignore[reportArgumentType]
-    given = {name: getattr(table, name, STAND_IN) for name in names}
-    return kind(**made, **{name: value for name, value in given.items() if value is not STAND_IN})
+    names = {field.name for field in dataclasses.fields(kind)} & model.model_fields.keys()  # pyright: ignore[reportArgumentType]
+    return kind(**made, **{name: getattr(table, name) for name in names - made.keys()})
 
 
 def seats(table: Any) -> dict[str, Callable[[], Any]]:

@@ -143,7 +143,7 @@ class CatalogueTable(table_of(Catalogue)):
     series: Text | None = None
 
 
-def require_oil_flow(drag: Table | None, operation: AbstractOperation) -> Problems:
+def require_oil_flow(drag: Table | None, operation: Any) -> Problems:
     """Refusal of a scene with drag that does not say how much oil flows."""
     if drag is not None and operation.oil_flow is None:
         yield refusal_at("operation.oil_flow", "a volume flow, which [drag] needs, e.g. '150 l/h'", "nothing")
@@ -151,7 +151,7 @@ def require_oil_flow(drag: Table | None, operation: AbstractOperation) -> Proble
 
 def require_oil(
     oil: OilTable | None,
-    operation: AbstractOperation,
+    operation: Any,
     contact: Any,
     density: str,
     laws: Mapping[str, Laws[Any]],

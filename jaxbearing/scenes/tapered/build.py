@@ -55,6 +55,7 @@ def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
     traction = None if table.traction is None else MeanPressureTraction(viscous_function(table.traction, oil))
     return laws_of(
         ContactLaws,
+        TaperedContactTable,
         table,
         film=ROLLER_FILMS[table.film](),
         thermal=thermal_factor(table.thermal),
