@@ -147,8 +147,8 @@ class JointDistribution:
         return dict(zip(self.fields, map(float, moved), strict=True))
 
     def steepest(self, slopes: Mapping[str, float]) -> tuple[np.ndarray, float]:
-        """Where on the ellipsoid of one standard deviation a linear result is largest, as an offset in coordinates, and
-        the deviation of that result.
+        """The place on the ellipsoid of one standard deviation where a linear result is largest, as an offset in
+        coordinates, and the deviation of that result.
 
         **Arguments:** `slopes`: of the result by each field, SI.
         """

@@ -113,7 +113,7 @@ def power_interval(
 
 
 def numbers_among(scene: AbstractScene, given: Mapping[str, Distribution]) -> dict[str, Distribution]:
-    """Those distributions whose path leads to one number of the scene."""
+    """The distributions whose path leads to one number of the scene."""
     return {path: one for path, one in given.items() if _is_number(_value_at(scene, path))}
 
 

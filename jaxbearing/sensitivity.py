@@ -209,7 +209,7 @@ def _of_shaft(solution: ShaftSolution, wanted: _Wanted) -> dict[str, Array]:
 
 
 def _stiffness_of(solution: Solution, freedom: str) -> Array | None:
-    """Of a freedom of the inner ring, N/m; `None` where it is not modelled."""
+    """Stiffness of a freedom of the inner ring, N/m; `None` where it is not modelled."""
     place = RING_FREEDOMS.index(freedom)
     return solution.stiffness[place, place] if freedom in solution.freedoms_of_stiffness else None
 

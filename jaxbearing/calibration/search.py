@@ -108,7 +108,7 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         return int(np.sum(self.weight > 0))
 
     def predicted(self, coordinates: np.ndarray, active: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """What the scenes give in the place of each measured value, (lane, value), and the derivatives by the
+        """The values that the scenes give in the place of the measured ones, (lane, value), and the derivatives by the
         coordinates, (lane, value, field); NaN where a solve failed and for lanes that are not `active`."""
         lanes = len(coordinates)
         active = np.ones(lanes, dtype=bool) if active is None else active

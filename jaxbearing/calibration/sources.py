@@ -25,7 +25,7 @@ _BOUND = "PATH=LOW:HIGH, e.g. drag.coefficient=0.05:1.2"
 
 @dataclass
 class Given:
-    """What a calibration is made of: scenes, data, free fields, priors and bounds in SI, notes on the files."""
+    """The parts of a calibration: scenes, data, free fields, priors and bounds in SI, notes on the files."""
 
     sources: list[SceneSource]
     scenes: list[AbstractScene]

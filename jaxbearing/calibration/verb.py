@@ -265,7 +265,7 @@ def _notes(
     misfits: Sequence[Misfit],
     starts: tuple[int, int],
 ) -> list[str]:
-    """What the user must know, a sentence each."""
+    """Notes that the user must know, a sentence each."""
     fields = search.fields
     notes = [
         f"{fields[i].path} cannot be determined: {why}." for i, why in held.reasons.items() if i not in held.pinned

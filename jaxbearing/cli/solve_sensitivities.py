@@ -66,7 +66,8 @@ class Moved(NamedTuple):
 
 
 def asked(wanted: bool, of: list[str] | None, by: str, drag_prior: bool) -> Asked | None:
-    """What the options ask for; `None` for no sensitivities. **Raises:** `SceneError` for an unknown name."""
+    """The sensitivities that the options ask for; `None` for no sensitivities. **Raises:** `SceneError` for an
+    unknown name."""
     from ..scenes.errors import SceneError, nearest, one_of
 
     if by not in BY:
@@ -105,7 +106,8 @@ def moved(
     source: str,
     changes: dict[str, str],
 ) -> Moved | None:
-    """What the usual tolerances move. **Arguments:** `source`, `changes`: of the scene, for its own distributions."""
+    """The results that the usual tolerances move. **Arguments:** `source`, `changes`: of the scene, for its own
+    distributions."""
     if slopes is None or wanted is None:
         return None
     from ..loss_interval import power_interval

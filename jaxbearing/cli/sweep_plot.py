@@ -111,7 +111,7 @@ def with_stiffness(found: "xr.Dataset") -> "xr.Dataset":
 
 
 def _operation(found: "xr.Dataset") -> str:
-    """What the cases have in common: the numbers of the operating point that were not swept."""
+    """The caption of all cases in common: the numbers of the operating point that were not swept."""
     from ..plots.style import axis_name, shown
 
     said = []

@@ -129,7 +129,7 @@ class CompliantBallPocketFace(Checked):
 
 
 class Entering(NamedTuple):
-    """What a film carries its load by: `squeeze`, C, N/m; `rolling`, X over the root of the film, N/m^1.5;
+    """The ways in which a film carries its load: `squeeze`, C, N/m; `rolling`, X over the root of the film, N/m^1.5;
     `mean_radius`, root of R_1 R_2, m."""
 
     squeeze: Batch

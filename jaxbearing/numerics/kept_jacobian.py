@@ -75,7 +75,7 @@ Inverse: TypeAlias = ArrowInverse | Float[Array, "n n"]
 
 
 class State(NamedTuple):
-    """What a step leaves for the next one.
+    """The state that a step leaves for the next one.
 
     - `rate`: at the start of the step; `found`: what was found inside the last rates.
     - `jacobian`; `inverse` of I - `scale` J; `renew`: True if the next step needs a new Jacobian.

@@ -389,7 +389,8 @@ def _results(sweep: "xr.Dataset", result: str) -> "xr.DataArray":
 
 
 def failed_note(sweep: "xr.Dataset", mark: str) -> str:
-    """How many cases failed, in words after a space; "" if none did. **Arguments:** `mark`: how they are drawn."""
+    """The number of cases that failed, in words after a space; "" if none did. **Arguments:** `mark`: how they are
+    drawn."""
     failed = int((sweep["failure"] != "").sum()) if "failure" in sweep else 0
     return f" {mark}: {failed} of {sweep['failure'].size} cases failed." if failed else ""
 

@@ -44,7 +44,7 @@ def print_scene(scene: AbstractScene, console: Console) -> bool:
 
 
 def _rows_of_shaft(scene: ShaftSystem, model: type[BaseModel]) -> Iterator[tuple[tuple[str, ...], str | None]]:
-    """As `_rows`, with the sections by their numbers, and bearings, sets and forces by their names."""
+    """The same as `_rows`, with the sections by their numbers, and bearings, sets and forces by their names."""
     yield from _rows(dataclasses.replace(scene.shaft, sections=()), ("shaft",), model)
     for number, section in enumerate(scene.shaft.sections):
         yield from _rows(section, ("shaft", "sections", str(number + 1)), model)

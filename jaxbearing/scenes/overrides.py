@@ -109,7 +109,7 @@ def applied(
 def preset(
     raw: Mapping[str, object], overrides: Mapping[str, str], model: type[BaseModel], file: str
 ) -> tuple[Filling, list[SceneError]]:
-    """As `applied`, with what a preset adds to the tables."""
+    """Does what `applied` does, with what a preset adds to the tables."""
     changed, problems = _applied(raw, overrides, model, file)
     removed = tuple(path for path, text in overrides.items() if text == REMOVE)
     return filling(changed, removed, model, file), problems

@@ -307,7 +307,7 @@ def _fields(
 
 
 def said_of(found: Filling) -> str:
-    """What the preset of a scene stands for, law by law, in words; "" without a preset."""
+    """Everything that the preset of a scene stands for, law by law, in words; "" without a preset."""
     if not found.added and not found.left_out:
         return ""
     guessed = (*found.estimated, *found.assumed)

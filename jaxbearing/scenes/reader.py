@@ -348,7 +348,7 @@ def without_states(mapping: Mapping[str, object]) -> dict[str, object]:
 
 
 def read_base(source: str | Path) -> tuple[str, dict[str, object]]:
-    """As `read_tables`, but warns with `StatesUnusedWarning` if states are left out."""
+    """Does what `read_tables` does, but warns with `StatesUnusedWarning` if states are left out."""
     label, mapping = read_all(source)
     states = None if is_shaft(mapping) else mapping.pop(STATES, None)
     if states is not None:

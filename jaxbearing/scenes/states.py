@@ -100,7 +100,7 @@ def require_names_and_shares(given: Sequence[Mapping[str, object]], label: str) 
 
 
 def _problems(given: Sequence[Mapping[str, Any]], label: str) -> Iterator[SceneError]:
-    """What is wrong with names and shares."""
+    """Everything that is wrong with names and shares."""
     names: list[str] = []
     shares: list[float] = []
     for place, one in enumerate(given):

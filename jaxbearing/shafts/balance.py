@@ -55,15 +55,15 @@ class Balance(eqx.Module):
         return self.offset.shape[0] // 5
 
     def displacements(self, unknowns: Float[Array, " unknown"]) -> Float[Array, "bearing 5"]:
-        """Of every inner ring against its outer ring at the port, closure included, m and rad."""
+        """Displacement of every inner ring against its outer ring at the port, closure included, m and rad."""
         return (self.attach @ unknowns + self.offset).reshape(self.count, 5)
 
     def residual(self, unknowns: Float[Array, " unknown"], force: Float[Array, "bearing 5"]) -> Array:
-        """What the loads do not balance, N and N m."""
+        """Loads that are not balanced, N and N m."""
         return self.linear @ unknowns - self.load + self.left @ force.ravel()
 
     def potential(self, unknowns: Float[Array, " unknown"], energies: Float[Array, " bearing"]) -> Array:
-        """J. **Arguments:** energies of the bearings."""
+        """Potential energy, J. **Arguments:** `energies`: of the bearings."""
         own = self.energy @ (0.5 * self.linear @ unknowns - self.load)
         return unknowns @ own + jnp.sum(energies)
 
@@ -127,7 +127,7 @@ class Spring(NamedTuple):
 
 
 class Given(NamedTuple):
-    """What acts on a shaft: the forces, their positions, m, loads, N and N m, and torques, N m."""
+    """The loads on a shaft: the forces, their positions, m, loads, N and N m, and torques, N m."""
 
     position: Float[Array, " force"]
     load: Float[Array, "force 5"]

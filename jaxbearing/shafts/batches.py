@@ -57,7 +57,7 @@ class AbstractBatch(eqx.Module):
 
     @abc.abstractmethod
     def rows(self, expansion: Float[Array, " bearing"], at_rest: bool = False) -> AbstractRow | None:
-        """What `initial`, `hold` and `force_at` take: the bearings without friction, for the search.
+        """The argument of `initial`, `hold` and `force_at`: the bearings without friction, for the search.
 
         **Arguments:** `expansion`: of all bearings of the system; `at_rest`: whether nothing turns.
         """
@@ -206,8 +206,8 @@ def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ..
 
 
 def pressure_centre(scene: AbstractBearing) -> Float[Array, ""]:
-    r"""Where the contact normals of the unloaded bearing meet the axis, from the port along $e_x$, m: $-\frac{d_m}2
-    \tan\alpha$, with the angle of the drawing, which of tapered bearings is that of the cup."""
+    r"""The point where the contact normals of the unloaded bearing meet the axis, counted from the port along $e_x$,
+    m: $-\frac{d_m}2 \tan\alpha$, with the angle of the drawing, which of tapered bearings is that of the cup."""
     return -0.5 * jnp.asarray(scene.geometry.pitch_diameter) * jnp.tan(scene.one_way_angle)
 
 

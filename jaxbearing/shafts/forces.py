@@ -1,4 +1,4 @@
-r"""What acts on a shaft beside its bearings: points, gears, belts and masses.
+r"""Forces on a shaft beside those of its bearings: points, gears, belts and masses.
 
 A force at azimuth $\varphi$ and radius r with the parts $F_x$ (along +X), $F_r$ (outwards) and $F_t$ (in the sense of
 rotation) has on the axis $F_Y = F_r\cos\varphi - F_t\sin\varphi$, $F_Z = F_r\sin\varphi + F_t\cos\varphi$, the moments

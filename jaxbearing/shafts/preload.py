@@ -143,7 +143,7 @@ def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearin
 
 
 class Mounted(NamedTuple):
-    """What mounting has made of the sets: closures of all bearings, m, the springs, and by the names of the sets the
+    """The mounted sets: closures of all bearings, m, the springs, and by the names of the sets the
     closure of each bearing by the preload, m, the force between the groups, N, the load that unloads one, N, and the
     number of the spring."""
 

@@ -88,7 +88,7 @@ class _Warm:
         return self.each(jnp.sum(flows, axis=1))
 
     def start(self) -> Float[Array, " node"]:
-        """Where the search begins: at the start that a bearing gives, or cold."""
+        """The temperatures at which the search begins: those of the start that a bearing gives, or cold."""
         starts = [
             one.start() if scene.thermal.start is None else jnp.full(NODES, scene.thermal.start)
             for scene, one in zip(self.scenes, self.networks, strict=True)

@@ -62,7 +62,7 @@ def columns(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.ndar
 
 
 def _by_name(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.ndarray]:
-    """As `columns`, of a solution whose variables are put together from many parts."""
+    """The same as `columns`, of a solution whose variables are put together from many parts."""
     lanes, found = len(converged(solution)), {}
     with np.errstate(all="ignore"):
         dataset = solution_to_dataset(solution, (CASE,))

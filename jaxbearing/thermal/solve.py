@@ -83,7 +83,7 @@ class ThermalState(eqx.Module):
         return beyond if self.rate is None else beyond | (self.rate > 0.0)
 
     def sentence(self) -> str:
-        """What happened, in one sentence, of one state with known numbers."""
+        """The end of the search in one sentence, of one state with known numbers."""
         node = int(np.argmax(np.asarray(self.last)))
         status, there = Status(int(self.status)), float(self.last[node])
         place = f"{self.nodes[node].replace('_', ' ')} at {there:.2f} K ({there - 273.15:.2f} degC)"

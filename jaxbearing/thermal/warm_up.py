@@ -305,7 +305,7 @@ def _history(
 
 
 def run_status(found: Reached, of_losses: Array) -> Int[Array, ""]:
-    """How a run ended. **Arguments:** `of_losses`: their status just beyond the end."""
+    """The status with which a run ended. **Arguments:** `of_losses`: their status just beyond the end."""
     failed = jnp.where(found.out_of_steps, int(Status.NOT_CONVERGED), int(Status.DIVERGED))
     failed = jnp.where(of_losses == Status.CONVERGED, failed, of_losses)
     ended = jnp.where(found.hot, int(Status.THERMAL_RUNAWAY), failed)

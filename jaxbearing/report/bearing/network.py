@@ -139,7 +139,7 @@ def _beside(start: Place, end: Place, text: str, width: float) -> Place:
 
 
 def _oil_side(x: float) -> Place:
-    """Where an arrow from the row meets the oil's box: farther out for nodes that are farther away."""
+    """The point where an arrow from the row meets the oil's box: farther out for nodes that are farther away."""
     oil_x, oil_y = PLACES["oil"]
     away = (x - oil_x) / (PLACES["outer_ring"][0] - oil_x)
     if abs(away) > 1.0:

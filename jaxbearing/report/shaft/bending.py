@@ -92,7 +92,7 @@ def cowper(poisson: float, ratio: float) -> float:
 
 
 class CutLoads(NamedTuple):
-    """What the part of the shaft on the left of a cross section does to that on its right; at loads there are two
+    """The loads of the part of the shaft on the left of a cross section on that on its right; at loads there are two
     points, left and right of it.
 
     - `axial`: tension, N.

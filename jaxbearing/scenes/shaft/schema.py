@@ -96,7 +96,7 @@ def _kinds_of_set(entry: Any, path: str, file: str) -> Kind:
 
 
 ANY_NAME, NUMBER = "NAME", "NUMBER"
-"""What stands for a name, and for the number of a section, in lists of fields."""
+"""The sign for a name, and for the number of a section, in lists of fields."""
 _ANY_FORCE: Any = functools.reduce(operator.or_, FORCE_TABLES.values())
 
 

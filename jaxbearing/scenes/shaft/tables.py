@@ -238,7 +238,7 @@ def _operation_of(operation: type, **load: float) -> Any:
 
 
 class _OnShaft(Table):
-    """What a bearing has that stands on a shaft, in the place of what it has alone."""
+    """Fields of a bearing on a shaft, in the place of those that it has alone."""
 
     simulation: Literal[None] = None
 
