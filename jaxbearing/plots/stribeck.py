@@ -45,8 +45,8 @@ def stribeck(
     - `speeds`: of the inner ring, rad/s; 31 speeds at equal ratios from a thousandth of the scene's own if not given.
     - `axes`: matplotlib axes to draw into; a new figure if not given.
 
-    **Raises:** `ValueError` for a scene without power loss, for a sweep of other fields, and for speeds where the rings
-    do not turn against each other.
+    **Raises:** `ValueError` for what is no bearing, for a scene without power loss, for a sweep of other fields, and
+    for speeds where the rings do not turn against each other.
     """
     import xarray as xr
 
@@ -84,7 +84,10 @@ def _solved(scene: "AbstractScene", speeds: Sequence[float] | None) -> "xr.Datas
     """The sweep over speed."""
     from ..sweep import sweep
 
-    given = np.geomspace(SLOWEST, 1.0, COUNT) * float(scene.part_at(SPEED)) if speeds is None else speeds
+    own = scene.part_at(SPEED)
+    if own is None:
+        raise ValueError(f"stribeck: found a {type(scene).__name__} without {SPEED}, expected a bearing")
+    given = np.geomspace(SLOWEST, 1.0, COUNT) * float(own) if speeds is None else speeds
     return sweep(scene, {SPEED: np.asarray(given, dtype=float)}, elements=False)
 
 

@@ -72,3 +72,8 @@ def test_scene_is_solved_at_the_speeds():
     """A dry scene models no loss: the sweep runs, and the curve is refused."""
     with pytest.raises(ValueError, match="models no power loss"):
         jb.plots.stribeck(jb.load_scene("deep_groove_6205"), [100.0, 200.0])
+
+
+def test_a_scene_without_a_ring_is_refused():
+    with pytest.raises(ValueError, match="without operation"):
+        jb.plots.stribeck(jb.load_scene("two_disk_etm"))
