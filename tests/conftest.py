@@ -53,6 +53,13 @@ def pytest_addoption(parser):
         metavar="SECONDS",
         help="tests that have not begun so long after the start are skipped, and the summary says how many",
     )
+    parser.addoption(
+        "--begin-at",
+        default="",
+        metavar="TEXT",
+        help="the files begin at another one for each text, such as the name of a commit: runs that end before the "
+        "last file (--within) see all of them in turn",
+    )
 
 
 _BEGIN = time.monotonic()
@@ -89,11 +96,16 @@ def pytest_configure():
         os.environ.setdefault("XLA_FLAGS", " ".join([*older, *_FLAGS]))
 
 
-def pytest_collection_modifyitems(items):
+def pytest_collection_modifyitems(config, items):
     """Tests of the whole package, long ones, come first: near the end a worker that has nothing left to do would wait
-    for them."""
+    for them. With `--begin-at` the files begin at another one, and go on from the first after the last."""
     here = Path(__file__).parent
     items.sort(key=lambda item: item.path.parent != here)
+    text = config.getoption("begin_at")
+    if text:
+        from file_order import begun_at
+
+        items[:] = begun_at(text, items)
 
 
 # Each compiled program takes memory maps, of which Linux grants a process 65 530: a worker that has no more crashes.
