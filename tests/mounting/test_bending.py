@@ -79,8 +79,11 @@ def beams(section=WITHOUT_SHEAR, **more):
 
 def test_free_ring_against_beams():
     found = beams(SHEET).deflections({0: (1000.0, 0.0, 0.0), 180: (1000.0, 0.0, 0.0)})
+    # the weak springs of a free ring leave its rigid motion to round-off (10 nm here), which differs between machines;
+    # it falls out of the mean of opposite nodes
+    opposite = 0.5 * (found + np.roll(found, 180))
     # straight beams: error of the second power of their angle
-    np.testing.assert_allclose(found[[0, 90]], [2.2451122e-4, -2.0385957e-4], rtol=1e-4)
+    np.testing.assert_allclose(opposite[[0, 90]], [2.2451122e-4, -2.0385957e-4], rtol=1e-4)
 
 
 def test_elastic_foundation_against_beams_and_sheet():
