@@ -100,10 +100,10 @@ def _print_motion(found: dict[str, Any], element: str, console: "Console") -> No
         console.print(f"Sliding takes {', '.join(parts)}.")
     if "groove_energy" in found:
         parts = [
-            f"at {own['largest_at_deg']:.3g} deg {side} ({with_unit(own['largest'], 'J')} in one degree)"
+            f"{own['largest_at_deg']:.3g} deg {side} ({with_unit(own['largest'], 'J')} in one degree)"
             for side, own in found["groove_energy"].items()
         ]
-        console.print(f"Over the contact angle it takes most {', '.join(parts)}.")
+        console.print(f"Contact angle at which sliding takes the most energy: {', '.join(parts)}")
     if "skidding" in found:
         shares = [f"{100 * found['skidding'][side]['share']:.3g} % {side}" for side in ("inner", "outer")]
         limit = f"{100 * found['skidding']['threshold']:g} %"
