@@ -1,4 +1,15 @@
-"""Base of the equations of ball bearings with and without films: grooves, ring, centrifugal force."""
+r"""Base of the equations of ball bearings with and without films: grooves, ring, centrifugal force, gyroscopic couple.
+
+Terms. The *half-plane* of a ball ends at the bearing axis and contains the centre of the ball; *outward* is the radial
+direction in it. A groove has one circular *arc* in the half-plane, or two, which lie at equal distances e from the
+middle plane of the ring (module `arcs`). The *coordinates of the inner groove* at a ball are the axial and the outward
+place of the middle between its arcs, m. With two arcs there is a third one, $e\tau$, with the rotation $\tau$ of the
+groove in the half-plane, m. The dimension p of arrays counts these two or three coordinates, or the *shared* unknowns:
+those that all balls have in common, as each ball sees them (displacements of the ring first, then deflections of rings
+that bend). The grooves of an *exact* system move with the exact rotation of the ring (module `groove_motion`),
+otherwise with its first-order displacement. The *attitude* of a ball is the angle of its spin axis; the hypothesis that
+gives it has the same name.
+"""
 
 from collections.abc import Callable
 from typing import Any, Literal, NamedTuple, TypeAlias
@@ -23,7 +34,13 @@ _OUTWARD = np.asarray([[0.0], [1.0]])
 
 
 class Grooves(NamedTuple):
-    """Geometry and stiffness of the grooves; `offset` and `stiffness` of (inner, outer), m and N/m^(3/2)."""
+    """Geometry and stiffness of the grooves.
+
+    - `offset`, `stiffness`: of (inner, outer): distance of the groove centre from the centre of a ball that touches the
+      groove without load, m; contact stiffness, N/m^(3/2).
+    - `centre_distance`: of the inner from the outer groove centre at first contact, m; `free_cosine`, `free_sine`: of
+      `free_angle`.
+    """
 
     offset: Float[Array, "2"]
     stiffness: Float[Array, "2"]
@@ -62,7 +79,7 @@ class Grooves(NamedTuple):
 
     @property
     def of_ring(self) -> Float[Array, "p 1"]:
-        """Coordinates of the inner groove (`arcs`) of the ring without displacement, m."""
+        """Coordinates of the inner groove of the ring without displacement, m."""
         return self.rest if self.arcs.inner is None else jnp.concatenate([self.rest, jnp.zeros((1, 1))])
 
     @property
@@ -152,9 +169,9 @@ class AbstractBallSystem(AbstractBetweenRings):
     Ball centres count from the centre of the outer groove at the azimuth of the ball. This centre moves outwards by the
     deflection of the outer ring there, and the inner groove by that of the inner ring.
 
-    - `directions[f]`: changes of the coordinates of the inner groove (`arcs`; of one arc its centre, axial and radial)
-      at every ball for a unit of freedom f, to first order; the lever of the `ring` is R_i.
-    - `held_shift`: changes of these by the given displacements of the ring, m.
+    - `directions[f]`: changes of the coordinates of the inner groove (see the module) at every ball for a unit of
+      freedom f, to first order; the lever of the `ring` is R_i.
+    - `held_shift`: changes of these coordinates by the given displacements of the ring, m.
     - `ring_motion`: the motion of the ring as the balls see it, of grooves that move with its exact rotation
       (`groove_motion`); `None`: to first order.
     - `out_of_round`: displacement towards each ball of races that are not round, m; `outer`, `inner`: the rings if they
