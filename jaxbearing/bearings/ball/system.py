@@ -3,12 +3,13 @@ r"""Base of the equations of ball bearings with and without films: grooves, ring
 Terms. The *half-plane* of a ball ends at the bearing axis and contains the centre of the ball; *outward* is the radial
 direction in it. A groove has one circular *arc* in the half-plane, or two, which lie at equal distances e from the
 middle plane of the ring (module `arcs`). The *coordinates of the inner groove* at a ball are the axial and the outward
-place of the middle between its arcs, m. With two arcs there is a third one, $e\tau$, with the rotation $\tau$ of the
-groove in the half-plane, m. The dimension p of arrays counts these two or three coordinates, or the *shared* unknowns:
-those that all balls have in common, as each ball sees them (displacements of the ring first, then deflections of rings
-that bend). The grooves of an *exact* system move with the exact rotation of the ring (module `groove_motion`),
-otherwise with its first-order displacement. The *attitude* of a ball is the angle of its spin axis; the hypothesis that
-gives it has the same name.
+place of the centre of its arc, or of the middle between the centres of its two arcs, from that of the outer groove, m.
+With two arcs there is a third one, $e\tau$, m, with the rotation $\tau$ of the groove in the half-plane, positive where
+it moves the arc at +e inwards. The dimension p of arrays counts these two or three coordinates, or the *shared*
+unknowns: those that all balls have in common, as each ball sees them (displacements of the ring first, then deflections
+of rings that bend). The grooves of an *exact* system move with the exact rotation of the ring (module `groove_motion`),
+otherwise with its first-order displacement. The *attitude* of a ball is the angle of its spin axis from the bearing
+axis, in the half-plane; `Attitude` names the hypothesis that gives it.
 """
 
 from collections.abc import Callable
@@ -129,7 +130,8 @@ class Touch(NamedTuple):
       ball centre to the inner groove centre, and from the outer groove centre to the ball centre: axial, outward and,
       of an inner arm of an `exact` system, along the orbit. Both point away from the axis of the bearing.
     - `direction`: angle of each normal from the outward radius towards $+e_x$, in the fixed frame, rad; `angle`:
-      contact angles, on the inner race against the tilted ring.
+      contact angles, rad: `direction`, less the rotation of the ring by its tilt on the inner race of an `exact`
+      system.
     - `on_ring`: of `AbstractBallSystem.reach`.
     """
 
@@ -169,9 +171,10 @@ class AbstractBallSystem(AbstractBetweenRings):
     Ball centres count from the centre of the outer groove at the azimuth of the ball. This centre moves outwards by the
     deflection of the outer ring there, and the inner groove by that of the inner ring.
 
-    - `directions[f]`: changes of the coordinates of the inner groove (see the module) at every ball for a unit of
-      freedom f, to first order; the lever of the `ring` is R_i.
-    - `held_shift`: changes of these coordinates by the given displacements of the ring, m.
+    - `directions[f]`: changes of the coordinates of the inner groove (see the module) at every ball per metre of
+      freedom f, to first order; a tilt counts as its angle times R_i, the lever of the `ring`.
+    - `held_shift`: changes of these coordinates by the given displacements of the ring, m, to first order; an `exact`
+      system has them in `ring_motion`.
     - `ring_motion`: the motion of the ring as the balls see it, of grooves that move with its exact rotation
       (`groove_motion`); `None`: to first order.
     - `out_of_round`: displacement towards each ball of races that are not round, m; `outer`, `inner`: the rings if they
@@ -224,6 +227,7 @@ class AbstractBallSystem(AbstractBetweenRings):
     def from_round(self, centre: Float[Array, "2 ball"], shared: Float[Array, "p ball"]) -> Float[Array, "2 ball"]:
         """Ball centres (axial, radial), m, counted from the centre of the outer groove, as they are for rings that are
         round and rigid."""
+        # an opening widens the gap between the races
         for opening in self.opened(shared).values():
             centre = jnp.stack([centre[0], centre[1] + opening])
         if self.out_of_round is not None:
