@@ -1,7 +1,7 @@
 """Names of laws in scene files, each registered once: the fields that take them, their lists in messages and pages, and
 the laws that are built all follow from here.
 
-A law of another package is named by an entry point of the group `jaxbearing.laws`, see `docs/adding_a_law.md`.
+A law of another package is named by an entry point of the group `jaxbearing.laws`, see `docs/contributing.md`.
 """
 
 from collections.abc import Callable, Iterator, Mapping

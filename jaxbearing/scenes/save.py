@@ -39,7 +39,7 @@ def save_scene(scene: AbstractScene, path: str | Path) -> None:
     - `path`: of the file, usually ending in ".toml".
 
     **Raises:** `SceneError` (a `ValueError`) that names a field which a file cannot hold: a law without a name in files
-    (see `docs/adding_a_law.md` for laws of other packages), a setting that only Python has, a number that is traced, of
+    (see `docs/contributing.md` for laws of other packages), a setting that only Python has, a number that is traced, of
     a batch, or not finite. `TypeError` for an object that is no scene. `OSError` if the file cannot be written.
     """
     from ..report.files import write_whole

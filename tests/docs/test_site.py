@@ -143,7 +143,7 @@ def test_every_public_module_is_on_one_page_of_the_api():
 
 @pytest.mark.slow
 def test_example_of_a_law_prints_what_the_page_says(tmp_path):
-    page = (DOCS / "adding_a_law.md").read_text(encoding="utf-8")
+    page = (DOCS / "contributing.md").read_text(encoding="utf-8")
     assert '```python\n"""A viscosity law of one\'s own' in links.with_files(page, DOCS)
     command = [sys.executable, str(DOCS / "examples" / "vogel_law.py")]
     ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)

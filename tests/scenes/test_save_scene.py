@@ -375,7 +375,7 @@ class OwnFlow(BairWiner):
 
 @pytest.fixture
 def registered(monkeypatch):
-    """Laws of another package, as `docs/adding_a_law.md` names them, beside one that cannot be loaded."""
+    """Laws of another package, as `docs/contributing.md` names them, beside one that cannot be loaded."""
 
     class Entry:
         value = "other_package.laws:Law"

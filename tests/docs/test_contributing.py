@@ -1,4 +1,4 @@
-"""The page on what a change touches names the files that know a family of bearings."""
+"""The page on changing the code: its layers, its tables of files, and what it says that a family is asked."""
 
 import re
 from pathlib import Path
@@ -8,7 +8,7 @@ import test_layers
 from jaxbearing.bearings.bearing import AbstractBearing
 from jaxbearing.bearings.motion.family import AbstractDynamics, AbstractMotion
 
-PAGE = (Path(__file__).parents[2] / "docs" / "adding.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "contributing.md").read_text(encoding="utf-8")
 FAMILIES = ("ball", "cylindrical", "tapered")
 OWN = tuple(f"{layer}/{name}/" for layer in ("bearings", "scenes") for name in FAMILIES)
 
@@ -22,8 +22,25 @@ def test_files_that_know_a_family():
             f"{imported}.".startswith(module) for module in modules for imported in test_layers.imported_modules(path)
         ):
             known.add(name)
-    (listed,) = re.findall(r"^```text\n(.*?)^```", PAGE, flags=re.MULTILINE | re.DOTALL)
+    (listed,) = re.findall(
+        r"^<!-- files that know a family -->\n```text\n(.*?)^```", PAGE, flags=re.MULTILINE | re.DOTALL
+    )
     assert known == set(listed.split())
+
+
+def test_layers_of_the_page_are_those_that_are_enforced():
+    """Lines such as ` 3  contacts, gaps    one contact, one film`: rank and modules."""
+    picture = PAGE.split("```text\n")[1].split("```")[0]
+    lines = re.findall(r"^ *(\d+)  (\w+(?:, \w+)*)(?:  .*)?$", picture, flags=re.MULTILINE)
+    ranks = [int(rank) for rank, _ in lines]
+    assert ranks == sorted(set(ranks), reverse=True), "one line a layer, the highest first"
+    modules = {test_layers.layer(path) for path in test_layers.modules(test_layers.PACKAGE)}
+    of_the_page = {name: int(rank) for rank, names in lines for name in names.split(", ")}
+    assert of_the_page == {name: test_layers.RANK[name] for name in modules}
+    (used,) = re.findall(r"It uses layers up to (\d+) \(its readers of files also (\d+)\)", PAGE)
+    reads = {name.split(".")[1] for name in test_layers.FITTING_IO_MAY_USE}
+    assert int(used[0]) == test_layers.FITTING_MAY_USE
+    assert {test_layers.RANK[name] for name in reads} == {int(used[1])}
 
 
 def test_what_a_family_is_asked_is_there():
@@ -34,7 +51,7 @@ def test_what_a_family_is_asked_is_there():
 
 
 def test_files_of_the_table_are_there():
-    (table,) = re.findall(r"^\| to add \|.*?\n\n", PAGE, flags=re.MULTILINE | re.DOTALL)
+    (table,) = re.findall(r"^\| to add \| new \|.*?\n\n", PAGE, flags=re.MULTILINE | re.DOTALL)
     files = re.findall(r"`((?:\w+/)*\w+\.py)`", table)
     here = {path.relative_to(test_layers.PACKAGE).as_posix() for path in test_layers.modules(test_layers.PACKAGE)}
     in_families = {"scene.py", "geometry.py", "solution.py", "schema.py", "build.py", "writer.py"}
@@ -42,7 +59,7 @@ def test_files_of_the_table_are_there():
 
 
 def test_what_a_moving_family_is_asked_is_there():
-    section = PAGE.split("## What a family that moves answers")[1].partition("## Files")[0]
+    section = PAGE.split("returns the family's `AbstractMotion`:")[1].partition("## Tests")[0]
     _, motion, dynamics = section.split("| asked |")
     for part, kind in ((motion, AbstractMotion), (dynamics, AbstractDynamics)):
         rows = [row.split("|")[1] for row in part.splitlines() if row.startswith("| `")]
