@@ -49,6 +49,10 @@ class FitOptions(NamedTuple):
             for name in names:
                 if name not in NAMES:
                     raise ValueError(f"{option}: found {name!r}, expected one of {', '.join(NAMES)}")
+        if not 0.0 <= self.errors.relative < 1.0:
+            raise ValueError(
+                f"errors.relative: found {self.errors.relative}, expected a ratio from 0 to below 1 (2 % is 0.02)"
+            )
         if not 0.0 < self.level < 1.0:
             raise ValueError(f"level: found {self.level}, expected a number between 0 and 1")
         for name, (low, high) in self.bounds.items():

@@ -29,6 +29,16 @@ EXAMPLES = {
     "entrainment_speed": "entrainment_speed [m/s]",
     "temperature": "temperature [degC]",
 }
+ALSO_CALLED = {
+    "mu": "traction_coefficient",
+    "cof": "traction_coefficient",
+    "traction": "traction_coefficient",
+    "friction_coefficient": "traction_coefficient",
+    "srr": "slide_to_roll",
+    "slide_roll_ratio": "slide_to_roll",
+    "slip": "slide_to_roll",
+}
+"""Headings of other programs, in small letters: they are not read, for their signs and units differ, but suggested."""
 _RATIO_UNITS = {"": 1.0, "-": 1.0, "1": 1.0, "%": 100.0, "percent": 100.0}
 """Units of a ratio, with what their numbers are divided by."""
 
@@ -77,6 +87,15 @@ def check_unit(column: Column, file: str, hint: str = "") -> None:
         found = f"the unit {describe_unit(column.unit)}"
         found += ", which is not known" if "is not a unit" in reason else reason
         raise CurveError(file, column.line, column.label, found, expected) from None
+
+
+def fits(unit: str, dimension: Dimension) -> bool:
+    """True for a unit of this dimension."""
+    try:
+        parse(f"1 {unit}", dimension)
+    except PydanticCustomError:
+        return False
+    return True
 
 
 def describe_unit(unit: str) -> str:

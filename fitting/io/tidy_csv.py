@@ -1,7 +1,7 @@
 """Tidy CSV files: one row a point, one column a quantity, units in the header."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from jaxbearing.scenes.errors import nearest
 from jaxbearing.scenes.words import shortened
 
 from .checks import check_count, check_sliding, remarks
-from .columns import CURVE, DIMENSIONS, EXAMPLES, KNOWN, REQUIRED, Column, check_unit, to_si
+from .columns import ALSO_CALLED, CURVE, DIMENSIONS, EXAMPLES, KNOWN, REQUIRED, Column, check_unit, fits, to_si
 from .errors import CurveError, refusing
 from .grouping import group
 from .table import CurveTable
@@ -41,7 +41,8 @@ def parse_tidy_csv(text: str, path: Path) -> CurveTable:
 
     Columns, in any order: `slide_to_roll` (a ratio; `slide_to_roll [%]` in percent) and `traction_coefficient`, which
     are required; `pressure [GPa]` or `load [N]`, `entrainment_speed [m/s]`, `temperature [degC]` with any unit of the
-    dimension in the brackets; `curve`, any text. Other columns are ignored with a note. Units may stand in a side
+    dimension in the brackets; `curve`, any text. Capital letters count as small ones. Other columns are ignored with a
+    note, but for those with a unit of a condition that the file lacks, which are refused. Units may stand in a side
     file instead, see `units_file`. Without `curve` the points are grouped by conditions, see `grouping`.
 
     Columns are separated by commas, semicolons or tabs; decimal commas need one of the latter two. Blank lines and
@@ -72,7 +73,7 @@ def parse_tidy_csv(text: str, path: Path) -> CurveTable:
 def _layout(header: Line, path: Path) -> _Layout:
     separator = _separator(header)
     cells = _cells(header, separator, path)
-    parted = [name_and_unit(cell) for cell in cells]
+    parted = [(name.lower() if name.lower() in KNOWN else name, unit) for name, unit in map(name_and_unit, cells)]
     names = [name for name, _ in parted]
     _check_mixed(cells, separator, header, path)
     _check_names(names, header, path)
@@ -81,6 +82,7 @@ def _layout(header: Line, path: Path) -> _Layout:
     for index, (name, unit) in enumerate(parted):
         if name in KNOWN:
             columns[name] = _column(name, unit, side.get(name), index, header.number, path)
+    _check_unread(parted, columns, header, path)
     ignored = tuple(name for name in names if name and name not in KNOWN)
     return _Layout(path, separator, header, len(cells), columns, ignored)
 
@@ -90,7 +92,7 @@ def _separator(header: Line) -> str:
 
     def score(separator: str) -> tuple[int, int]:
         names = [re.sub(r"\[.*", "", cell).strip(' "') for cell in header.text.split(separator)]
-        return sum(name in KNOWN for name in names), len(names)
+        return sum(name.lower() in KNOWN for name in names), len(names)
 
     return max(SEPARATORS, key=score)
 
@@ -120,14 +122,29 @@ def _check_names(names: list[str], header: Line, path: Path) -> None:
             raise CurveError(file, line, name, f"{names.count(name)} columns of this name", "one")
     for name in REQUIRED:
         if name not in names:
-            others = [other for other in names if other and other not in KNOWN]
-            misspelt = nearest(name, others)
+            others = [other for other in names if other and not other.startswith(KNOWN)]
+            renamed = [other for other in others if ALSO_CALLED.get(other.lower()) == name]
+            misspelt = renamed[0] if renamed else nearest(name, others)
             listed = ", ".join(repr(other) for other in names if other)
             found = f"the column {shortened(repr(misspelt))}" if misspelt else f"the columns {shortened(listed)}"
             expected = f"a column '{EXAMPLES[name]}', which is required, and ',', ';' or tabs between the columns"
             raise CurveError(file, line, name, found, expected, name if misspelt else "")
     if "pressure" in names and "load" in names:
         raise CurveError(file, line, "load", "a column 'pressure' and a column 'load'", "one of the two")
+
+
+def _check_unread(
+    parted: Sequence[tuple[str, str | None]], columns: Mapping[str, Column], header: Line, path: Path
+) -> None:
+    """Refuses a column that may hold a condition of the points under another name: the scene's value would be taken."""
+    loaded = {"pressure", "load"} if columns.keys() & {"pressure", "load"} else set()
+    lacking = [name for name in DIMENSIONS if name not in columns and name not in loaded]
+    for name, unit in parted:
+        for condition in lacking:
+            if name not in KNOWN and unit and fits(unit, DIMENSIONS[condition]):
+                found = f"a column in {unit} that is not read, and no column '{condition}'"
+                expected = f"'{EXAMPLES[condition]}' if it holds that, else a heading without a unit in brackets"
+                raise CurveError(str(path), header.number, name, found, expected)
 
 
 def _column(name: str, unit: str | None, side: str | None, index: int, line: int, path: Path) -> Column:

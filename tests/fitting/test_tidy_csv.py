@@ -187,8 +187,13 @@ def test_few_points_all_different_are_one_curve(read):
 def test_suspicious_values_get_a_note(read):
     notes = read(GOOD.replace("slide_to_roll [%]", "slide_to_roll")).notes
     assert any("'slide_to_roll [%]'" in note for note in notes)
-    notes = read(GOOD.replace("load [N]", "pressures [GPa]")).notes
+    notes = read(GOOD.replace("load [N]", "pressures")).notes
     assert "Column 'pressures' is ignored (did you mean 'pressure [GPa]'?)." in notes
+
+
+def test_headings_in_capital_letters_are_read(read):
+    table = read(GOOD.replace("load [N]", "Load [N]").replace("traction_coefficient", "Traction_Coefficient"))
+    np.testing.assert_array_equal(table.load, read(GOOD).load)
 
 
 # name: (content, line, column, words of the message)
@@ -202,7 +207,15 @@ BROKEN = {
     "null_bytes": (b"\0\0\0", 1, "slide_to_roll", ["'slide_to_roll [%]'"]),
     "missing_slide": ("\n" + GOOD.replace("slide_to_roll", "srr"), 2, "slide_to_roll", ["required"]),
     "misspelt_slide": (GOOD.replace("slide_to_roll", "slide_to_rol"), 1, "slide_to_roll", ["Did you mean 'slide_"]),
-    "missing_coefficient": ("slide_to_roll,mu\n1,1\n2,2\n", 1, "traction_coefficient", ["'slide_to_roll', 'mu'"]),
+    "missing_coefficient": (
+        "slide_to_roll,mu\n1,1\n2,2\n",
+        1,
+        "traction_coefficient",
+        ["'mu'", "Did you mean 'traction_"],
+    ),
+    "quartile": ("slide_to_roll,traction_coefficient_q75,mu\n1,1,1\n", 1, "traction_coefficient", ["the column 'mu'"]),
+    "load_of_another_name": (GOOD.replace("load", "normal force"), 1, "normal force", ["no column 'load'"]),
+    "speed_of_another_name": (GOOD.replace("load [N]", "speed [m/s]"), 1, "speed", ["'entrainment_speed [m/s]'"]),
     "spaces_between": (GOOD.replace(",", "   "), 1, "slide_to_roll", ["',', ';' or tabs"]),
     "duplicate": ("load [kN]," + GOOD, 1, "load", ["2 columns of this name"]),
     "duplicate_other_unit": ("slide_to_roll," + GOOD, 1, "slide_to_roll", ["2 columns"]),
