@@ -61,7 +61,7 @@ def test_geometry_check_values():
         "apex_distance": 0.11389849,
         "flange_radius": 20.634142e-3,
         "mean_roller_diameter": 7.6149648e-3,
-        "pitch_diameter": 45.4708581e-3,
+        "pitch_diameter": 2 * 22.7360392e-3,  # radius of the row in the sheet of several bearings
         "flange_tilt": np.radians(1.686),
         "cone_angle": np.radians(10.036),
     }
