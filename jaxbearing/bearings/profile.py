@@ -5,7 +5,7 @@ import jax.numpy as jnp
 from jaxtyping import Array
 
 from .._types import Scalar
-from ..contacts import AbstractTiltedLine, SlicedLine
+from ..contacts import AbstractTiltedLine, SlicedLine, StraightLine
 from ..contacts.profile import AbstractProfile
 from ..numerics.safe import positive_power
 from ..numerics.structure import count
@@ -24,9 +24,20 @@ class RollerProfile(eqx.Module):
     shape: AbstractProfile | None = None
     n_laminae: int = count("profile.n_laminae", LAMINAE, least=1)
 
-    def line(self, stiffness: Scalar, length: Scalar) -> AbstractTiltedLine:
-        """The contact of such a roller over its length. **Arguments:** K, N/m^(19/9); m."""
-        return SlicedLine(stiffness, length, self.shape, self.n_laminae)
+
+def roller_line(profile: RollerProfile | None, stiffness: Scalar, length: Scalar) -> AbstractTiltedLine:
+    """The contact of a roller that may tilt with a raceway: in closed form without a profile, else in its laminae.
+
+    **Arguments:** K, N/m^(19/9); m.
+    """
+    if profile is None:
+        return StraightLine(stiffness, length)
+    return SlicedLine(stiffness, length, profile.shape, profile.n_laminae)
+
+
+def own_laminae(profile: RollerProfile | None) -> int:
+    """Number of laminae into which the results cut a roller; without a profile only they do."""
+    return LAMINAE if profile is None else profile.n_laminae
 
 
 def pressed_load(stiffness: Array, length: Array, pressed: Array, slope: Array) -> Array:

@@ -27,8 +27,8 @@ def tapered_shape(mean_diameter: float, pitch_diameter: float, length: float, cu
     """The shape whose cones have a common apex.
 
     With the roller's half angle $\\epsilon$ and its axis at $\\gamma = \\alpha_o - \\epsilon$ the pitch diameter is
-    $d_m = D_w\\sin\\gamma/\\tan\\epsilon - l\\sin\\gamma$ and the mean diameter $D_w - l\\sin\\epsilon$, as in
-    `bearings.tapered.geometry`.
+    $d_m = D_w\\sin\\gamma/\\tan\\epsilon - l\\cos\\epsilon\\sin\\gamma$ and the mean diameter
+    $D_w - l\\sin\\epsilon$, as in `bearings.tapered.geometry`.
 
     **Arguments:** lengths, m; `cup_angle`: half angle of the cup, rad.
     """
@@ -36,7 +36,7 @@ def tapered_shape(mean_diameter: float, pitch_diameter: float, length: float, cu
     for _ in range(TURNS):
         tilt = math.sin(cup_angle - half)
         big = mean_diameter + length * math.sin(half)
-        half = math.atan(big * tilt / (pitch_diameter + length * tilt))
+        half = math.atan(big * tilt / (pitch_diameter + length * math.cos(half) * tilt))
     big = mean_diameter + length * math.sin(half)
     radius = float(usual_end_radius(big, half, _FUNCTIONS))
     return TaperedShape(big, half, float(usual_flange_angle(big, cup_angle, half, radius, _FUNCTIONS)), radius)

@@ -54,7 +54,9 @@ class BearingOnShaft(eqx.Module):
     )
     largest_load: _Number = eqx.field(metadata=label("N", "largest load of a rolling element on the inner raceway"))
     pressure_centre: _Number = eqx.field(
-        metadata=label("m", "position where the contact normals of the unloaded bearing meet the axis of the shaft")
+        metadata=label(
+            "m", "position where normals of the unloaded outer race through the elements' middles meet the shaft's axis"
+        )
     )
     solution: Solution | None
     life: Life | None

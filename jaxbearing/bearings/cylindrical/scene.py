@@ -78,8 +78,8 @@ class CylindricalRollerBearing(AbstractMovingBearing):
       rollers orbit without slip.
     - with traction a `cage` is needed: without one a roller outside the loaded zone has no steady state, and the scene
       must have a `simulation`.
-    - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae; with a
-      `contact` without traction: films and what rolling costs, for rolling without sliding.
+    - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae where they have a
+      profile; with a `contact` without traction: films and what rolling costs, for rolling without sliding.
     - `geometry.flange_stiffness`: the ring's axial freedom, which nothing else depends on.
     - `outer_ring`: an outer ring that bends in its housing; `inner_ring`: an inner ring that bends on its shaft;
       `None`: it is rigid. `inner_roundness`, `outer_roundness`: raceways that are not round, standing still relative to
@@ -257,7 +257,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
     @property
     def tilts(self) -> bool:
-        """True if rollers may tilt and are cut into laminae; without it they carry evenly along their length."""
+        """True if rollers may tilt; without it they carry evenly along their length."""
         return self.profile is not None or self.operation.tilts
 
     @property

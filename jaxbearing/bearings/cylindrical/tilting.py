@@ -1,5 +1,5 @@
-r"""Cylindrical roller bearing whose rollers may tilt: rings misaligned, rollers with a profile, cut into laminae;
-its equations are those of dry contacts without friction.
+r"""Cylindrical roller bearing whose rollers may tilt: rings misaligned, rollers with a profile; its equations are those
+of dry contacts without friction, in closed form along straight rollers, in laminae along a profile.
 
 Unknowns per roller: the outward displacement x of its end s = 0 and its tilt phi, which moves the end s = l outwards;
 globally the displacements of the inner ring, m, and its tilt $\tau$ (moves azimuth 0 along +axial: the end s = l, on

@@ -1,8 +1,9 @@
 r"""Steady state of a cylindrical roller bearing with tilting, profiled rollers.
 
-The load distribution is dry and frictionless. With an oil and contact laws films and rolling resistance follow from it
-for rolling without sliding: laminae are short line contacts side by side, each with its own load per length. The
-tractions that rolling without sliding needs balance each roller; ring torques are assembled from them.
+The load distribution is dry and frictionless; that of straight rollers is integrated in closed form, that of a profile
+over its laminae. With an oil and contact laws films and rolling resistance follow from it for rolling without sliding:
+laminae are short line contacts side by side, each with its own load per length. The tractions that rolling without
+sliding needs balance each roller; ring torques are assembled from them.
 """
 
 import dataclasses
@@ -24,7 +25,7 @@ from ..elastic_ring import UNSUPPORTED
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..inlet import oil_of_races
 from ..parts import azimuths
-from ..profile import RollerProfile, pressed_load
+from ..profile import own_laminae, pressed_load, roller_line
 from ..rating import rated_laminae
 from ..ring import InnerRing, Port
 from ..ring_shape import out_of_round
@@ -48,13 +49,12 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
     stiffness = palmgren_stiffness(length, reduced_modulus(scene.materials.rings, scene.materials.rollers))
     motion = roller_kinematics(scene.geometry, scene.operation)
     mass = scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length
-    profile = RollerProfile() if scene.profile is None else scene.profile
     held = jnp.einsum("f,fcn->cn", ring.held, columns)
     form, bent = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth), bending_rings(scene, azimuth)
     if form is not None:
         held = held.at[0].add(form)
     system = TiltingRollers(
-        line=profile.line(stiffness, length),
+        line=roller_line(scene.profile, stiffness, length),
         azimuth=azimuth,
         columns=ring.of_unknown(columns),
         held=held if ring.expansion is None else held.at[0].add(ring.expansion),
@@ -116,7 +116,7 @@ def _results(
         jnp.zeros(()),
         jnp.ones_like(system.azimuth),
     )
-    count = RollerProfile().n_laminae if scene.profile is None else scene.profile.n_laminae
+    count = own_laminae(scene.profile)
     cut = lambda number: jnp.stack(
         [system.line.laminae(state.approach[side], state.slope[side], number) for side in (0, 1)]
     )
@@ -129,9 +129,15 @@ def _results(
         jnp.asarray(system.line.length),
         reduced_modulus(scene.materials.rings, scene.materials.rollers),
     )
-    most = jnp.max(laminae, axis=2)
-    peaks = jnp.where(most > 0, contact.hertz_pressure(jnp.where(most > 0, most, 1.0) * count), 0.0)
-    more, rolling, starved = _films(scene, contact, motion, laminae)
+    if scene.profile is None:
+        # what is straight carries most at an end
+        ends = jnp.asarray([0.0, 1.0])[:, None, None]
+        per_length = system.line.load_per_length(state.approach[None], state.slope[None], ends)
+        most = jnp.max(per_length, axis=0) * contact.length
+    else:
+        most = jnp.max(laminae, axis=2) * count
+    peaks = jnp.where(most > 0, contact.hertz_pressure(jnp.where(most > 0, most, 1.0)), 0.0)
+    more, rolling, starved = _films(scene, contact, motion, state.load, laminae)
     elements = RollerResults(
         azimuth=system.azimuth,
         load_inner=state.load[0],
@@ -162,6 +168,7 @@ def _films(
     scene: CylindricalRollerBearing,
     contact: LineContact,
     motion: RollerKinematics,
+    load: Float[Array, "2 roller"],
     laminae: Float[Array, "2 roller lamina"],
 ) -> tuple[dict[str, Array], Float[Array, "2 roller"] | None, Starvation | None]:
     """Films, NaN where nothing is loaded, the rolling resistance of each contact, N, and what little oil does to it.
@@ -181,7 +188,7 @@ def _films(
         safe = jnp.where(carries, load, 1.0)
         return carries, laws.evaluate(one, safe, speed + 0.0 * safe, 0.0 * safe, oil, inlet)
 
-    carries, whole = loaded(contact, jnp.sum(laminae, axis=2), speed, inlet)
+    carries, whole = loaded(contact, load, speed, inlet)
     each = LineContact(contact.reduced_radius[..., None], contact.length / laminae.shape[2], contact.reduced_modulus)
     if inlet.flow is not None:
         # of each lamina its share

@@ -6,11 +6,11 @@ from typing import NamedTuple
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ...contacts import StraightLine, palmgren_stiffness
+from ...contacts import palmgren_stiffness
 from ...materials import reduced_modulus
 from ..elastic_ring import BentRings, elastic_ring
 from ..parts import azimuths
-from ..profile import pressed_load
+from ..profile import pressed_load, roller_line
 from ..ring import InnerRing, inner_ring
 from ..ring_shape import shaped_parts
 from .geometry import TaperedGeometry
@@ -112,7 +112,7 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
     bent = _bending_rings(scene, azimuth)
     system = TaperedSystem(
         form=tapered_form(geometry),
-        line=StraightLine(stiffness, length) if scene.profile is None else scene.profile.line(stiffness, length),
+        line=roller_line(scene.profile, stiffness, length),
         flange_stiffness=geometry.flange_contact(modulus).stiffness_constant(),
         inertia=roller_inertia(geometry, body, rolling_motion(geometry, operation)),
         columns=ring.of_unknown(columns),

@@ -144,8 +144,10 @@ class TaperedGeometry(AbstractGeometry):
 
     @property
     def pitch_diameter(self) -> Array:
-        """Diameter of the circle of the rollers' middles, m."""
-        return 2.0 * (self.big_end_radius - 0.5 * self.roller_length * jnp.sin(self.axis_angle))
+        r"""Diameter of the circle of the rollers' middles, m: $2Y_b - \ell\cos\epsilon\sin\gamma$, since the contact's
+        length counts along the generator."""
+        along = self.roller_length * jnp.cos(self.roller_half_angle)
+        return 2.0 * self.big_end_radius - along * jnp.sin(self.axis_angle)
 
     @property
     def end_height(self) -> Array:

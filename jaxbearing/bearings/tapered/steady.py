@@ -21,7 +21,8 @@ from ..inlet import oil_elsewhere, oil_of, oil_of_races
 from ..interactions import friction_totals
 from ..mixed import boundary_power, mixed_results
 from ..parts import azimuths
-from ..rating import LAMINAE, rated_laminae
+from ..profile import own_laminae
+from ..rating import rated_laminae
 from ..ring import InnerRing, Port
 from ..solution import RING_FREEDOMS, BoundaryPower, FailureCause, LaminaLoads, Solution
 from .build import build_tapered, rolling_motion
@@ -221,7 +222,7 @@ def _results(
         spin_speed=every(motion.spin_speed),
         **{name: every(values) for name, values in more.items() if values is not None},
     )
-    own = LAMINAE if scene.profile is None else scene.profile.n_laminae
+    own = own_laminae(scene.profile)
     rated = rated_laminae(scene.rating, own)
     cut = lambda number: jnp.stack(
         [system.line.laminae(state.approach[side], state.slope[side], number) for side in (0, 1)]

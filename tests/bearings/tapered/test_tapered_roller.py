@@ -16,6 +16,7 @@ from jaxbearing.bearings.tapered.geometry import TaperedGeometry
 from jaxbearing.bearings.tapered.steady import tips_over
 from jaxbearing.numerics.arrow import ArrowPoint, evaluate
 from jaxbearing.numerics.status import Status
+from jaxbearing.shafts.batches import pressure_centre
 from jaxbearing.solve import jit_solver
 
 CUP = G1["contact_angle"]
@@ -61,7 +62,7 @@ def test_geometry_check_values():
         "apex_distance": 0.11389849,
         "flange_radius": 20.634142e-3,
         "mean_roller_diameter": 7.6149648e-3,
-        "pitch_diameter": 45.4708581e-3,
+        "pitch_diameter": 2 * 22.7360392e-3,  # radius of the row in the sheet of several bearings
         "flange_tilt": np.radians(1.686),
         "cone_angle": np.radians(10.036),
     }
@@ -78,6 +79,16 @@ def test_geometry_check_values():
     np.testing.assert_allclose(body, (3.4322749e-3, 4.6564623e-3, 2.4958943e-8, 3.8752955e-8), rtol=5e-8)
     fast = built(tapered(1e4, rpm=15000)).inertia
     np.testing.assert_allclose((fast.force, fast.moment), (33.7034, 0.0168145), rtol=3e-6)  # printed to 6 digits
+
+
+def test_where_the_normals_of_the_cup_meet_the_axis():
+    """Through the rollers' middles (sheet); the normal at the middle of the cup's line meets it 2.4 % farther out."""
+    scene = jb.load_scene("tapered_example")
+    geometry = scene.geometry
+    np.testing.assert_allclose(pressure_centre(scene), -0.00568390715, rtol=1e-9)
+    middle = geometry.apex_distance - 0.5 * geometry.roller_length
+    from_apex = -middle / np.cos(float(geometry.contact_angle))
+    np.testing.assert_allclose((from_apex + scene.port_distance) / pressure_centre(scene), 1.0240976, rtol=1e-6)
 
 
 def test_axial_load_in_closed_form(solutions):
