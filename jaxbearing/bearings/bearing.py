@@ -243,6 +243,12 @@ class AbstractBearing(AbstractScene):
         """True if the model of this scene can tilt the inner ring."""
         return True
 
+    def film_growth(self, load: Array) -> Array:
+        """Thickness of the films of both raceways together, m, under a load on the bearing, N; 0 of families whose
+        models may always tilt.
+        """
+        return jnp.zeros(())
+
     @property
     def rated_to_first_order(self) -> bool:
         """True if the loads for the life are computed with a linearised tilt of the ring."""

@@ -146,6 +146,15 @@ class FailureCause(NamedTuple):
     numbers: Float[Array, "..."]
 
 
+def causes_in_words(causes: Mapping[str, FailureCause]) -> list[str]:
+    """The causes that apply, with their numbers in their texts."""
+    return [
+        text.format(*np.atleast_1d(np.asarray(cause.numbers)).tolist())
+        for text, cause in causes.items()
+        if bool(cause.applies)
+    ]
+
+
 Point = TypeVar("Point", bound=AbstractOperation)
 """Class of the operating point of a bearing family."""
 Elements = TypeVar("Elements", bound=eqx.Module)
@@ -262,11 +271,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
         It tells the residual and the worst equation, or the nested solve that failed, unless there is no equilibrium.
         With a thermal network it tells the hottest node in place of the residual.
         """
-        found = [
-            text.format(*np.atleast_1d(np.asarray(cause.numbers)).tolist())
-            for text, cause in self.failure_causes.items()
-            if bool(cause.applies)
-        ]
+        found = causes_in_words(self.failure_causes)
         if found and int(self.status) == Status.INVALID_INPUT:
             return f"{Status.INVALID_INPUT.text}: {'; '.join(found)}"
         # loads without an equilibrium have none at any temperature

@@ -7,28 +7,32 @@ rings turn with the shaft, and every ring is held where the shaft holds it.
 import abc
 import dataclasses
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 from ..bearings.bearing import AbstractBearing
 from ..bearings.flanks import on_heavier_flanks
 from ..bearings.mounted import running_scene
 from ..bearings.operation import HeldDisplacement
-from ..bearings.ring import held_ring
+from ..bearings.ring import ANCHOR, held_ring
 from ..bearings.row import AbstractRow, HeldRow, RowState
-from ..bearings.solution import RING_FREEDOMS, Solution
+from ..bearings.solution import RING_FREEDOMS, LaminaLoads, Solution
 from ..numerics.newton import NewtonOptions
 from ..numerics.once import once
+from ..numerics.small_linear import solve_dense
 from .mounting import LinearBearing
 from .scene import Place
 
 _LOADS = ("axial_load", "radial_load", "radial_load_lateral", "moment", "moment_lateral")
 _TILTS = ("misalignment", "misalignment_lateral")
+LOAD_STEPS, LOAD_STEP = 4, 1e-5
+"""Number of Newton steps of `evenly_loaded` and the longest one, m: the force of line contacts is nearly linear in the
+approach."""
 
 
 def on_shaft(scene: AbstractBearing, speed: Array) -> AbstractBearing:
@@ -94,8 +98,8 @@ def spread(batches: tuple[AbstractBatch, ...], parts: list[Array], count: int) -
 class RollingBatch(AbstractBatch):
     """Bearings with rolling elements: `scene` is a stack of scenes.
 
-    `dry` are the scenes whose forces act on the shaft, of rollers that slide: these may tilt. It is `None` of all
-    others, whose forces are those of `scene`.
+    `dry` are the scenes of dry rollers that may tilt, by which the tilt acts on rollers that slide (`acting`). It is
+    `None` of all others, whose scenes may tilt themselves.
     """
 
     scene: AbstractBearing
@@ -104,7 +108,7 @@ class RollingBatch(AbstractBatch):
 
     @property
     def ports(self) -> AbstractBearing:
-        """The scenes whose forces act on the shaft."""
+        """The scenes that may tilt."""
         return self.scene if self.dry is None else self.dry
 
     def rows(self, expansion, at_rest=False):
@@ -175,6 +179,100 @@ def solutions(
         return scene.solved_running(of_running)
 
     return jax.vmap(one)(scene, displacement, expansion)
+
+
+class Acting(NamedTuple):
+    """What a batch does to the shaft: forces and stiffness of `Port`, the solutions of its own scenes, and of rollers
+    that slide those of the dry ones with the tilt of the ring and without it."""
+
+    force: Float[Array, "own 5"]
+    stiffness: Float[Array, "own 5 5"]
+    own: Solution
+    tilted: Solution | None
+    even: Solution | None
+
+    @property
+    def converged(self) -> Bool[Array, ""]:
+        """True if all solutions converged."""
+        found = [self.own, self.tilted, self.even]
+        return jnp.all(jnp.stack([one.converged for one in found if one is not None]))
+
+
+def acting(
+    batch: RollingBatch,
+    displacement: Float[Array, "own 5"],
+    expansion: Float[Array, " own"],
+    load: Float[Array, ""],
+    options: NewtonOptions,
+    when: Bool[Array, ""] | None = None,
+) -> Acting:
+    r"""Forces and stiffness of a batch with its rings held.
+
+    The model of rollers that slide has no tilt $\tau$. To its force P comes what the tilt changes of that of dry
+    rollers, T, whose inner raceways are larger by films h: $F = P(q) + T(q, \tau, h) - T(q, 0, h)$. A bearing that does
+    not tilt is that of its own model. The films are those of a typical `load` of a bearing, N, and not unknowns.
+    """
+    own = solutions(batch.scene, displacement, expansion, options, when=when)
+    if batch.dry is None:
+        return Acting(own.force, own.stiffness, own, None, None)
+    grown = expansion + jax.vmap(lambda scene: scene.film_growth(load))(batch.scene)
+    tilted = solutions(batch.dry, displacement, grown, options, when=when)
+    even = solutions(batch.dry, displacement.at[:, 3:].set(0.0), grown, options, when=when)
+    across = jnp.asarray([1.0, 1.0, 1.0, 0.0, 0.0])
+    return Acting(
+        own.force + tilted.force - even.force,
+        own.stiffness + tilted.stiffness - even.stiffness * across,
+        own,
+        tilted,
+        even,
+    )
+
+
+def evenly_loaded(
+    batch: RollingBatch,
+    found: Acting,
+    displacement: Float[Array, "own 5"],
+    expansion: Float[Array, " own"],
+    options: NewtonOptions,
+    when: Bool[Array, ""],
+) -> Solution:
+    """Rollers that slide and carry the force of `acting` across the axis evenly along their length: their films, cage
+    and losses are those of this load. Newton's iteration on the displacement, without steps where there is no tilt."""
+    solution = found.own
+    for _ in range(LOAD_STEPS):
+        missing = (found.force - solution.force)[:, 1:3]
+        stiffness = solution.stiffness[:, 1:3, 1:3] + ANCHOR * jnp.eye(2)
+        step = jax.vmap(solve_dense)(stiffness, missing)
+        displacement = displacement.at[:, 1:3].add(jnp.clip(step, -LOAD_STEP, LOAD_STEP))
+        solution = solutions(batch.scene, displacement, expansion, options, when=when)
+    return solution
+
+
+def with_carried_loads(scene: AbstractBearing, found: Acting, solution: Solution) -> Solution:
+    """The solution of a bearing whose rollers slide with the loads that they carry under the tilt of the ring, for the
+    life: those of its own model, and along the rollers what the tilt changes of the dry ones."""
+    tilted, even, own = found.tilted, found.even, found.own
+    assert tilted is not None
+    assert even is not None
+    assert tilted.laminae is not None
+    parts, count = [], tilted.laminae.inner.shape[-1]
+    for side in ("inner", "outer"):
+        films = getattr(own.elements, f"load_{side}") - getattr(even.elements, f"load_{side}")
+        parts.append(jnp.maximum(getattr(tilted.laminae, side) + films[:, None] / count, 0.0))
+    lines = scene.race_lines(solution.elements)
+    assert lines is not None
+    inner, outer = parts
+    most = jnp.stack([jnp.max(part, axis=1) for part in parts]) * count
+    pressure = jnp.where(most > 0, lines.hertz_pressure(jnp.where(most > 0, most, 1.0)), 0.0)
+    elements = dataclasses.replace(
+        solution.elements,
+        load_inner=jnp.sum(inner, axis=1),
+        load_outer=jnp.sum(outer, axis=1),
+        pressure_inner=pressure[0],
+        pressure_outer=pressure[1],
+    )
+    laminae = LaminaLoads(inner, outer, tilted.laminae.profiled)
+    return dataclasses.replace(solution, elements=elements, laminae=laminae, force=found.force)
 
 
 def _dry(scene: AbstractBearing) -> AbstractBearing:

@@ -23,6 +23,8 @@ from ..numerics.structure import choice
 
 SENSES = {"+x": 1.0, "-x": -1.0, "<": 1.0, ">": -1.0}
 """Word or sign of an orientation -> sense of the bearing's axis along that of the shaft."""
+CLOSURES = "between -10 mm and 10 mm"
+"""Bound of closures: the search for an equilibrium of the shaft moves no ring farther (`search.FARTHEST`)."""
 
 
 def _numbers(value: object) -> Any:
@@ -88,7 +90,7 @@ class Preload(Checked):
 
     force: Scalar | None = optional_number(bound=">= 0", metadata=label("N", "preload force"))
     class_force: Scalar | None = optional_number(bound=">= 0", metadata=label("N", "preload class force"))
-    offset: Scalar | None = optional_number(metadata=label("m", "closure of each bearing"))
+    offset: Scalar | None = optional_number(bound=CLOSURES, metadata=label("m", "closure of each bearing"))
     spring_force: Scalar | None = optional_number(bound=">= 0", metadata=label("N", "spring force, mounted"))
     spring_stiffness: Scalar | None = optional_number(bound=">= 0", metadata=label("N/m", "stiffness of the springs"))
 
@@ -127,7 +129,7 @@ class MountedBearing(Checked):
     scene: AbstractBearing | LinearBearing
     position: Scalar = number(metadata=label("m", "position along the shaft"))
     thrust: Literal["+x", "-x"] = choice("bearing.thrust", ("+x", "-x"), "+x")
-    closure: Scalar = number(0.0, metadata=label("m", "closure"))
+    closure: Scalar = number(0.0, bound=CLOSURES, metadata=label("m", "closure"))
     expansion: Scalar = number(0.0, metadata=label("m", "expansion of the inner raceway"))
     support: Support | None = None
 
@@ -192,7 +194,7 @@ class MatchedSet(Checked):
             if shape and shape != (count,):
                 raise ValueError(f"set.{name} must have {count} numbers for the picture {self.picture!r}, got {shape}")
         _demand_each("distance", self.distance, "> 0")
-        _demand_each("mismatch", self.mismatch, "finite")
+        _demand_each("mismatch", self.mismatch, CLOSURES)
 
     @property
     def count(self) -> int:

@@ -26,8 +26,8 @@ BALANCED = 1e-16
 """Last step of the search for the mounted set's place, m."""
 TOLERANCE = 1e-13
 """Relative error of the preload, and of the displacement, at which the search ends."""
-SMALL_FORCE = 1.0
-"""Force from whose place that of the first contact is found, N: balls are some 0.1 um away from it there."""
+SMALL_FORCE = 1e-9
+"""Force from whose place that of the first contact is found, N: balls are less than 1 pm away from it there."""
 EXPONENT = 2.0 / 3.0
 """The force to this power grows nearly in proportion to the displacement of balls."""
 
@@ -122,15 +122,18 @@ def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearin
         safe = jnp.where(loaded, force, 1.0)
         step = (safe - wanted**EXPONENT * safe ** (1.0 - EXPONENT)) / (EXPONENT * jnp.where(loaded, slope, 1.0))
         newton = state.place - step
-        middle = jnp.where(jnp.isfinite(high), 0.5 * (low + high), 2.0 * state.place)
+        enclosed = jnp.isfinite(low) & jnp.isfinite(high)
+        farther = FIRST_TRIAL + jnp.abs(state.place)
+        one_side = jnp.where(above, state.place - farther, state.place + farther)
+        middle = jnp.where(enclosed, 0.5 * (low + high), one_side)
         inside = loaded & (newton > low) & (newton < high)
-        small = (jnp.abs(force - wanted) <= TOLERANCE * wanted) | (high - low <= TOLERANCE * jnp.abs(high))
+        small = (jnp.abs(force - wanted) <= TOLERANCE * wanted) | (enclosed & (high - low <= TOLERANCE * jnp.abs(high)))
         following = jnp.where(small | state.done, state.place, jnp.where(inside, newton, middle))
         return _Search(following, low, high, state.trials + 1, state.done | small, held)
 
     none = jnp.zeros(len(groups))
     first = _Search(
-        none + FIRST_TRIAL, none - FIRST_TRIAL, none + jnp.inf, jnp.asarray(0), none > 0, _nothing(fixed[0], additional)
+        none + FIRST_TRIAL, none - jnp.inf, none + jnp.inf, jnp.asarray(0), none > 0, _nothing(fixed[0], additional)
     )
     going = lambda state: (state.trials < TRIALS) & ~jnp.all(state.done)
     end = jax.lax.while_loop(going, look, first)
@@ -144,8 +147,8 @@ def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearin
 
 class Mounted(NamedTuple):
     """The mounted sets: closures of all bearings, m, the springs, and by the names of the sets the
-    closure of each bearing by the preload, m, the force between the groups, N, the load that unloads one, N, and the
-    number of the spring."""
+    closure of each bearing by the preload, m, the force between the groups, N, the load that unloads one, N, the
+    number of the spring, and the largest displacement of a bearing under the force that is asked for, m."""
 
     closure: Float[Array, " bearing"]
     springs: tuple[Spring, ...]
@@ -153,6 +156,7 @@ class Mounted(NamedTuple):
     forces: dict[str, Array]
     losses: dict[str, Array]
     spring_numbers: dict[str, int]
+    asked: dict[str, Array]
 
 
 def groups_of(places: tuple[Place, ...], number: int) -> tuple[np.ndarray, np.ndarray]:
@@ -168,10 +172,10 @@ def mount(system: ShaftSystem, places: tuple[Place, ...], batches: tuple[Abstrac
     closure = jnp.stack([jnp.asarray(place.closure, dtype=float) for place in places])
     sets = [(number, one.name, one.preload) for number, one in enumerate(system.sets) if one.preload is not None]
     if not sets:
-        return Mounted(closure, (), {}, {}, {}, {})
+        return Mounted(closure, (), {}, {}, {}, {}, {})
     preloaded = np.asarray([place.set_index in {number for number, _, _ in sets} for place in places])
     rest = at_rest(batches, preloaded)
-    travel = _travels(rest, places, sets, closure)
+    travel, asked = _travels(rest, places, sets, closure)
     springs: list[Spring] = []
     closures: dict[str, Array] = {}
     forces: dict[str, Array] = {}
@@ -192,14 +196,14 @@ def mount(system: ShaftSystem, places: tuple[Place, ...], batches: tuple[Abstrac
         closure = closure + closures[name] * mine
     rigid = {name: groups_of(places, number) for number, name, _ in sets if name in closures}
     mounted, losses = _mounted(rest, rigid, closure)
-    return Mounted(closure, tuple(springs), closures, forces | mounted, losses, numbers)
+    return Mounted(closure, tuple(springs), closures, forces | mounted, losses, numbers, asked)
 
 
 def _travels(
     rest: Rest, places: tuple[Place, ...], sets: list[tuple[int, str, Preload]], closure: Float[Array, " bearing"]
-) -> dict[str, Array]:
-    """Sum of the axial displacements of both groups of each set under its preload, m; of a class force the displacement
-    of its first bearing alone."""
+) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Sum and largest of the axial displacements of both groups of each set under its preload, m; of a class force the
+    displacement of its first bearing alone."""
     groups: list[Group] = []
     owner: list[str] = []
     additional = closure
@@ -214,9 +218,10 @@ def _travels(
             owner.append(name)
             additional = jnp.where(first, 0.0, additional)
     if not groups:
-        return {}
+        return {}, {}
     found = displaced(rest, groups, additional)
-    return {name: sum((found[i] for i, own in enumerate(owner) if own == name), jnp.zeros(())) for name in owner}
+    own = {name: jnp.stack([found[i] for i, other in enumerate(owner) if other == name]) for name in owner}
+    return {name: jnp.sum(each) for name, each in own.items()}, {name: jnp.max(each) for name, each in own.items()}
 
 
 def _mounted(

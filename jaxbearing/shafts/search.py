@@ -27,7 +27,7 @@ from ..numerics.newton import NewtonOptions
 from ..numerics.once import once
 from ..numerics.status import Status
 from .balance import Balance
-from .batches import AbstractBatch, LinearBatch, RollingBatch, solutions, spread
+from .batches import AbstractBatch, LinearBatch, RollingBatch, acting, spread
 
 START_TOLERANCE = 1e-5
 """Tolerance of the first stage for the residual, relative to the size of the loads."""
@@ -107,10 +107,11 @@ def ports(
     for batch in problem.batches:
         own = displacement[batch.index]
         if isinstance(batch, RollingBatch):
-            found = solutions(batch.ports, own, problem.expansion[batch.index], options)
+            expansion = problem.expansion[batch.index]
+            found = acting(batch, own, expansion, problem.balance.typical_load, options)
             forces.append(found.force)
             stiffness.append(found.stiffness)
-            good &= jnp.all(found.converged)
+            good &= found.converged
         else:
             assert isinstance(batch, LinearBatch)
             forces.append(batch.force_at(None, own, None))

@@ -12,7 +12,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractSolution, label
-from ..bearings.solution import FailureCause, RingDisplacement, Solution
+from ..bearings.solution import FailureCause, RingDisplacement, Solution, causes_in_words
 from ..life.result import Life
 from ..numerics.status import Status
 from .heat import ShaftThermalResult
@@ -26,12 +26,11 @@ class BearingOnShaft(eqx.Module):
     **Arguments:** the labels of the fields describe them; others are
     - `ring`: displacement of the inner ring against the outer one at the port (on the axis, in the plane of the
       unloaded balls or in the middle of the rollers), in the bearing's frame, without closure.
-    - `solution`: results of the bearing's own family with its ring held where the shaft holds it; `None` of a linear
-      bearing.
+    - `solution`: results of the bearing's own family with its ring held where the shaft holds it, of rollers that slide
+      under the same force across the axis without tilt; `None` of a linear bearing.
     - `life`: `None` without a rating in the bearing's scene.
     - `name`, `sense`: its name; 1 if its axis points along +X, else -1.
-    - `sliding_difference`: of rollers that slide, whose losses come from another model than the forces on the shaft;
-      `None` of all others.
+    - `sliding_difference`: of rollers that slide, whose own model has no tilt; `None` of all others.
     """
 
     position: _Number = eqx.field(metadata=label("m", "position along the shaft"))
@@ -193,6 +192,9 @@ class ShaftSolution(AbstractSolution):
     def solver_failure(self) -> str:
         """One sentence on a failed solve."""
         status, steps = Status(int(self.status)), int(self.iterations)
+        causes = causes_in_words(self.failure_causes)
+        if causes:
+            return f"{status.text}: {'; '.join(causes)}"
         if status == Status.NO_EQUILIBRIUM:
             return (
                 f"{status.text}: nothing holds the shaft along {self.freedom_names[int(self.softest)]} (after "

@@ -10,7 +10,7 @@ from jaxtyping import Array, Bool, Float
 
 from ..bearings.bearing import AbstractBearing
 from ..bearings.bearing_life import with_life
-from ..bearings.solution import RING_FREEDOMS, RingDisplacement, Solution
+from ..bearings.solution import RING_FREEDOMS, FailureCause, RingDisplacement, Solution
 from ..numerics.known_roots import own_roots
 from ..numerics.newton import NewtonOptions
 from ..numerics.precision import as_float
@@ -21,16 +21,18 @@ from .batches import (
     AbstractBatch,
     LinearBatch,
     RollingBatch,
+    acting,
     batches_of,
+    evenly_loaded,
     largest_load,
     pressure_centre,
-    solutions,
+    with_carried_loads,
 )
 from .lives import hourly_rates, life_of, slopes_of, system_rate
 from .mounting import LinearBearing
 from .preload import Mounted, groups_of, mount
 from .scene import Place, ShaftSystem
-from .search import Problem, Root, equilibrium
+from .search import FARTHEST, Problem, Root, equilibrium
 from .solution import (
     BearingOnShaft,
     DutyResult,
@@ -43,10 +45,15 @@ from .solution import (
 from .warm import solve_warm_shaft
 
 SLIDING_APART = (
-    "forces of rollers that slide come from dry rollers that may tilt; films, cage and losses are those of the same "
-    "displacement without tilt, whose force differs by the films"
+    "rollers that slide: films, cage, traction and losses are those of the same load carried evenly along the rollers; "
+    "the tilt of the ring acts on the force, the stiffness and the life"
 )
-"""Note on a bearing whose losses come from another model than its forces."""
+"""Note on a bearing whose model has no tilt."""
+TOO_MUCH_PRELOAD = (
+    "set.{0}.preload: its bearings carry no such force: one would close by {{:.4g}} mm, and an equilibrium is sought "
+    f"within {1e3 * FARTHEST:g} mm"
+)
+"""Cause of a failed solve, with the name of a set."""
 EMPTY = 0.01
 """Part of the preload below which a bearing of a set counts as unloaded."""
 MISSING_SHOULDER = (
@@ -81,7 +88,11 @@ def _duty(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
     first = jax.tree.map(lambda leaf: leaf[0], found)
     duty = DutyResult(*_duty_lives(system, found, shares, stacked.shaft.speed), shares, found, names)
     status = jnp.max(found.status)
-    return dataclasses.replace(first, status=status, duty=duty, checks=_any_state(found.checks))
+    causes = {
+        text: FailureCause(jnp.any(cause.applies), jnp.max(cause.numbers))
+        for text, cause in found.failure_causes.items()
+    }
+    return dataclasses.replace(first, status=status, duty=duty, checks=_any_state(found.checks), failure_causes=causes)
 
 
 def _any_state(checks: Mapping[str, Bool[Array, ""]]) -> dict[str, Bool[Array, ""]]:
@@ -165,6 +176,10 @@ def _results(
     }
     if mounted.springs or mounted.closures:
         checks |= _preload_checks(system, places, found, mounted)
+    causes = {
+        TOO_MUCH_PRELOAD.format(name): FailureCause(~good & (asked > FARTHEST), 1e3 * asked)
+        for name, asked in mounted.asked.items()
+    }
     torque = _torques(system, axis, found)
     life = _system_life(system, found)
     nodes = _nodes(system, axis, parts, position)
@@ -185,6 +200,7 @@ def _results(
         life=shown[4],
         checks={text: good & flag for text, flag in checks.items()},
         softest=root.softest,
+        failure_causes=causes,
         unknowns=len(balance.load),
         freedom_names=tuple(f"{FREEDOM_WORDS[name]} at {place.name}" for place in places for name in RING_FREEDOMS),
         notes=tuple(notes),
@@ -209,16 +225,20 @@ def _bearings(
     for batch in problem.batches:
         own = displacement[batch.index]
         stack: Solution | None = None
-        apart = None
+        most = apart = None
         if isinstance(batch, RollingBatch):
             expansion = problem.expansion[batch.index]
-            stack = solutions(batch.ports, own, expansion, options, when=solved)
-            good &= jnp.all(stack.converged)
-            force, stiffness = stack.force, stack.stiffness
+            held = acting(batch, own, expansion, problem.balance.typical_load, options, when=solved)
+            good &= held.converged
+            force, stiffness = held.force, held.stiffness
+            stack = rated = held.own
             if batch.dry is not None:
-                apart = solutions(batch.scene, own, expansion, options, when=solved)
-                good &= jnp.all(apart.converged)
-            stack = jax.vmap(with_life)(batch.ports, stack)
+                apart = stack.force - force
+                stack = evenly_loaded(batch, held, own, expansion, options, solved)
+                good &= jnp.all(stack.converged)
+                rated = jax.vmap(with_carried_loads)(batch.scene, held, stack)
+            most = jax.vmap(largest_load)(rated)
+            stack = jax.vmap(_with_life_of)(batch.scene, rated, stack)
         else:
             assert isinstance(batch, LinearBatch)
             force, stiffness = batch.force_at(None, own, None), batch.stiffness
@@ -226,7 +246,6 @@ def _bearings(
             place = places[index]
             pick = lambda tree, number=number: jax.tree.map(lambda leaf: leaf[number], tree)
             one: Solution | None = None if stack is None else pick(stack)
-            losses = one if apart is None else pick(apart)
             mirror = jnp.asarray([place.sense, 1.0, 1.0, place.sense, place.sense])
             ring = own[number].at[0].add(-closure[index])
             centre = jnp.zeros(()) if isinstance(place.scene, LinearBearing) else pressure_centre(place.scene)
@@ -239,20 +258,17 @@ def _bearings(
                 outer=parts.outer[index],
                 closure=closure[index],
                 expansion=problem.expansion[index],
-                largest_load=jnp.asarray(jnp.nan) if one is None else largest_load(one),
+                largest_load=jnp.asarray(jnp.nan) if most is None else most[number],
                 pressure_centre=position[index] + place.sense * centre,
-                solution=losses,
+                solution=one,
                 life=None if one is None else one.life,
                 name=place.name,
                 sense=place.sense,
+                sliding_difference=None if apart is None else apart[number],
             )
-            if apart is not None:
-                assert losses is not None
-                found[index] = dataclasses.replace(found[index], sliding_difference=losses.force - force[number])
             if one is not None:
-                assert losses is not None
-                checks |= {f"{place.name}: {text}": flag for text, flag in losses.checks.items()}
-                notes += [f"{place.name}: {note}" for note in losses.notes]
+                checks |= {f"{place.name}: {text}": flag for text, flag in one.checks.items()}
+                notes += [f"{place.name}: {note}" for note in one.notes]
             if apart is not None:
                 notes.append(f"{place.name}: {SLIDING_APART}")
             if one is not None and _has_angle(place):
@@ -262,6 +278,12 @@ def _bearings(
             checks[f"{place.name}: the inner ring is tilted by more than 1 mrad against the outer ring"] = steep
     in_order = {places[index].name: found[index] for index in range(len(places))}
     return in_order, checks, notes, good
+
+
+def _with_life_of(scene: AbstractBearing, rated: Solution, shown: Solution) -> Solution:
+    """A solution with the life of another one of the same bearing, whose loads count."""
+    found = with_life(scene, rated)
+    return dataclasses.replace(shown, life=found.life, checks=found.checks, notes=found.notes)
 
 
 def _has_angle(place: Place) -> bool:

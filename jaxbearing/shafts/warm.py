@@ -181,6 +181,7 @@ def _answer(system: ShaftSystem, warm: _Warm, state: ThermalState) -> ShaftSolut
         status=state.status,
         residual_norm=ended.residual_norm,
         softest=ended.softest,
+        failure_causes=ended.failure_causes,
         bearings=bearings,
         checks={text: broken & good for text, broken in solution.checks.items()},
         notes=(*solution.notes, *notes),

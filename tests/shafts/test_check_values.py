@@ -7,6 +7,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from shaft_cases import (
+    DEEP_GROOVE,
     P,
     axial_forces,
     balls,
@@ -22,7 +23,9 @@ from tapered_cases import tapered
 import jaxbearing as jb
 from jaxbearing.life.reference import ball_contact_capacities, ball_damage_rate
 from jaxbearing.shafts import MountedBearing, PointLoad, Preload, Section, Shaft, ShaftState, ShaftSystem, Support
+from jaxbearing.shafts.batches import batches_of
 from jaxbearing.shafts.lives import hourly_rates, system_life, system_rate
+from jaxbearing.shafts.preload import mount
 
 RPM = np.pi / 30.0
 PRELOAD = Preload(force=180.0)
@@ -149,13 +152,51 @@ def test_tapered_pairs():
         close([one.force[1] for one in solved.bearings.values()], radial, 1e-6)
 
 
-def test_no_preload_is_the_limit_of_small_ones():
-    """The closure goes as the force to the power 2/3, and that of no force is the first contact, but for the 1e-3 N on
-    each ball."""
-    light, none = (jb.solve(pair(preload=Preload(force=force))) for force in (1.0, 0.0))
-    close(light.sets["set"].closure, 8.87786930e-6 * (1.0 / 180.0) ** (2.0 / 3.0), 0.1)
-    close(none.sets["set"].closure, 0.0, atol=5e-9)
-    close(none.sets["set"].preload, 0.0, atol=0.2)
+def mounted_set(scene):
+    """From the preload force of an O pair to its closure, its preload and the derivative of that."""
+
+    def found(force):
+        system = pair(preload=Preload(force=force), scene=scene)
+        mounted = mount(system, system.places, batches_of(system.places, jnp.asarray(0.0)))
+        return mounted.closures["set"], mounted.forces["set"]
+
+    return jax.jit(lambda force: (found(force), jax.jvp(found, (force,), (1.0,))[1]))
+
+
+def test_small_preloads_close_to_the_first_contact():
+    """The closure falls with the force to that of the first contact, as its power 2/3 (Hertz), the preload shown is the
+    one asked for, and its derivative is 1. The first contact of balls with play is at
+    L sin(arccos(1 - Pd/(2 L))), with the distance L of the groove centres."""
+    distance = (0.515 + 0.525 - 1.0) * 7.938e-3
+    play = distance * np.sin(np.arccos(1.0 - 12e-6 / (2.0 * distance)))
+    for scene, touch in ((P, 0.0), (DEEP_GROOVE, play)):
+        preload = mounted_set(scene)
+        forces = np.asarray([10.0, 1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 0.0])
+        closures = []
+        for force in forces:
+            (closure, shown), (_, slope) = preload(force)
+            closures.append(float(closure))
+            close(shown, force, 1e-7, 1e-11)
+            if force > 0:
+                close(slope, 1.0, 1e-6)
+        assert np.all(np.diff(closures) < 0.0)
+        close(closures[-1], touch, 1e-9, atol=1e-14)
+        close((closures[-2] - touch) / (closures[-3] - touch), 0.1 ** (2.0 / 3.0), 1e-3)
+
+
+def test_large_preloads_are_found_or_refused():
+    """A preload that needs more than 0.05 mm of closure is found; one that no bearing carries is the cause of the
+    failure, and a closure beyond the search is refused."""
+    preload = mounted_set(P)
+    for force in (180.0, 1e5):
+        (_, shown), (_, slope) = preload(force)
+        close([shown, slope], [force, 1.0], 1e-9)
+    with pytest.raises(jb.SolveError, match=r"set\.set\.preload: its bearings carry no such force: one would close by"):
+        jb.solve(pair(preload=Preload(force=1e9)))
+    with pytest.raises(ValueError, match=r"preload\.offset must be between -10 mm and 10 mm, got 1"):
+        Preload(offset=1.0)
+    with pytest.raises(ValueError, match=r"closure must be between -10 mm and 10 mm, got 1"):
+        MountedBearing("A", P, 0.0, closure=1.0)
 
 
 @pytest.mark.slow

@@ -9,6 +9,7 @@ import pytest
 from shaft_cases import DEEP_GROOVE, NU, RPM, P, gear_shaft, pair, rollers, steel, two_deep_grooves
 
 import jaxbearing as jb
+from jaxbearing.bearings.rating import Rating
 from jaxbearing.bearings.ring import shift_matrix
 from jaxbearing.shafts import (
     Gravity,
@@ -236,15 +237,10 @@ def test_a_cylindrical_bearing_with_interference_between_two_ball_bearings():
 @pytest.mark.slow
 def test_the_drive_gives_what_the_bearings_lose():
     """Two lubricated roller bearings with sliding, cage and drag, a gear and a drive: torques times speed are the sum
-    of all losses, as exactly as each bearing closes its own balance. The forces come from dry rollers that may tilt:
-    those of the sliding ones differ by what their films, 0.4 um on each raceway, take of the play."""
-    scene = jb.load_scene("reference_roller")
-    speed = float(scene.operation.inner_speed)
-    system = ShaftSystem(
-        Shaft(speed, [Section(0.2, 0.06)], steel(206e9)),
-        bearings=[MountedBearing("A", scene, 0.02), MountedBearing("B", scene, 0.18)],
-        forces=[PointLoad("load", 0.08, radial=8e3, tangential=1e3, radius=0.05)],
-    )
+    of all losses, as exactly as each bearing closes its own balance. The results of the rollers that slide are those of
+    the load on the shaft, and the life is modified by the oil that they have."""
+    system = sliding_pair([Section(0.2, 0.06)])
+    speed = float(system.shaft.speed)
     solved = jb.solve(system)
     torque = solved.torque
     np.testing.assert_allclose(float(torque.forces), 50.0, rtol=1e-14)
@@ -252,10 +248,38 @@ def test_the_drive_gives_what_the_bearings_lose():
     for one in solved.bearings.values():
         closed = one.solution.inner_torque * speed
         np.testing.assert_allclose(closed, one.solution.power_loss.total, rtol=1e-9)
-        # the films take as much of the play as they are thick
-        closed = np.linalg.solve(one.stiffness[1:3, 1:3], one.sliding_difference[1:3])
-        films = 2.0 * float(np.min(one.solution.elements.film_inner))
-        assert 0.5 * films < np.linalg.norm(closed) < 2.0 * films
+        np.testing.assert_allclose(one.solution.force[1:3], one.force[1:3], rtol=1e-6)
+        assert 0.0 < np.linalg.norm(one.sliding_difference[1:3]) < 0.1 * np.linalg.norm(one.force[1:3])
+        assert np.isfinite(one.life.Lnmr)
+        assert float(one.life.viscosity_ratio) > 0.0
+
+
+def sliding_pair(sections=(), at=0.08, tangential=1e3):
+    """Two cylindrical roller bearings with films, traction, cage and rating on a shaft."""
+    scene = dataclasses.replace(jb.load_scene("reference_roller"), rating=Rating(contamination_factor=0.5))
+    return ShaftSystem(
+        Shaft(float(scene.operation.inner_speed), sections, steel(206e9)),
+        bearings=[MountedBearing("A", scene, 0.02), MountedBearing("B", scene, 0.18)],
+        forces=[PointLoad("load", at, radial=8e3, tangential=tangential, radius=0.05)],
+    )
+
+
+@pytest.mark.slow
+def test_rollers_that_slide_without_tilt_are_their_own_model():
+    """In the middle of a rigid shaft the load does not tilt the rings: force, films, loss, kappa and all lives are
+    those of the bearing alone under half of the load."""
+    system = sliding_pair(at=0.1, tangential=0.0)
+    alone = jb.solve(system.bearings[0].scene.replace({"operation.radial_load": 4e3}))
+    same = lambda found, value: np.testing.assert_allclose(found, value, rtol=1e-8, atol=1e-12)
+    for one in jb.solve(system).bearings.values():
+        np.testing.assert_allclose(one.force[1:3], [4e3, 0.0], rtol=1e-9, atol=1e-6)
+        np.testing.assert_allclose(one.sliding_difference[:3], 0.0, atol=1e-6)
+        same(one.ring.radial, alone.ring.radial)
+        same(one.largest_load, jnp.max(alone.elements.load_inner))
+        same(one.solution.power_loss.total, alone.power_loss.total)
+        same(one.solution.elements.film_inner, alone.elements.film_inner)
+        for name in ("viscosity_ratio", "modification_factor", "L10", "L10r", "Lnmr", "contact_static_safety"):
+            same(getattr(one.life, name), getattr(alone.life, name))
 
 
 def test_changes_by_names():

@@ -36,6 +36,9 @@ from .system import AbstractBallSystem
 
 FORCE_FLOOR = 1e-3
 """Added to the centrifugal force, N: a ball that nothing loads stays in its outer groove (load error 1e-3 N)."""
+FLOOR_SHARE = 1e-4
+"""Part of a ball's share of the load that the addition does not exceed: balls at rest would roll down the outer groove
+under it, and move the ring along its axis by 20 um where it carries 0.01 N."""
 
 ESTIMATES = 3
 """Passes between centrifugal forces and contact angles in the first guess."""
@@ -230,8 +233,11 @@ class BallCore(AbstractBallSystem):
         return pair - centre, centre
 
     def at_free_angle(self) -> CentrifugalProblem:
-        """The convex problem at the centrifugal forces of the contact angle of the unloaded bearing."""
-        return self._frozen(jnp.broadcast_to(self.grooves.free_angle, (2, self.azimuth.shape[0])))
+        """The convex problem at the centrifugal forces of the contact angle of the unloaded bearing. They have no
+        `FORCE_FLOOR`: balls at rest that nothing presses carry nothing."""
+        angle = jnp.broadcast_to(self.grooves.free_angle, (2, self.azimuth.shape[0]))
+        centrifugal = self.centrifugal(self.motion(angle).orbital_speed)
+        return dataclasses.replace(self._frozen(angle), centrifugal=centrifugal)
 
     def _frozen(self, angle: Float[Array, "2 ball"]) -> CentrifugalProblem:
         """The convex problem at the centrifugal forces of given contact angles."""
@@ -337,8 +343,9 @@ class BallCore(AbstractBallSystem):
     # -- physics --------------------------------------------------------------------------------------------------
 
     def outward_force(self, motion: BallMotion) -> Array:
-        """Centrifugal force with `FORCE_FLOOR`, N."""
-        return self.centrifugal(motion.orbital_speed) + FORCE_FLOOR
+        """Centrifugal force with `FORCE_FLOOR`, or less under small loads (`FLOOR_SHARE`), N."""
+        floor = jnp.minimum(FORCE_FLOOR, FLOOR_SHARE * self.load_scale() / self.ball_count)
+        return self.centrifugal(motion.orbital_speed) + floor
 
     def at(self, point: ArrowPoint) -> BallState:
         return self.balls(point.elements, seen_by_elements(self, point))

@@ -1,7 +1,7 @@
 """Roller loads of a lubricated bearing from the approach of the rings: the equation of one roller, a guess of all
 loads, and the distribution at given speeds and places (source eqs. (37)-(39), (41))."""
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -16,8 +16,12 @@ from ...numerics.arrow import AbstractArrowSystem, ArrowPoint
 from ...numerics.plain_newton import plain_newton
 from ...numerics.roots import monotone_root
 from ...numerics.safe import positive_power, safe_norm
-from ..inlet import of_inner_race
+from ..inlet import of_inner_race, oil_of_races
 from ..ring import LENGTH_UNIT
+from .kinematics import roller_kinematics
+
+if TYPE_CHECKING:
+    from .scene import CylindricalRollerBearing
 
 LOG_LOAD_RANGE = (-40.0, 18.0)
 """ln(load / 1 N) that an iterate may take."""
@@ -189,3 +193,17 @@ def distributed_loads(
     found = plain_newton(system, guess, tolerance=tolerance, max_steps=max_steps)
     load, ring = system.both(found.point.elements[0]), found.point.globals * LENGTH_UNIT
     return Distribution(load, ring, found.residual, found.point)
+
+
+def film_growth(scene: "CylindricalRollerBearing", load: Float[Array, ""]) -> Float[Array, ""]:
+    """See `AbstractBearing.film_growth`: films of rolling without sliding under the largest load of a roller of a
+    bearing without clearance (Stribeck), a little more than nothing at least."""
+    if scene.contact is None or scene.oil is None:
+        return jnp.zeros(())
+    zero = jnp.zeros((2, 1))
+    speed = roller_kinematics(scene.geometry, scene.operation).surface_speeds(jnp.zeros(()), jnp.zeros(()))[0]
+    most = 4.0 * jnp.asarray(load) / scene.geometry.n_rollers + 1.0
+    film, _ = scene.contact.separation(
+        scene.race_lines(None), most + zero, speed[:, None] + zero, zero, scene.oil, oil_of_races(scene)
+    )
+    return jnp.sum(film)

@@ -251,6 +251,11 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         """False where rollers slide: they carry evenly along their length."""
         return not self.slips
 
+    def film_growth(self, load: Array) -> Array:
+        from .loads import film_growth
+
+        return film_growth(self, load)
+
     @property
     def skewed(self) -> bool:
         return super().skewed or "lateral" in self.ring_freedom
@@ -279,7 +284,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     def dissipates(self) -> bool:
         return self.contact is not None and (self.slips or self.contact.resists_rolling)
 
-    def race_lines(self, elements: "RollerResults") -> LineContact:
+    def race_lines(self, elements: "RollerResults | None") -> LineContact:
         length = jnp.asarray(self.geometry.loaded_length)
         roller, races = 0.5 * jnp.asarray(self.geometry.roller_diameter), jnp.stack(self.raceway_diameters)[:, None]
         radii = 1.0 / (1.0 / roller + jnp.asarray([[2.0], [-2.0]]) / races)

@@ -174,9 +174,9 @@ def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
             yield f"{side.capitalize()} rings", bent
     apart = {name: one.sliding_difference for name, one in solution.bearings.items()}
     sizes = {name: float(np.linalg.norm(np.asarray(one)[:3])) for name, one in apart.items() if one is not None}
-    if sizes:
+    if any(size > _LEAST for size in sizes.values()):
         said = ", ".join(f"{name} {with_unit(size, 'N', 3)}" for name, size in sizes.items())
-        yield "Rollers that slide", f"force of their own model at the same displacement differs by: {said}"
+        yield "Rollers that slide", f"part of the force across the axis that comes from tilt: {said}"
     torque = solution.torque
     parts = [f"forces {with_unit(float(torque.forces), 'N m')}", f"drive {with_unit(float(torque.drive), 'N m')}"]
     if number(torque.bearings):
