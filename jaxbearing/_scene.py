@@ -15,6 +15,7 @@ from ._checks import Checks
 from ._derived import derived as derived
 from ._derived import derived_part as derived_part
 from ._shown import Shown
+from .numerics.arguments import did_you_mean
 from .numerics.checks import bounded
 from .numerics.checks import label as label
 from .numerics.newton import NewtonOptions
@@ -214,7 +215,8 @@ def _replaced(part: object, changes: dict[tuple[str, ...], Any], above: str = ""
     for path, value in changes.items():
         if not isinstance(part, eqx.Module) or path[0] not in fields:
             whole, there = above + ".".join(path), ", ".join(fields) or "no fields"
-            raise AttributeError(f"the scene has no {whole!r}: {type(part).__name__} has {there}")
+            near = did_you_mean(path[0], fields, above)
+            raise AttributeError(f"the scene has no {whole!r}: {type(part).__name__} has {there}{near}")
         if len(path) == 1:
             new[path[0]] = value
         else:

@@ -7,9 +7,10 @@ imported (`shown_by`).
 import importlib
 from typing import Any
 
-import equinox as eqx
 import jax
 from jax.core import Tracer
+
+from .numerics.structure import Hinting
 
 _RENDERER: list[str] = []
 
@@ -19,7 +20,7 @@ def shown_by(module: str) -> None:
     _RENDERER[:] = [module]
 
 
-class Shown(eqx.Module):
+class Shown(Hinting):
     """Base of what `print` and notebooks show in a reader's units; `repr` remains the structure.
 
     Inside `jax.jit` and of batches, which have no one set of numbers, the structure is shown as well.

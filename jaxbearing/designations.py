@@ -17,24 +17,43 @@ CYLINDRICAL = ("10", "12", "19", "20", "22", "23", "30", "2", "3", "4")
 CYLINDRICAL_TYPES = ("NUP", "NU", "NJ", "NF", "N")
 INCH = ("LL", "LM", "L", "HM", "HH", "H", "M")
 """Letters of tapered roller bearings of inch sizes."""
-_END = r"(?!\d(?!RS|RZ|Z))"
+_END = r"(?!\d(?!RS|RZ|Z|HRS|BRS|ELS))"
 """No further digit of the number: the 2 of 2RS and 2Z belongs to the seals."""
-_SEALS = r"2?RSR|2?RSH|2?RSL|2?RS1|2?RS|2?RZ|LLU|LLB|LLH|DDU|DU|LU|LS|VV|ZZ|2?Z"
+_SEALS = r"2?RSR|2?RSH|2?RSL|2?RS1|2?RS2|2?RST|2?RSD|2?RS|2?RZ|2?HRS|2?BRS|2?ELS|2?RU|2?RD|2?NSE|"
+_SEALS += r"LLU|LLB|LLH|LLC|DDU|DDW|DD|DU|LU|LB|LH|LS|VV|ZZ|2?Z"
+_CAGES = r"TV[PH]B?\d?|TYN|TYP|TY|TNH|TNG|TN\d*|TPA|TP(?!\d)|TA|TB|TR|T\d*|MP(?!\d)[AB]?|ML|MR|M[AB]?\d?[AB]?|F[1AP]|"
+_CAGES += r"JP\d?|JR|JW|J\d?|PH[AL]?|P(?!\d)|W|G[12](?!\d)|Y|Q|X|A|H\d?|R\d?"
+_OTHERS = r"XL|DY|CL7[ABC]|V[A-Z]\d+|V\d(?!\d)|W(?:20|33|64)X?|K30|S[0-4](?!\d)|SN\d*|H[ABNTV]\d*|QE\d|E6|NS7S?|5K|"
+_OTHERS += r"(?:LHT|HLT|MT|LT|GE|WT)[A-Z]?\d*|GJN|L\d{3}"
 _MARKS = (
-    ("clearance", r"C[2345](?!\d)|CN(?!\d)"),
-    ("tolerance", r"P[0-9]S?(?!\d)|SP(?!\w)|UP(?!\w)|HG(?!\w)"),
+    ("clearance", r"C[2345](?!\d)|CN(?!\d)|CM"),
+    ("tolerance", r"P[0-9][ASXY]?(?!\d)|PA\d+[A-Z]?|ABEC\d|SP(?!\w)|UP(?!\w)|HG(?!\w)"),
+    ("ceramic", r"HC5?"),
+    ("other", _OTHERS),
     ("seal", _SEALS),
-    ("cage", r"TVP\d?|TVH|TN\d?|TA|MA|MB|ML|M|P|J\d?|Y|Q|X|A|H\d?|R\d?|JR|T"),
+    ("cage", _CAGES),
 )
-_SETS = r"D[BFT]|[TQ]BT|TFT|Q[BF]C"
-_FOR_SETS = r"U[AOLM]|C[ABC]|G[ABC]"
+_OF_FAMILY = {
+    "deep_groove": (("other", r"C(?![2-5NM])|NR|N(?![UJF\d])"),),
+    "cylindrical": (("bore", r"K(?=C[2-5]|\b)"), ("other", r"NR|N(?![UJF\d])")),
+    "tapered": (("other", r"U(?=R|\b)|ST"),),
+}
+"""Kinds and patterns of the suffixes that only one family has."""
+_SETS = r"D[BFTG](?:(?:EL|L|M|H)(?=P\d|\b))?|[TQ]BT|TFT|Q[BF]C"
+_FOR_SETS = r"[SD]?U(?:EL|[AOLMHX])|C[ABC]|G[ABCLNMH]"
 """Suffixes of sets of bearings, and of angular contact bearings that are ground for sets, with classes of clearance or
 preload."""
-_ANGLES = {"ACD": ("AC", 25.0), "AC": ("AC", 25.0), "CD": ("C", 15.0), "C": ("C", 15.0), "E": ("", 25.0)}
-_ANGLES |= dict.fromkeys(("B", "BE", "BEP"), ("B", 40.0))
-"""Suffix of an angular contact bearing -> letters of its series, contact angle, degrees."""
-_ANGLE = r"ACD|AC|CD|BEP|BE|B|E|C(?![N2-5](?!\d))"
+_ANGLES = dict.fromkeys(("ACD", "ACE", "AC"), ("AC", 25.0)) | dict.fromkeys(("CD", "CE", "C"), ("C", 15.0))
+_ANGLES |= dict.fromkeys(("B", "BE", "BEP"), ("B", 40.0)) | {"A15": ("", 15.0), "A": ("", 30.0)}
+_ANGLES |= dict.fromkeys(("E", "A25", "A5", "AD"), ("", 25.0))
+"""Suffix of an angular contact bearing -> letters of its series, contact angle, degrees. A is of NSK and SKF, A5 of
+NSK, AD of NTN, E of Schaeffler."""
+_ANGLE = r"ACD|ACE|AC|A15|A25|A5|AD|A|CD|CE|BEP|BE|B|E|C(?![N2-5](?!\d))"
 """C2 to C5 and CN are classes of clearance."""
+_PREFIXES = r"(HR|4T|ET) ?(?=3\d)|(HCB|B)(?=7\d)|(E2|W|S) ?(?=6\d)"
+"""Prefixes of makers: of tapered roller bearings, of spindle bearings, of deep groove ball bearings."""
+_STEEP = re.compile(r"303([01]\d) ?D(?=[JUR]|D[BFT]|\b)")
+"""NSK, NTN and JTEKT name a 313 so: to 95 mm both series have the same boundary dimensions."""
 
 
 class Reading(NamedTuple):
@@ -45,7 +64,8 @@ class Reading(NamedTuple):
     - `design`: type of a cylindrical roller bearing, such as "NU"; empty for others.
     - `series`: such as "62" or "302"; of an inch-size bearing its letters.
     - `code`: bore code; empty for an inch-size bearing.
-    - `rest`: the suffixes, without spaces.
+    - `rest`: the suffixes, with a space between those that stood apart.
+    - `prefix`: that of a maker, such as "HR".
     """
 
     family: str
@@ -53,6 +73,7 @@ class Reading(NamedTuple):
     series: str
     code: str
     rest: str
+    prefix: str = ""
 
     @property
     def bore(self) -> float | None:
@@ -64,11 +85,12 @@ class Suffixes(NamedTuple):
     """The suffixes of a designation.
 
     **Arguments:**
-    - `letters`: those that belong to the series: "B", "AC" or "C" of angular contact, "X" or "B" of tapered, "A" or
-      "B" of double row bearings.
+    - `letters`: those that belong to the series: "B", "AC" or "C" of angular contact, "X" or "B" of tapered (C of NSK
+      and NTN is B of others), "A" or "B" of double row bearings.
     - `angle`: contact angle of a single row angular contact bearing, degrees, if the suffix states one.
     - `reinforced`: True for E or EC of a cylindrical roller bearing.
-    - `marks`: kind, "set", "clearance", "tolerance", "seal" or "cage", and text of each suffix that is known.
+    - `marks`: kind and text of each prefix and suffix that is known; kinds are "prefix", "angle", "set", "clearance",
+      "tolerance", "ceramic", "seal", "cage", "bore" and "other".
     - `unread`: the rest.
     """
 
@@ -93,9 +115,12 @@ def readings(text: str) -> Iterator[Reading]:
     """Every way to read a designation, the most likely first; spaces, dashes and lower case do not matter."""
     spaced = re.sub(r"[\s_\-.]+|/(?!\s*\d)", " ", text).strip().upper()
     spaced = re.sub(rf"^({'|'.join(CYLINDRICAL_TYPES)}) ", r"\1", spaced)
+    prefix = re.match(_PREFIXES, spaced)
+    own = next(filter(None, prefix.groups())) if prefix else ""
+    spaced = _STEEP.sub(r"313\1 D", spaced[prefix.end() :] if prefix else spaced)
     for number in dict.fromkeys((spaced, spaced.replace(" ", ""))):
         for found in _of_number(number):
-            yield found._replace(rest=found.rest.replace(" ", ""))
+            yield found._replace(rest=found.rest.strip(), prefix=own)
 
 
 def _of_number(text: str) -> Iterator[Reading]:
@@ -103,7 +128,7 @@ def _of_number(text: str) -> Iterator[Reading]:
         ("cylindrical", "|".join(CYLINDRICAL_TYPES), "|".join(CYLINDRICAL)),
         ("cylindrical_full", r"NCF|NJG|SL ?18", "18|29|30|22|23"),
     ):
-        match = re.match(rf"({types}) ?({series})(\d\d){_END}(.*)", text)
+        match = re.match(rf"({types}) ?({series})(\d\d{_END}|/\d+)(.*)", text)
         if match:
             yield Reading(family, match[1], match[2], match[3], match[4])
     match = re.match(rf"QJ ?([23])(\d\d){_END}(.*)", text)
@@ -112,7 +137,7 @@ def _of_number(text: str) -> Iterator[Reading]:
     match = re.match(rf"({'|'.join(INCH)}) ?\d{{4,}}(.*)", text)
     if match:
         yield Reading("tapered", "", match[1], "", match[2])
-    match = re.match(rf"({'|'.join(TAPERED)})(\d\d){_END}(.*)", text)
+    match = re.match(rf"({'|'.join(TAPERED)})(\d\d{_END}|/\d+)(.*)", text)
     if match:
         yield Reading("tapered", "", match[1], match[2], match[3])
     for family, every in (("deep_groove", DEEP_GROOVE), ("angular_contact", (*ANGULAR_CONTACT, *DOUBLE_ROW))):
@@ -122,7 +147,7 @@ def _of_number(text: str) -> Iterator[Reading]:
 
 def _of_balls(text: str, family: str, series: str) -> Iterator[Reading]:
     codes = [rf"\d\d{_END}", r"/\d+", rf"\d{_END}"] if family == "deep_groove" else [rf"\d\d{_END}"]
-    # bores below 10 mm of the thin series stand after a stroke
+    # bores below 10 mm of the thin series, of 22, 28 and 32 mm, and from 500 mm on stand after a stroke
     for code in codes[:2] if len(series) == 3 else codes:
         match = re.match(rf"{series}({code})(.*)", text)
         if match:
@@ -143,15 +168,21 @@ def bore_of(code: str) -> float:
 def suffixes(reading: Reading) -> Suffixes:
     """The suffixes of a designation that was read so."""
     rest, letters, angle, reinforced = reading.rest, "", None, False
+    before = [("prefix", reading.prefix)] if reading.prefix else []
     if reading.family == "cylindrical" and rest.startswith("E"):
         rest, reinforced = re.sub(r"^EC?", "", rest), True
     elif reading.family == "angular_contact":
         letters, angle, rest = _row(reading.series, rest)
     elif reading.family == "tapered":
-        letters = rest[:1] if rest.startswith(("X", "B")) else ""
-        # X, of the metric design, is a mark of its own
-        rest = rest[1:] if letters == "B" else rest
-    return Suffixes(letters, angle, reinforced, *_marks(reading.family, rest))
+        match = re.match(r"B|C(?=[JU]|\b)|D(?=[JUR]|D[BFT]|\b)" if reading.series == "313" else r"B|C(?=[JU]|\b)", rest)
+        if match:
+            before.append(("angle", match[0]))
+            letters, rest = "" if match[0] == "D" else "B", rest[1:]
+        elif rest.startswith("X"):
+            # of the metric design: a mark of its own
+            letters = "X"
+    marks, unread = _marks(reading.family, rest)
+    return Suffixes(letters, angle, reinforced, (*before, *marks), unread)
 
 
 def _row(series: str, rest: str) -> tuple[str, float | None, str]:
@@ -161,15 +192,14 @@ def _row(series: str, rest: str) -> tuple[str, float | None, str]:
     match = re.match(_ANGLE, rest)
     if match:
         return (*_ANGLES[match[0]], rest[match.end() :])
-    match = re.match(r"A(15|25)", rest)
-    return ("", float(match[1]), rest[match.end() :]) if match else ("", None, rest)
+    return "", None, rest
 
 
 def _marks(family: str, rest: str) -> tuple[tuple[tuple[str, str], ...], str]:
     sets = {"cylindrical": (), "angular_contact": (_SETS, _FOR_SETS)}.get(family, (_SETS,))
-    marks = (*(("set", pattern) for pattern in sets), *_MARKS)
+    marks = (*(("set", pattern) for pattern in sets), *_OF_FAMILY.get(family, ()), *_MARKS)
     found, unread = [], ""
-    while rest:
+    while rest := rest.lstrip(" /"):
         tried = ((what, re.match(pattern, rest)) for what, pattern in marks)
         what, match = next(((what, match) for what, match in tried if match), ("", None))
         if match is None:

@@ -82,6 +82,16 @@ class Drag(DragSettings):
     coefficient: Scalar = number(bound=">= 0", unit="1")
 
 
+RUNNING_SIZES = frozenset({"diametral_clearance", "contact_angle", "first_element_angle", "flange_gap"})
+"""Fields of a geometry that seats, temperature and wear change: another value of another one is another bearing."""
+
+
+def names_another_bearing(path: str) -> bool:
+    """True for a dotted path whose new value makes another bearing: of its geometry or its materials."""
+    names = path.split(".")
+    return not {"geometry", "materials"}.isdisjoint(names) and names[-1] not in RUNNING_SIZES
+
+
 def drag_density(
     oil: Lubricant,
     operation: AbstractOperation,

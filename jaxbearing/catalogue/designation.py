@@ -3,6 +3,7 @@
 import difflib
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import NamedTuple
 
 from ..designations import CYLINDRICAL_TYPES, Reading, Suffixes, readings, suffixes
@@ -29,14 +30,36 @@ _KIND_IN_WORDS = {
     "cylindrical": "cylindrical roller bearing",
     "tapered": "tapered roller bearing",
 }
-_NOT_MODELLED = (
-    (r"2(13|22|23|30|31|32|39|40|41)\d\d", "a spherical roller bearing"),
-    (r"(10|12|13|22|23)\d\d", "a self-aligning ball bearing"),
-    (r"(32|33|52|53)\d\d", "a double row angular contact ball bearing"),
-    (r"42\d\d|43\d\d", "a double row deep groove ball bearing"),
-    (r"5[1-4]\d\d\d|8\d\d\d\d|29\d\d\d", "a thrust bearing"),
-    (r"NNU?\d+|N[AK]I?\d+|RNA\d+|HK\d+|BK\d+", "a needle or double row roller bearing"),
+_NO_MODEL, _NO_SIZE = ", which is not modelled", ", whose dimensions are not in the tables"
+_OTHERS = (
+    (r"2(13|22|23|30|31|32|39|40|41)\d\d", f"a spherical roller bearing{_NO_MODEL}"),
+    (r"(10|12|13|22|23)\d\d", f"a self-aligning ball bearing{_NO_MODEL}"),
+    (r"(32|33|52|53)\d\d", f"a double row angular contact ball bearing{_NO_MODEL}"),
+    (r"42\d\d|43\d\d", f"a double row deep groove ball bearing{_NO_MODEL}"),
+    (r"5[1-4]\d\d\d|8\d\d\d\d|29\d\d\d", f"a thrust bearing{_NO_MODEL}"),
+    (r"NNU?\d+|N[AK]I?\d+|RNA\d+|HK\d+|BK\d+", f"a needle or double row roller bearing{_NO_MODEL}"),
+    (
+        r"(U(C|K|EL|ER|R|S)|S[AB]|SER|Y(AR|ET|EL|SA)|G(RAE|YE|E)?)[A-Z]*\d{3}",
+        "an insert bearing, whose inside is that of a deep groove ball bearing 62 or 63 with its number",
+    ),
+    (
+        r"(HS|HC|XC|XCB|HCS|HSS|RS)(70|718|719|72)\d\d",
+        "a spindle bearing with small balls or of another steel, whose inside is not estimated",
+    ),
+    (r"(NCF|NJG|SL)\d+", f"a full complement cylindrical roller bearing{_NO_SIZE}"),
+    (r"QJ\d+", f"a four-point contact ball bearing{_NO_SIZE}"),
+    (r"T[2-7][A-H][B-E]\d+|(LL|LM|L|HM|HH|H|M)\d{4,}", f"a tapered roller bearing{_NO_SIZE}"),
 )
+"""Pattern -> bearings that are known by name alone."""
+_PREFIX_IN_WORDS = {
+    "HR": "more or longer rollers than usual, which the maker's C and C0 tell",
+    "E2": "less friction than usual, which is not modelled",
+    **dict.fromkeys(("W", "S"), "stainless steel; the maker's C and C0 tell what it carries"),
+}
+_ANGLE_IN_WORDS = {
+    "C": "a larger contact angle than without it, the B of other makers",
+    "D": "the steep contact angle of series 313",
+}
 
 
 class Designation(NamedTuple):
@@ -53,7 +76,8 @@ class Designation(NamedTuple):
     - `tightness`: standard deviation of the usual contact angle of a tapered roller bearing, degrees, else `None`.
     - `cup_width`: C of a tapered roller bearing, mm, else `None`.
     - `usual_angle`: cup angle of a tapered roller bearing that is usual for the size, degrees, else `None`.
-    - `notes`: what was understood and does not change the scene, and what was not understood.
+    - `notes`: what was understood and does not change the scene.
+    - `ceramic`: True for rolling elements of silicon nitride.
     """
 
     text: str
@@ -69,6 +93,7 @@ class Designation(NamedTuple):
     usual_angle: float | None
     tightness: float | None
     notes: tuple[str, ...]
+    ceramic: bool = False
 
     @property
     def name(self) -> str:
@@ -89,21 +114,42 @@ class Designation(NamedTuple):
 def parse(text: str) -> Designation:
     """The designation in a text; spaces, dashes and lower case do not matter.
 
-    **Raises:** `SceneError` with the nearest designations if the text is none that is known.
+    **Raises:** `SceneError` for a part of it that is not understood, and with the nearest designations if the text is
+    none that is known.
     """
     found = next((one for one in map(_known, readings(text)) if one is not None), None)
     if found is None:
         raise _unknown(text)
     kind, reading, bore, sizes = found
     marks = suffixes(reading)
+    if marks.unread:
+        raise _unread(text, marks.unread)
     cup, usual, spread = sizes[3:6] if kind == "tapered" else (None, None, None)
     if kind == "tapered" and marks.letters == "B":
         usual, spread = STEEP
     clearance, notes = _noted(kind, marks)
     numbers = (bore, sizes[0], sizes[1], marks.angle)
+    ceramic = reading.prefix.startswith("HC") or any(what == "ceramic" for what, _ in marks.marks)
     return Designation(
-        text.strip(), kind, reading.series, reading.design, *numbers, clearance, cup, usual, spread, notes
+        text.strip(), kind, reading.series, reading.design, *numbers, clearance, cup, usual, spread, notes, ceramic
     )
+
+
+def parse_several(text: str) -> tuple[Designation, ...]:
+    """The designations in a text, with spaces between them: as few as can be, since "NU 311 ECP" is one.
+
+    **Raises:** `SceneError` as `parse`, for the text as one designation.
+    """
+    words = text.replace(",", " ").split()
+    fewest: list[tuple[Designation, ...] | None] = [()]
+    for end in range(1, len(words) + 1):
+        ways = []
+        for begin, before in enumerate(fewest):
+            with suppress(SceneError):
+                if before is not None:
+                    ways.append((*before, parse(" ".join(words[begin:end]))))
+        fewest.append(min(ways, key=len, default=None))
+    return fewest[-1] or (parse(text),)
 
 
 def known_designations() -> Iterator[str]:
@@ -112,20 +158,22 @@ def known_designations() -> Iterator[str]:
         designs = CYLINDRICAL_TYPES if kind == "cylindrical" else ("",)
         for series, dimension_series in table.items():
             for bore in bores(kind, dimension_series):
-                code = _code(bore)
-                single = len(code) == 1
-                if single and kind != "deep_groove":
+                code = _code(bore, series in ("618", "619"))
+                # other kinds have no bores in between, and small ones of spindle bearings stand in no designation
+                plain = len(code) == 2 or (kind == "cylindrical" and bore >= 500.0)
+                if not plain and kind != "deep_groove":
                     continue
-                joint = "/" if single and series in ("618", "619") else ""
-                yield from (f"{design} {series}{joint}{code}".strip() for design in designs)
+                yield from (f"{design} {series}{code}".strip() for design in designs)
     for series in TAPERED_SERIES:
         yield from (f"{series}{_code(bore)}" for bore in bores("tapered", series))
 
 
-def _code(bore: float) -> str:
+def _code(bore: float, thin: bool = False) -> str:
+    """The bore code; it has a stroke from 500 mm on, for sizes in between, and below 10 mm in the `thin` series."""
     if bore < 10.0:
-        return f"{bore:g}"
-    return {10.0: "00", 12.0: "01", 15.0: "02", 17.0: "03"}.get(bore, f"{round(bore / 5.0):02d}")
+        return f"/{bore:g}" if thin else f"{bore:g}"
+    code = {10.0: "00", 12.0: "01", 15.0: "02", 17.0: "03"}.get(bore)
+    return code or (f"/{bore:g}" if bore % 5.0 or bore >= 500.0 else f"{round(bore / 5.0):02d}")
 
 
 class _Known(NamedTuple):
@@ -162,8 +210,6 @@ def _noted(kind: str, marks: Suffixes) -> tuple[str, tuple[str, ...]]:
     for what, text in marks.marks:
         clearance, note = _said(kind, what, text, clearance)
         notes += [note] if note else []
-    if marks.unread:
-        notes.append(f"'{marks.unread}' was not understood")
     return clearance, tuple(dict.fromkeys(notes))
 
 
@@ -180,11 +226,29 @@ def _said(kind: str, what: str, text: str, clearance: str) -> tuple[str, str]:
             "docs/worked_examples.md, 'The pair 7312-B itself'; 'jaxbearing fields shaft' lists all fields"
         )
         return clearance, f"{text}: of bearings for sets; the scene has one bearing, without preload: {of_pairs}"
+    if what == "prefix":
+        return clearance, f"{text}: {_PREFIX_IN_WORDS[text]}" if text in _PREFIX_IN_WORDS else ""
+    if what == "angle":
+        return clearance, "" if text == "B" else f"{text}: {_ANGLE_IN_WORDS[text]}"
+    if what == "ceramic":
+        return clearance, ""
+    if what == "bore":
+        return clearance, f"{text}: tapered bore, whose seat is not modelled"
+    if what == "other":
+        return clearance, f"{text}: design, heat treatment, grease or noise class of a maker, not modelled"
     if what == "tolerance":
         return clearance, f"{text}: tolerance class, not modelled; [fits] takes the normal class"
     if what == "seal":
         return clearance, f"{text}: seals or shields, whose friction is not modelled"
     return clearance, f"{text}: cage or design of a maker, not modelled"
+
+
+def _unread(text: str, part: str) -> SceneError:
+    expected = (
+        "known parts: leave this one out if it does not change the inside of the bearing, or give what it changes "
+        "(--dynamic-capacity, --contact-angle, --balls and others)"
+    )
+    return SceneError("new", "", f"'{text.strip()}', of which '{part}' is not understood", expected)
 
 
 def _unknown(text: str) -> SceneError:
@@ -193,8 +257,8 @@ def _unknown(text: str) -> SceneError:
     by_plain = {one.replace(" ", "").replace("/", ""): one for one in known}
     near = difflib.get_close_matches(plain.replace("/", "")[:8], by_plain, n=3, cutoff=0.6)
     names = ", ".join(f"'{by_plain[one]}'" for one in near)
-    other = next((words for pattern, words in _NOT_MODELLED if re.match(rf"(?:{pattern})(?!\d)", plain)), "")
-    found = f"'{text.strip()}'" + (f", {other}, which is not modelled" if other else "")
+    other = next((words for pattern, words in _OTHERS if re.match(rf"(?:{pattern})(?!\d)", plain)), "")
+    found = f"'{text.strip()}'" + (f", {other}" if other else "")
     expected = "the designation of a bearing, such as 6207, 7312-B, NU 311, 30206 or 7014 C"
     if names and not other:
         expected += f"; the nearest that are known: {names}"

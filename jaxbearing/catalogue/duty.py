@@ -1,17 +1,18 @@
 """Operation and oil of a standard bearing: what is given, and examples for the rest."""
 
 import json
-import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
 from ..scenes.oil.grades import DEFAULT_BASE, grade_named, grade_of
+from ..scenes.quantity_texts import text_in
 from ..scenes.toml_writer import one_line
+from ..scenes.units import FLOW, FORCE, SPEED, TEMPERATURE, Dimension
 
 LOAD_SHARE = {"deep_groove": (0.1, 0.0), "cylindrical": (0.1, None), "tapered": (0.1, 0.1)}
 """Radial and axial load of the example over the dynamic rating; `None`: the kind has no axial load."""
 OTHER_SHARE = 0.05, 0.05
-SPEED = 150_000.0
+SPEED_FACTOR = 150_000.0
 """Speed of the example times mean diameter, mm/min: moderate."""
 OIL_TEMPERATURE = 60.0
 """Temperature of the oil in the example, degrees Celsius."""
@@ -108,29 +109,27 @@ def operation_lines(duty: Duty, kind: str, mean_diameter: float, capacity: float
     **Arguments:** `kind`: of `Designation`; `mean_diameter`: of bore and outside diameter, mm; `capacity`: dynamic
     rating, N.
     """
-    speed = None if duty.inner_speed is None else duty.inner_speed * 30.0 / math.pi
-    yield _line("inner_speed", speed, SPEED / mean_diameter, "rpm")
+    yield _line("inner_speed", duty.inner_speed, SPEED_FACTOR / mean_diameter, "rpm", SPEED)
     of_radial, of_axial = LOAD_SHARE.get(kind, OTHER_SHARE)
     radial, axial = of_radial * capacity, None if of_axial is None else of_axial * capacity
     if of_axial and duty.axial_load and duty.radial_load is None:
         radial = of_radial / of_axial * abs(duty.axial_load)
     if of_axial and duty.radial_load and duty.axial_load is None:
         axial = of_axial / of_radial * abs(duty.radial_load)
-    yield _line("radial_load", duty.radial_load, radial, "N")
+    yield _line("radial_load", duty.radial_load, radial, "N", FORCE)
     if axial is not None or duty.axial_load is not None:
-        yield _line("axial_load", duty.axial_load, axial or 0.0, "N")
+        yield _line("axial_load", duty.axial_load, axial or 0.0, "N", FORCE)
     if duty.oil is not None:
-        celsius = None if duty.oil_temperature is None else duty.oil_temperature - 273.15
-        yield _line("oil_temperature", celsius, OIL_TEMPERATURE, "degC")
+        yield _line("oil_temperature", duty.oil_temperature, OIL_TEMPERATURE, "degC", TEMPERATURE)
     if duty.oil_flow is not None:
-        yield _line("oil_flow", 3.6e6 * duty.oil_flow, 0.0, "l/h")
+        yield _line("oil_flow", duty.oil_flow, 0.0, "l/h", FLOW)
 
 
-def _line(name: str, given: float | None, example: float, unit: str) -> Line:
-    """The value that is given, or that of the example with two digits."""
+def _line(name: str, given: float | None, example: float, unit: str, dimension: Dimension) -> Line:
+    """The value that is given, in SI, or that of the example with two digits, in the unit."""
     if given is None:
         return Line(name, f'"{two_digits(example):g} {unit}"', EXAMPLE)
-    return Line(name, f'"{given:.12g} {unit}"', "given")
+    return Line(name, f'"{text_in(unit, float(given), dimension)}"', "given")
 
 
 def two_digits(value: float) -> float:

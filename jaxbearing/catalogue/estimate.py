@@ -212,8 +212,11 @@ def _chosen(
         index = UNKNOWNS.index(name)
         values = out["x"][:, index]
         least, greatest = spread(values, out["variance"][:, index])
-        known = field in given or (name == "angle" and angle.is_known)
-        return Estimate(law(float(values[best])), law(least), law(greatest), known)
+        if field in given or (name == "angle" and angle.is_known):
+            # the term that holds it leaves round-off
+            known = float(given.get(field, angle.mean))
+            return Estimate(known, known, known, True)
+        return Estimate(law(float(values[best])), law(least), law(greatest))
 
     length = lambda value: 1e-3 * math.exp(value)
     groove = lambda value: 0.5 + math.exp(value)

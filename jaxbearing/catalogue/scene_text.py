@@ -3,6 +3,8 @@
 import math
 from collections.abc import Iterator, Mapping
 
+from ..scenes.quantity_texts import text_in
+from ..scenes.units import ANGLE, FORCE, LENGTH
 from .designation import Designation
 from .dimensions import clearance_limits
 from .duty import Duty, Line, oil_lines, operation_lines, quoted
@@ -60,7 +62,12 @@ def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, flo
             "",
         ]
     elements = "balls" if kind == "ball_bearing" else "rollers"
-    parts += _table("materials", [Line("rings", '"52100"', "assumed"), Line(elements, '"52100"', "assumed")])
+    balls = (
+        Line(elements, '"Si3N4"', "as the designation states")
+        if bearing.ceramic
+        else Line(elements, '"52100"', "assumed")
+    )
+    parts += _table("materials", [Line("rings", '"52100"', "assumed"), balls])
     if dry and kind == "ball_bearing":
         parts += _table("kinematics", [Line("attitude", '"outer"', 'of a dry scene: take it out with laws = "best"')])
     if not dry:
@@ -71,8 +78,8 @@ def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, flo
     if not dry:
         # into the table, whose last line is empty
         parts[-1:] = [*CLEANLINESS_HINT, ""]
-        name = Line("designation", quoted(bearing.text), "for `jaxbearing compare`: no result depends on it")
-        parts += _table("catalogue", [name])
+    name = Line("designation", quoted(bearing.text), "for `jaxbearing compare`: no result depends on it")
+    parts += _table("catalogue", [name])
     mean = 0.5 * (bearing.bore + bearing.outside)
     capacity = given.get("dynamic_capacity", geometry.dynamic_capacity)
     parts += _table("operation", list(operation_lines(duty, bearing.kind, mean, capacity)))
@@ -115,13 +122,13 @@ def _head(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) 
 
 def _told(given: Mapping[str, float]) -> str:
     words = {
-        "dynamic_capacity": lambda value: f"C = {_kilo(value)}",
-        "static_capacity": lambda value: f"C0 = {_kilo(value)}",
+        "dynamic_capacity": lambda value: f"C = {kilonewtons(value)}",
+        "static_capacity": lambda value: f"C0 = {kilonewtons(value)}",
         "n_elements": lambda value: f"{value:g} rolling elements",
-        "diameter": lambda value: f"an element diameter of {_mm(value)}",
-        "pitch_diameter": lambda value: f"a pitch diameter of {_mm(value)}",
-        "length": lambda value: f"a roller length of {_mm(value)}",
-        "contact_angle": lambda value: f"a contact angle of {math.degrees(value):g} deg",
+        "diameter": lambda value: f"an element diameter of {text_in('mm', value, LENGTH)}",
+        "pitch_diameter": lambda value: f"a pitch diameter of {text_in('mm', value, LENGTH)}",
+        "length": lambda value: f"a roller length of {text_in('mm', value, LENGTH)}",
+        "contact_angle": lambda value: f"a contact angle of {text_in('deg', value, ANGLE)}",
     }
     said = [words[name](value) for name, value in given.items()]
     return f" and from {', '.join(said)}" if said else ", without any rating"
@@ -141,7 +148,7 @@ def _geometry(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
 def _balls(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
     yield Line("n_balls", f"{geometry.n_elements.value:g}", _interval(geometry.n_elements))
     size = _millimetres(geometry.diameter)
-    yield Line("ball_diameter", f'"{_mm(geometry.diameter.value)}"', size + _usual(geometry))
+    yield Line("ball_diameter", f'"{_size(geometry.diameter, 6)}"', size + _usual(geometry))
     yield _pitch(geometry)
     for race, found in (("inner", geometry.conformity_inner), ("outer", geometry.conformity_outer)):
         value, least, greatest = found[:3] if bearing.kind == "spindle" else GROOVES[race]
@@ -156,32 +163,32 @@ def _cylindrical(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
     yield Line("n_rollers", f"{geometry.n_elements.value:g}", _interval(geometry.n_elements))
     yield _pitch(geometry)
     size = _millimetres(geometry.diameter)
-    yield Line("roller_diameter", f'"{_mm(geometry.diameter.value)}"', size + _usual(geometry))
+    yield Line("roller_diameter", f'"{_size(geometry.diameter, 6)}"', size + _usual(geometry))
     yield _length(geometry)
     yield _clearance(bearing)
 
 
 def _pitch(geometry: Geometry) -> Line:
     found = geometry.pitch_diameter
-    return Line("pitch_diameter", f'"{_mm(found.value) if found.given else _short(found.value)}"', _millimetres(found))
+    return Line("pitch_diameter", f'"{_size(found)}"', _millimetres(found))
 
 
 def _length(geometry: Geometry) -> Line:
-    found = geometry.length
-    value = _mm(found.value) if found.given else _short(found.value)
-    return Line("roller_length", f'"{value}"', _millimetres(found) + ", effective")
+    return Line("roller_length", f'"{_size(geometry.length)}"', _millimetres(geometry.length) + ", effective")
 
 
 def _tapered(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
     shape = shape_of(geometry)
     yield Line("n_rollers", f"{geometry.n_elements.value:g}", _interval(geometry.n_elements))
     middle = _millimetres(geometry.diameter)
-    comment = f"of the big end; at mid length {_short(geometry.diameter.value)}, {middle}"
-    yield Line("roller_diameter", f'"{_mm(shape.roller_diameter)}"', comment)
+    comment = f"of the big end; at mid length {_size(geometry.diameter)}, {middle}"
+    # what follows from given numbers gives them back
+    digits = 12 if geometry.diameter.given or geometry.pitch_diameter.given else 6
+    yield Line("roller_diameter", f'"{_mm(shape.roller_diameter, digits)}"', comment)
     yield _length(geometry)
     yield _angle(bearing, geometry.contact_angle)
-    pitch = f"pitch diameter {_short(geometry.pitch_diameter.value)}, {_millimetres(geometry.pitch_diameter)}"
-    yield Line("roller_half_angle", f'"{_degrees(shape.half_angle)}"', f"from the apex and the {pitch}")
+    pitch = f"pitch diameter {_size(geometry.pitch_diameter)}, {_millimetres(geometry.pitch_diameter)}"
+    yield Line("roller_half_angle", f'"{_degrees(shape.half_angle, digits)}"', f"from the apex and the {pitch}")
     yield Line("flange_angle", f'"{_degrees(shape.flange_angle)}"', "estimated: contact of the rib near the rim")
     yield Line("end_radius", f'"{_mm(shape.end_radius)}"', "estimated: 0.95 of the roller cone's length, 0.85 to 0.99")
 
@@ -203,7 +210,7 @@ def _middle(geometry: Geometry) -> Iterator[str]:
     along = 0.5 * shape.roller_diameter / math.tan(shape.half_angle) - 0.5 * length * math.cos(shape.half_angle)
     place = -along * math.cos(geometry.contact_angle.value - shape.half_angle)
     yield "# Loads across the axis act at the apex of the cones; at the middle of the rollers with this in [operation]:"
-    yield f'# load_position = "{_short(place)}"'
+    yield f'# load_position = "{_mm(place, 4)}"'
 
 
 def _clearance(bearing: Designation) -> Line:
@@ -219,15 +226,16 @@ def _clearance(bearing: Designation) -> Line:
 
 def _angle(bearing: Designation, found: Estimate) -> Line:
     comment = _interval(found, 180.0 / math.pi, " deg")
-    if found.given and bearing.contact_angle == float(f"{math.degrees(found.value):.6g}"):
+    if found.given and bearing.contact_angle is not None and found.value == math.radians(bearing.contact_angle):
         comment = "as the designation states"
-    return Line("contact_angle", f'"{_degrees(found.value)}"', comment)
+    value = text_in("deg", found.value, ANGLE) if found.given else _degrees(found.value)
+    return Line("contact_angle", f'"{value}"', comment)
 
 
 def _rating(given: Mapping[str, float]) -> Iterator[Line]:
     for name in ("dynamic_capacity", "static_capacity"):
         if name in given:
-            yield Line(name, f'"{_kilo(given[name])}"', "given")
+            yield Line(name, f'"{kilonewtons(given[name])}"', "given")
 
 
 def _hints(bearing: Designation) -> Iterator[str]:
@@ -263,18 +271,23 @@ def _usual(geometry: Geometry) -> str:
     return ", a usual size" if geometry.standard_size else ""
 
 
-def _mm(value: float) -> str:
-    return f"{1e3 * value:.6g} mm"
+def _size(found: Estimate, significant: int = 4) -> str:
+    """A length: to the last digit where it is given, otherwise with these digits."""
+    return text_in("mm", found.value, LENGTH) if found.given else _mm(found.value, significant)
 
 
-def _short(value: float) -> str:
-    """A length with four digits."""
-    return f"{1e3 * value:.4g} mm"
+def _mm(value: float, significant: int = 6) -> str:
+    return f"{1e3 * value:.{significant}g} mm"
 
 
-def _degrees(value: float) -> str:
-    return f"{math.degrees(value):.5g} deg"
+def _degrees(value: float, significant: int = 5) -> str:
+    return f"{math.degrees(value):.{significant}g} deg"
 
 
 def _kilo(value: float) -> str:
     return f"{1e-3 * value:.4g} kN"
+
+
+def kilonewtons(given: float) -> str:
+    """A force that is given, to its last digit."""
+    return text_in("kN", given, FORCE)

@@ -32,7 +32,11 @@ def _known(incomplete: str) -> list[str]:
 def new(
     designation: Annotated[
         list[str],
-        typer.Argument(metavar="DESIGNATION", help="Such as 6207, 7312-B or NU 311.", autocompletion=_known),
+        typer.Argument(
+            metavar="DESIGNATION",
+            help="Such as 6207, 7312-B or NU 311; several make a file each.",
+            autocompletion=_known,
+        ),
     ],
     dynamic_capacity: Annotated[str | None, _quantity("dynamic-capacity", "C of a maker, e.g. '25.5 kN'.")] = None,
     static_capacity: Annotated[str | None, _quantity("static-capacity", "C0 of a maker, e.g. '15.3 kN'.")] = None,
@@ -65,7 +69,9 @@ def new(
     output: Annotated[
         Path | None,
         typer.Option(
-            "--output", metavar="FILE", help="File to write; the designation with .toml in this folder if not given."
+            "--output",
+            metavar="FILE",
+            help="File to write, or the folder for it; the designation with .toml in this folder if not given.",
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
@@ -75,17 +81,19 @@ def new(
     with intervals. What is known of the bearing makes the estimates sharper. With an oil it has the best laws."""
     name = " ".join(designation)
     with bad_input():
-        from ..catalogue import find, parse
+        from ..catalogue.designation import parse_several
         from ..scenes.units import ANGLE, FLOW, FORCE, LENGTH, SPEED, TEMPERATURE
 
-        bearing = parse(name)
-        texts = {
+        names = [one.text for one in parse_several(name)]
+        of_one = {
             "dynamic_capacity": ("--dynamic-capacity", dynamic_capacity, FORCE, "> 0"),
             "static_capacity": ("--static-capacity", static_capacity, FORCE, "> 0"),
             "element_diameter": ("--ball-diameter or --roller-diameter", diameter, LENGTH, "> 0"),
             "pitch_diameter": ("--pitch-diameter", pitch_diameter, LENGTH, "> 0"),
             "roller_length": ("--roller-length", roller_length, LENGTH, "> 0"),
             "contact_angle": ("--contact-angle", contact_angle, ANGLE, "> 0"),
+        }
+        texts = of_one | {
             "radial_load": ("--radial-load", radial_load, FORCE, "finite"),
             "axial_load": ("--axial-load", axial_load, FORCE, "finite"),
             "inner_speed": ("--speed", speed, SPEED, "finite"),
@@ -97,23 +105,41 @@ def new(
             for field, (option, text, dimension, bound) in texts.items()
             if text is not None
         }
-        target = _target(output, f"{bearing.name}.toml", force)
-        try:
-            found = find(name, n_elements=balls, oil=oil, base=base, **given)
-        except ValueError as error:
-            if type(error) is not ValueError:
-                raise
-            refuse(f"new {name}: {error}")
-        text = found.text()
-        if not found.is_usual:
-            # a scene that cannot be built is said before anything is written
-            found.scene()
-    _write(target, text)
+        if len(names) > 1 and (balls is not None or given.keys() & of_one):
+            refuse(f"new {name}: found {len(names)} designations with facts about the inside of one; expected one")
+        if len(names) > 1 and output is not None and not output.is_dir():
+            refuse(f"--output: found '{output}' for {len(names)} designations; expected a folder that exists")
+        bearings = {}
+        for one in names:
+            found = _found(one, n_elements=balls, oil=oil, base=base, **given)
+            bearings[_target(output, f"{found.designation.name}.toml", force)] = found
+        if len(bearings) < len(names):
+            refuse(f"new {name}: found a designation twice; expected each once")
+    for target, found in bearings.items():
+        _write(target, found.text())
     if as_json:
-        typer.echo(json.dumps(_as_json(found, target)))
-    else:
+        objects = [_as_json(found, target) for target, found in bearings.items()]
+        typer.echo(json.dumps(objects[0] if len(objects) == 1 else {"bearings": objects}))
+        return
+    for target, found in bearings.items():
         _show(found)
         typer.echo(f"wrote {target}: jaxbearing solve {target}")
+
+
+def _found(name: str, **given: Any) -> "Bearing":
+    """The bearing with a scene that can be built. **Raises:** `SceneError` if it cannot."""
+    from ..catalogue import find
+
+    try:
+        found = find(name, **given)
+    except ValueError as error:
+        if type(error) is not ValueError:
+            raise
+        refuse(f"new {name}: {error}")
+    if not found.is_usual:
+        # a scene that cannot be built is said before anything is written
+        found.scene()
+    return found
 
 
 def _target(output: Path | None, file: str, force: bool) -> Path:
@@ -147,6 +173,7 @@ _SHOWN = {
     "length": ("effective roller length", 1e3, "mm"),
     "contact_angle": ("contact angle", 180.0 / math.pi, "deg"),
 }
+"""Field of the geometry -> words, factor to the unit of the screen, unit."""
 
 
 def _fields(found: "Bearing") -> list[str]:
@@ -161,7 +188,9 @@ def _fields(found: "Bearing") -> list[str]:
 def _show(found: "Bearing") -> None:
     from rich.table import Table
 
-    from ..catalogue.scene_text import best_in_words, sharper
+    from ..catalogue.scene_text import best_in_words, kilonewtons, sharper
+    from ..scenes.quantity_texts import text_in
+    from ..scenes.units import ANGLE, LENGTH
 
     bearing, geometry = found.designation, found.geometry
     element = "roller" if bearing.kind in ("cylindrical", "tapered") else "ball"
@@ -175,12 +204,14 @@ def _show(found: "Bearing") -> None:
         label, scale, unit = _SHOWN[name]
         one = getattr(geometry, name)
         value = f"{scale * one.value:.5g} {unit}".strip()
+        if one.given and unit:
+            value = text_in(unit, one.value, ANGLE if unit == "deg" else LENGTH)
         least, greatest = f"{scale * one.least:.4g}", f"{scale * one.greatest:.4g}"
         source = "known" if one.given else f"estimated, {least} to {greatest}"
         table.add_row(label.format(f"{element}s" if name == "n_elements" else element), value, source)
     ratings = (("C", "dynamic_capacity", "ISO 281"), ("C0", "static_capacity", "limits of ISO 76"))
     for symbol, field, source in ratings:
-        printed = f"; given {1e-3 * found.given[field]:.4g} kN" if field in found.given else ""
+        printed = f"; given {kilonewtons(found.given[field])}" if field in found.given else ""
         table.add_row(symbol, f"{1e-3 * getattr(geometry, field):.4g} kN", f"of this geometry, {source}{printed}")
     out.print(table)
     if found.duty.oil is None:

@@ -66,6 +66,12 @@ def require_numbers(bound: str, **values: object) -> None:
             raise ValueError(f"{name} must be {bound}, got {float(wrong[0]):g}")
 
 
+def did_you_mean(name: str, valid: Iterable[str], before: str = "") -> str:
+    """The nearest valid name as the end of a message; "" if none is near. **Arguments:** `before`: of its path."""
+    near = difflib.get_close_matches(name, tuple(valid), n=1)
+    return f"; did you mean {before + near[0]!r}?" if near else ""
+
+
 def require_choice(name: str, value: object, choices: Iterable[str]) -> None:
     """Checks that a value is one of the choices.
 
@@ -74,8 +80,7 @@ def require_choice(name: str, value: object, choices: Iterable[str]) -> None:
     known_ones = tuple(choices)
     if isinstance(value, str) and value in known_ones:
         return
-    near = difflib.get_close_matches(value, known_ones, n=1) if isinstance(value, str) else []
-    hint = f"; did you mean {near[0]!r}?" if near else ""
+    hint = did_you_mean(value, known_ones) if isinstance(value, str) else ""
     raise ValueError(f"{name} must be one of {', '.join(map(repr, known_ones))}, got {value!r}{hint}")
 
 

@@ -23,6 +23,7 @@ from .gates import derivatives_if
 from .precision import as_float
 from .ranges import RANGES, Interval
 from .refusals import is_collecting, refuse_all
+from .structure import Hinting
 
 STAND_IN = jax.ShapeDtypeStruct((), np.dtype(np.float64))
 """Placeholder for a number that failed its check, while problems are collected (`refusals.collecting`). A rule that
@@ -68,7 +69,7 @@ def bounded(bound: str, *, unit: str = "", difference: bool = False, name: str =
     return eqx.field(**kwargs)
 
 
-class Checked(eqx.Module):
+class Checked(Hinting):
     """A part of a scene whose fields state their bounds.
 
     **Raises:** `ValueError` on construction, for a known number outside its bound; `Refusals` if several are. While
@@ -102,6 +103,9 @@ class Checked(eqx.Module):
 
 
 def _is_number(value: object) -> bool:
+    """True for a number, known or traced; a truth value is none."""
+    if isinstance(value, bool) or getattr(value, "dtype", None) == np.bool_:
+        return False
     return isinstance(value, int | float | np.generic | np.ndarray | jax.Array | Tracer)
 
 
@@ -147,7 +151,7 @@ def _refused(part: str, checks: dict[str, tuple[Any, str]]) -> Iterator[str]:
             yield f"{field} must be one number, got {found}"
             continue
         # an object with a dtype that is no array is a placeholder (`jax.ShapeDtypeStruct`)
-        if not (_is_number(value) or hasattr(value, "dtype")):
+        if not _is_number(value) and getattr(value, "dtype", np.bool_) == np.bool_:
             yield f"{field} must be one number, got {value!r}"
             continue
         if isinstance(value, Tracer):

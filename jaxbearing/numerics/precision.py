@@ -11,11 +11,13 @@ def as_float(value):
 
     Python and numpy numbers become 0-d numpy arrays, so that they are traced (a new value never recompiles) and cost no
     dispatch. 64-bit arrays and tracers pass through. So do values that are no numbers, such as the placeholders of tree
-    transformations: type checker and validator judge them.
+    transformations, and truth values: type checker and validator judge them.
 
     **Raises:** `TypeError` for a float narrower than 64 bits, and for complex numbers.
     """
     dtype = getattr(value, "dtype", None)
+    if isinstance(value, bool) or dtype == np.bool_:
+        return value
     if dtype is None:
         return np.asarray(value, dtype=np.float64) if isinstance(value, int | float) else value
     if np.issubdtype(dtype, np.integer):

@@ -4,6 +4,7 @@ They are never traced; another value compiles another program.
 """
 
 import dataclasses
+import inspect
 import math
 from collections.abc import Callable, Iterable
 from typing import Any, TypeVar
@@ -13,11 +14,24 @@ import jax
 import numpy as np
 from jax.core import Tracer
 
-from .arguments import require_choice
+from .arguments import did_you_mean, require_choice
 from .ranges import RANGES
 
 Kind = TypeVar("Kind", int, float, bool)
 _WORDS = {int: "a whole number", float: "one finite number", bool: "True or False"}
+
+
+class Hinting(eqx.Module):
+    """Base of modules whose error for an unknown argument suggests the nearest one."""
+
+    def __new__(cls, *_: object, **given: object):
+        fields = getattr(cls, "__dataclass_fields__", {})
+        for name in given.keys() - fields:
+            # a constructor of its own may have other arguments
+            known = inspect.signature(cls.__init__).parameters
+            if name not in known and not any(one.kind is one.VAR_KEYWORD for one in known.values()):
+                raise TypeError(f"{cls.__name__} has no argument {name!r}{did_you_mean(name, list(known)[1:])}")
+        return super().__new__(cls)
 
 
 def count(

@@ -33,7 +33,8 @@ def html_report(
     - `title`: name of the scene.
     - `inputs`: fields of the scene by table, of `scenes.inputs.scene_inputs`.
     - `when`: the date that the page bears.
-    - `catalogue`: of a bearing, with which makers' formulas stand beside its losses; not given: they do not.
+    - `catalogue`: of a bearing, with which makers' formulas stand beside its losses where one has a total; not given:
+      they do not.
     - `listings`: further tables, which come before the makers' formulas.
     - `interval`: of the power loss, by the inputs that are known by a distribution only; `None`: it is not shown.
 
@@ -52,6 +53,8 @@ def html_report(
         )
     shown = dataclasses.replace(shown, listings=(*shown.listings, *listings))
     if catalogue is not None:
-        beside = comparison_listing(compared(scene, solution, catalogue))
-        shown = dataclasses.replace(shown, listings=(*shown.listings, beside))
+        beside = compared(scene, solution, catalogue)
+        # of a scene without an oil the formulas have no total
+        if any(law.total is not None for law in beside.laws):
+            shown = dataclasses.replace(shown, listings=(*shown.listings, comparison_listing(beside)))
     return page(shown, title, inputs, solution_to_dict(solution), when)

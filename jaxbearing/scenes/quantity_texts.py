@@ -42,6 +42,13 @@ def quantity_text(value: float, dimension: units.Dimension) -> str:
     return min(_texts(value, dimension), key=_length)
 
 
+def text_in(unit: str, value: float, dimension: units.Dimension) -> str:
+    """The text of a value in SI in this unit, one of `usual_units`: what was typed in it is read back to the last bit,
+    any other value to 15 digits."""
+    factor, zero = USUAL[dimension.si][unit]
+    return _exact(unit, value, dimension) or f"{(value - zero) / factor:.15g} {unit}"
+
+
 def _length(text: str) -> int:
     """Digits of the number; it should not begin with 0."""
     number = text.partition(" ")[0].lstrip("-")
@@ -51,13 +58,18 @@ def _length(text: str) -> int:
 def _texts(value: float, dimension: units.Dimension) -> Iterator[str]:
     """The exact texts, those in preferred units first."""
     for unit in _READABLE.get(dimension, (dimension.si,)):
-        factor, zero = USUAL[dimension.si][unit]
-        scaled = (value - zero) / factor
-        texts = (f"{scaled:.{digits}g} {unit}" for digits in _DIGITS)
-        exact = next((text for text in texts if _is_read_as(value, text, dimension)), None)
+        exact = _exact(unit, value, dimension)
         if exact is not None:
             yield exact
     yield f"{value!r} {dimension.si}"
+
+
+def _exact(unit: str, value: float, dimension: units.Dimension) -> str | None:
+    """The shortest text in a unit that is read as this value; `None` if there is none."""
+    factor, zero = USUAL[dimension.si][unit]
+    scaled = (value - zero) / factor
+    texts = (f"{scaled:.{digits}g} {unit}" for digits in _DIGITS)
+    return next((text for text in texts if _is_read_as(value, text, dimension)), None)
 
 
 def _is_read_as(value: float, text: str, dimension: units.Dimension) -> bool:

@@ -9,7 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from .._scene import AbstractScene
 from ..life.duty import SUM_TOLERANCE
-from .errors import SceneError, nearest
+from .errors import SceneError
 from .overrides import Overrides, applied, as_texts
 from .reader import (
     STATES,
@@ -25,7 +25,7 @@ from .units import number
 from .words import describe
 
 NAME, SHARE = "name", "share"
-EXAMPLE = '[[state]] tables, each with name = "cruise", share = 0.6 and changes such as operation.radial_load = "3 kN"'
+EXAMPLE = '[[state]] tables, each with share = 0.6 and changes such as operation.radial_load = "3 kN"'
 
 
 @dataclass(frozen=True)
@@ -62,8 +62,8 @@ def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple
 
     **Arguments:** as those of `load_scene`.
 
-    **Raises:** `SceneError` for a file without states, for states without a name or share, with the name of another
-    one or with shares that do not add up to 1, for changes of unknown fields and for scenes that cannot be built.
+    **Raises:** `SceneError` for a file without states, for states without a share, with the name of another one or
+    with shares that do not add up to 1, for changes of unknown fields and for scenes that cannot be built.
     """
     label, mapping = read_all(source)
     if is_shaft(mapping):
@@ -77,6 +77,7 @@ def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple
     texts = as_texts(overrides)
     # a scene that is wrong without any state is refused once
     scene_from_tables(mapping, label, texts)
+    given = numbered(given)
     require_names_and_shares(given, label)
     found: list[FileState] = []
     problems: list[SceneError] = []
@@ -91,9 +92,14 @@ def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple
     return tuple(found)
 
 
+def numbered(given: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """The states, each with its number where it has no name."""
+    return [{NAME: str(place + 1), **one} for place, one in enumerate(given)]
+
+
 def require_names_and_shares(given: Sequence[Mapping[str, object]], label: str) -> None:
-    """**Raises:** `SceneError` for states without a name or share, with the name of another one or with shares that do
-    not add up to 1."""
+    """**Raises:** `SceneError` for states without a share, with the name of another one or with shares that do not add
+    up to 1."""
     problems = list(_problems(given, label))
     if problems:
         raise SceneError.of_all(problems)
@@ -106,9 +112,7 @@ def _problems(given: Sequence[Mapping[str, Any]], label: str) -> Iterator[SceneE
     for place, one in enumerate(given):
         at, name = f"{STATES}[{place}]", one.get(NAME)
         if not isinstance(name, str) or not name.strip():
-            near = "" if NAME in one else nearest(NAME, one)
-            found = f"the unknown name '{near}'" if near else "nothing" if name is None else describe(name)
-            yield SceneError(label, f"{at}.{NAME}", found, "a name of the state, in quotes")
+            yield SceneError(label, f"{at}.{NAME}", describe(name), "a name of the state, in quotes")
         elif name in names:
             yield SceneError(label, f"{at}.{NAME}", f"'{name}' twice", "a name of its own for each state")
         else:

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import equinox as eqx
 
-from .._scene import AbstractScene, _replaced
+from .._scene import _replaced
+from ..numerics.arguments import did_you_mean
 
 if TYPE_CHECKING:
     from .scene import ShaftSystem
@@ -75,22 +76,28 @@ def _place(system: "ShaftSystem", word: str, name: str) -> int:
     names = names_of(system, word)
     if name not in names:
         whole = f"shaft.sections.{name}" if word == "section" else f"{word}.{name}"
-        raise AttributeError(f"the scene has no {whole!r}; there is {', '.join(names) or 'none'}")
+        near = did_you_mean(name, names, whole.removesuffix(name))
+        raise AttributeError(f"the scene has no {whole!r}; there is {', '.join(names) or 'none'}{near}")
     return names.index(name)
 
 
 def _changed(entry: Any, changes: _Changes, above: str) -> Any:
     """An entry with other values: its own fields, and those of its bearing."""
-    own = {field.name for field in dataclasses.fields(entry)}
+    own = [field.name for field in dataclasses.fields(entry)]
     mine = {path: value for path, value in changes.items() if path[0] in own}
     bearings = {".".join(path): value for path, value in changes.items() if path[0] not in own}
     if bearings:
-        if _BEARING not in own:
-            wrong = next(iter(bearings))
-            raise AttributeError(f"the scene has no '{above}.{wrong}': {type(entry).__name__} has {', '.join(own)}")
-        scene = entry.scene
-        one = not isinstance(scene, tuple)
-        mine[(_BEARING,)] = _of_bearing(scene, bearings) if one else _of_bearings(scene, bearings, above)
+        scene = getattr(entry, _BEARING, ())
+        scenes = scene if isinstance(scene, tuple) else (scene,)
+        inside = [field.name for one in scenes for field in dataclasses.fields(one)]
+        inside += [NUMBERED] if isinstance(scene, tuple) else []
+        for path in bearings:
+            name = path.partition(".")[0]
+            if name not in inside:
+                there, near = ", ".join(own), did_you_mean(name, own + inside, f"{above}.")
+                raise AttributeError(f"the scene has no '{above}.{path}': {type(entry).__name__} has {there}{near}")
+        several = isinstance(scene, tuple)
+        mine[(_BEARING,)] = _of_bearings(scene, bearings, above) if several else _of_bearing(scene, bearings, above)
     return _replaced(entry, mine, f"{above}.")
 
 
@@ -103,12 +110,13 @@ def _of_bearings(scenes: tuple[Bearing, ...], changes: Mapping[str, object], abo
     for path, value in changes.items():
         keys = path.split(".")
         if keys[0] != NUMBERED:
-            found = [_of_bearing(one, {path: value}) for one in found]
+            found = [_of_bearing(one, {path: value}, above) for one in found]
             continue
         place = _number(keys[1:2], len(scenes))
         if place is None:
             raise AttributeError(f"the scene has no '{above}.{path}'; the set has bearings 1 to {len(scenes)}")
-        found[place] = _of_bearing(found[place], {".".join(keys[2:]): value})
+        number = ".".join([above, *keys[:2]])
+        found[place] = _of_bearing(found[place], {".".join(keys[2:]): value}, number)
     return tuple(found)
 
 
@@ -118,10 +126,8 @@ def _number(keys: list[str], count: int) -> int | None:
     return int(given) - 1 if given.isdecimal() and 1 <= int(given) <= count else None
 
 
-def _of_bearing(scene: Bearing, changes: Mapping[str, object]) -> Bearing:
-    if isinstance(scene, AbstractScene):
-        return scene.replace(changes)
-    return _replaced(scene, {tuple(path.split(".")): value for path, value in changes.items()})
+def _of_bearing(scene: Bearing, changes: Mapping[str, object], above: str) -> Bearing:
+    return _replaced(scene, {tuple(path.split(".")): value for path, value in changes.items()}, f"{above}.")
 
 
 _NUMBERED = re.compile(r"(bearings|sets|forces)\.(\d+)\.(.*)")

@@ -10,6 +10,7 @@ from jaxtyping import Array, Float
 from .._scene import AbstractScene, label, number, optional_number
 from .._types import Scalar
 from ..bearings.bearing import AbstractBearing
+from ..bearings.parts import names_another_bearing
 from ..life.duty import SUM_TOLERANCE
 from ..numerics.checks import Checked, known
 from ..numerics.newton import NewtonOptions
@@ -127,6 +128,8 @@ class ShaftSystem(AbstractScene):
         shares = known(*(state.share for state in self.states))
         if self.states and shares is not None and abs(sum(shares) - 1.0) > SUM_TOLERANCE:
             yield f"state.share must add up to 1 over the states, got {sum(shares):.7g}"
+        for path in sorted({path for state in self.states for path in state.changes if names_another_bearing(path)}):
+            yield f"state: found '{path}', expected changes that leave each bearing the same"
 
     def _beyond(self) -> Iterator[str]:
         """Problems of positions that lie beyond the ends of a shaft with sections."""

@@ -1,15 +1,19 @@
 """States of a load spectrum in Python: a name, a share of the time, changes of the scene."""
 
-from collections.abc import Mapping, Sequence
+import dataclasses
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
+
+import equinox as eqx
 
 from .._scene import AbstractScene
 from .._types import Scalar
 from ..bearings.bearing import AbstractBearing
+from ..bearings.parts import RUNNING_SIZES
 from ..life.duty import SUM_TOLERANCE
 from ..numerics.arguments import require_numbers
-from ..numerics.checks import known
+from ..numerics.checks import known, numbers_or_none
 
 
 @dataclass(frozen=True)
@@ -46,10 +50,10 @@ def require_states(states: Sequence[State]) -> None:
 
 
 def require_rated(scenes: Mapping[str, AbstractScene]) -> None:
-    """Checks that each scene is a bearing with a life, all for one reliability. **Arguments:** name -> scene.
+    """Checks that each scene is the same bearing, with a life for one reliability. **Arguments:** name -> scene.
 
-    **Raises:** `TypeError` for another kind of scene, `ValueError` for one without a rating and for reliabilities that
-    differ.
+    **Raises:** `TypeError` for another kind of scene, `ValueError` for one without a rating, for reliabilities that
+    differ and for another bearing.
     """
     reliabilities = {}
     for name, scene in scenes.items():
@@ -60,3 +64,28 @@ def require_rated(scenes: Mapping[str, AbstractScene]) -> None:
         reliabilities[name] = scene.rating.reliability
     if len(set(reliabilities.values())) > 1:
         raise ValueError(f"rating.reliability: expected the same in all states, got {reliabilities}")
+    (first, bearing), *others = scenes.items()
+    for name, scene in others:
+        for path in _of_another(bearing, scene):
+            found = f"found one value in state '{first}' and another in state '{name}'"
+            raise ValueError(f"{path}: {found}, expected states of one bearing")
+
+
+def _of_another(bearing: AbstractScene, other: AbstractScene) -> Iterator[str]:
+    """Dotted paths of what makes the other scene another bearing; traced numbers pass."""
+    assert isinstance(bearing, AbstractBearing), "other scenes are refused"
+    assert isinstance(other, AbstractBearing), "other scenes are refused"
+    for part in ("geometry", "materials"):
+        yield from _differences(getattr(bearing, part), getattr(other, part), part)
+
+
+def _differences(one: object, other: object, path: str) -> Iterator[str]:
+    if isinstance(one, eqx.Module) and type(one) is type(other):
+        for field in dataclasses.fields(one):
+            if field.name not in RUNNING_SIZES:
+                yield from _differences(getattr(one, field.name), getattr(other, field.name), f"{path}.{field.name}")
+    elif numbers_or_none(one, other) is None:
+        if one != other:
+            yield path
+    elif (numbers := known(one, other)) is not None and numbers[0] != numbers[1]:
+        yield path

@@ -6,8 +6,8 @@ import pytest
 from makers_tables import NOT_IN_THE_TABLES, rated_bearings, spindle_bearings
 
 from jaxbearing import SceneError
-from jaxbearing.catalogue import known_designations, parse
-from jaxbearing.catalogue.designation import RADIAL_SERIES, TAPERED_SERIES, bore_of
+from jaxbearing.catalogue import find, known_designations, parse
+from jaxbearing.catalogue.designation import RADIAL_SERIES, TAPERED_SERIES, bore_of, parse_several
 from jaxbearing.catalogue.dimensions import bores, boundary_dimensions, clearance_limits
 
 
@@ -28,6 +28,20 @@ from jaxbearing.catalogue.dimensions import bores, boundary_dimensions, clearanc
         ("N 1010", "cylindrical", "10", (50, 80, 16)),
         ("30206", "tapered", "302", (30, 62, 17.25)),
         ("33217", "tapered", "332", (85, 150, 49)),
+        # the bore after a stroke: ISO 15
+        ("62/22", "deep_groove", "62", (22, 50, 14)),
+        ("60/500", "deep_groove", "60", (500, 720, 100)),
+        ("618/500-MA", "deep_groove", "618", (500, 620, 56)),
+        ("NU 10/500", "cylindrical", "10", (500, 720, 100)),
+        # ISO 355, d x D x T
+        ("32904", "tapered", "329", (20, 37, 12)),
+        ("32914", "tapered", "329", (70, 100, 20)),
+        # of makers: prefixes and suffixes
+        ("B7014-C-T-P4S", "spindle", "70", (70, 110, 20)),
+        ("HR30206J", "tapered", "302", (30, 62, 17.25)),
+        ("32008XU", "tapered", "320", (40, 68, 19)),
+        # D, steep: the 313 of others
+        ("HR30305DJ", "tapered", "313", (25, 62, 18.25)),
     ],
 )
 def test_types_series_and_sizes(text, kind, series, sizes):
@@ -73,6 +87,13 @@ def test_angles_of_suffixes():
         "71910 CD": 15,
         "71910 ACD/P4A": 25,
         "7014 E": 25,
+        # prefix and suffixes of Schaeffler: the 2 of a seal is no class of clearance
+        "B7208-C-2RSD-T-P4S-UL": 15,
+        "B7014-E-T-P4S": 25,
+        # of NSK and NTN
+        "7206A": 30,
+        "7210A5TYNDBLP5": 25,
+        "7206CTYNSULP4": 15,
     }
     assert {text: parse(text).contact_angle for text in angles} == angles
     assert parse("7205").contact_angle is None
@@ -80,8 +101,46 @@ def test_angles_of_suffixes():
     assert parse("7205 C3").contact_angle is None
 
 
-def test_what_is_not_understood_is_said():
-    assert "'&' was not understood" in parse("6205 &").notes
+def test_what_is_not_understood_is_refused():
+    """It may change the bearing: D of tapered bearings is a steep angle, E of deep groove bearings more balls."""
+    for text, part in {
+        "6205 &": "&",
+        "6308 NU 308": "NU308",
+        "30320D": "D",
+        "32206 D": "D",
+        "6205 ETN9": "E",
+        "6308 K9": "K9",
+    }.items():
+        with pytest.raises(SceneError, match=f"of which '{part}' is not understood"):
+            parse(text)
+
+
+def test_several_designations():
+    for text, expected in {
+        "6308 NU 308": ["6308", "NU 308"],
+        "NU 311 ECP": ["NU 311 ECP"],
+        "6205 2RS, 6206": ["6205 2RS", "6206"],
+        "7014 C 6205 N 210 30206": ["7014 C", "6205", "N 210", "30206"],
+    }.items():
+        assert [one.text for one in parse_several(text)] == expected
+    with pytest.raises(SceneError, match="NU399"):
+        parse_several("6205 NU 399")
+
+
+def test_steep_and_middle_angles_of_tapered_bearings():
+    """NSK, Rolling bearings: D is steep, 28 deg 48 min 39 s as the series 313, C is the middle one, 20 deg."""
+    assert parse("30305D").usual_angle == parse("31305").usual_angle == pytest.approx(28.81)
+    assert parse("30305D").cup_width == parse("31305").cup_width
+    assert parse("HR32206CJ").usual_angle == parse("32206 B").usual_angle == 20.5
+    # a set of normal ones, and a class of clearance
+    assert parse("30305 DF").usual_angle == parse("30305 C3").usual_angle == parse("30305").usual_angle
+
+
+def test_hybrid_bearings_have_ceramic_balls():
+    for text in ("HCB71910-C-T-P4S", "71910 ACE/HCP4A", "6205 HC5C3"):
+        assert parse(text).ceramic, text
+        assert find(text).tables()["materials"] == {"rings": "52100", "balls": "Si3N4"}
+    assert not parse("71910 C").ceramic
 
 
 @pytest.mark.parametrize(
@@ -108,6 +167,10 @@ def test_suffixes_of_sets(text, suffix):
         ("NU 399", "'NU 309'"),
         ("22210", "spherical roller bearing, which is not modelled"),
         ("51110", "thrust bearing"),
+        ("UER207", "insert bearing"),
+        ("NKI 20/16", "needle"),
+        ("HS7014-C", "small balls"),
+        ("QJ 208 MA", "four-point contact ball bearing, whose dimensions are not in the tables"),
         ("6185", "'618/5'"),
         ("", "such as 6207"),
         ("deep groove", "such as 6207"),

@@ -1,10 +1,16 @@
 """`compare`: screen, JSON, refusals, exit codes; the table in `report`."""
 
 import json
+import re
 import sys
 
 import pytest
 from filled_results import solution_of
+
+import jaxbearing as jb
+from jaxbearing.makers.designation import FAMILIES, read_designation
+from jaxbearing.scenes.bearing.catalogue import load_catalogue
+from jaxbearing.scenes.reader import builtin_text
 
 GIVEN = ("--set", "catalogue.designation=30206", "--set", "catalogue.outside_diameter=62 mm")
 
@@ -68,9 +74,32 @@ def test_not_converged(jaxbearing_command):
 
 @pytest.mark.usefixtures("without_solves")
 def test_report_has_the_table_where_the_scene_has_one(jaxbearing_command, folder):
-    assert jaxbearing_command("report", "tapered_example", *GIVEN, "--out", "a.html").code == 0
-    assert jaxbearing_command("report", "tapered_example", "--out", "b.html").code == 0
-    with_table, without = ((folder / name).read_text(encoding="utf-8") for name in ("a.html", "b.html"))
-    assert "Beside the makers" in with_table
-    assert "Palmgren, INA" in with_table
-    assert "Beside the makers" not in without
+    taken_out = ("--set", "catalogue=none")
+    for file, arguments in {"a": (), "b": taken_out}.items():
+        assert jaxbearing_command("report", "tapered_example", *arguments, "--out", f"{file}.html").code == 0
+    # without an oil no formula has a total
+    assert jaxbearing_command("report", "deep_groove_6205", "--out", "c.html").code == 0
+    pages = [(folder / name).read_text(encoding="utf-8") for name in ("a.html", "b.html", "c.html")]
+    assert ["Beside the makers" in page for page in pages] == [True, False, False]
+    assert "Palmgren, INA" in pages[0]
+
+
+def test_scenes_of_a_standard_bearing_know_their_designation():
+    """Those whose first comment names one: `compare` asks none of them for it."""
+    named = {}
+    for name in jb.builtin_names():
+        head = builtin_text(name).partition("kind = ")[0]
+        if re.search(r"of the \d{4,5} class|bearing 218|QJ \d+", head) and not name.endswith("_pair"):
+            catalogue = load_catalogue(name)
+            assert catalogue is not None, name
+            named[name] = read_designation(catalogue.designation)
+    bores = {name: one.bore for name, one in named.items()}
+    assert bores == pytest.approx(
+        {
+            "angular_contact_218": 90e-3,
+            **dict.fromkeys(("deep_groove_6205", "deep_groove_6205_fitted", "deep_groove_6205_mounted"), 25e-3),
+            "four_point_qj": 45e-3,
+            "tapered_example": 30e-3,
+        }
+    )
+    assert all(one.family in FAMILIES[jb.load_scene(name).kind] for name, one in named.items())

@@ -40,6 +40,34 @@ def test_words_of_a_designation_need_no_quotes(jaxbearing_command, folder):
     assert tomllib.loads((folder / "mine.toml").read_text(encoding="utf-8"))["kind"] == "cylindrical_roller_bearing"
 
 
+def test_several_designations_make_a_file_each(jaxbearing_command, folder):
+    """Nothing is written where one of them cannot be."""
+    assert jaxbearing_command("new", "6308", "NU 308", "--radial-load", "1 kN").code == 0
+    assert sorted(os.listdir(folder)) == ["6308.toml", "NU_308.toml"]
+    kinds = [tomllib.loads((folder / name).read_text(encoding="utf-8"))["kind"] for name in sorted(os.listdir(folder))]
+    assert kinds == ["ball_bearing", "cylindrical_roller_bearing"]
+    for arguments, words in {
+        ("6309", "NU", "308"): "NU_308.toml: found a file that exists",
+        ("6309", "6310", "--balls", "8"): "facts about the inside of one",
+        ("6309", "6310", "--output", "a.toml"): "a folder that exists",
+        ("6309", "6309"): "a designation twice",
+    }.items():
+        refused = jaxbearing_command("new", *arguments)
+        assert refused.code == 2
+        assert words in refused.err
+    assert len(os.listdir(folder)) == 2
+    found = json.loads(jaxbearing_command("new", "6309", "6310", "--json").out)
+    assert [one["file"] for one in found["bearings"]] == ["6309.toml", "6310.toml"]
+
+
+def test_given_numbers_are_shown_to_the_last_digit(jaxbearing_command, folder):
+    known = ("--contact-angle", "38.1234 deg", "--static-capacity", "34219 N", "--pitch-diameter", "38.45671 mm")
+    out = jaxbearing_command("new", "7205", *known).out
+    for text in ("38.1234 deg", "34.219 kN", "38.45671 mm"):
+        assert text in out
+        assert f'"{text}"' in (folder / "7205.toml").read_text(encoding="utf-8")
+
+
 def test_nothing_is_overwritten(jaxbearing_command, folder):
     (folder / "6207.toml").write_text("mine", encoding="utf-8")
     refused = jaxbearing_command("new", "6207")
@@ -76,6 +104,7 @@ def test_json_of_rollers(jaxbearing_command):
     [
         (("6299",), "the nearest that are known: '629', '6219', '6209'"),
         (("22210",), "spherical roller bearing, which is not modelled"),
+        (("32206D",), "of which 'D' is not understood"),
         (("6207", "--static-capacity", "15.3"), "--static-capacity"),
         (("6207", "--static-capacity", "15.3 mm"), "a force"),
         (("6207", "--contact-angle", "3 deg"), "follows from its clearance"),

@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from ...bearings.parts import names_another_bearing
 from ...shafts.paths import part_at
 from ...shafts.scene import ShaftState, ShaftSystem
 from ..errors import SceneError
-from ..states import EXAMPLE, NAME, require_names_and_shares, state_of
+from ..states import EXAMPLE, numbered, require_names_and_shares, state_of
 from ..words import describe
 
 SET = "set"
@@ -25,7 +26,7 @@ def with_states(scene: ShaftSystem, given: object, raw: Mapping[str, object], fi
     """
     if not isinstance(given, list) or not given or not all(isinstance(one, Mapping) for one in given):
         raise SceneError(file, "state", describe(given), EXAMPLE)
-    tables = [_plain(one, str(place + 1)) for place, one in enumerate(given)]
+    tables = [_plain(one) for one in numbered(given)]
     require_names_and_shares(tables, file)
     states, problems = [], []
     for one in tables:
@@ -43,9 +44,9 @@ def with_states(scene: ShaftSystem, given: object, raw: Mapping[str, object], fi
     return dataclasses.replace(scene, states=tuple(states))
 
 
-def _plain(one: Mapping[str, Any], number: str) -> dict[str, Any]:
-    """A state whose changes are beside its share, with its number where it has no name."""
-    found = {NAME: number, **one}
+def _plain(one: Mapping[str, Any]) -> dict[str, Any]:
+    """A state whose changes are beside its share."""
+    found = dict(one)
     changes = found.get(SET)
     if isinstance(changes, Mapping):
         by_path = {path: value for path, value in changes.items() if "." in path}
@@ -55,7 +56,9 @@ def _plain(one: Mapping[str, Any], number: str) -> dict[str, Any]:
 
 
 def _number(value: Any, path: str, where: str) -> float:
-    """**Raises:** `SceneError` for something else than a number of the scene."""
+    """**Raises:** `SceneError` for something else than a number of the scene, and for one of another bearing."""
+    if names_another_bearing(path):
+        raise SceneError(where, path, "a field that makes another bearing", "states of the same bearings")
     if value is None or isinstance(value, str | bool) or np.ndim(value) or dataclasses.is_dataclass(value):
         expected = "a number of the scene: the states of a shaft differ in numbers alone"
         raise SceneError(where, path, "a field that shapes the equations", expected)
