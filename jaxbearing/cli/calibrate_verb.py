@@ -8,7 +8,7 @@ import typer
 
 from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, LossOption, SceneArgument, SetOption, labelled
-from .output_files import PICTURES, Output, check_files, deliver
+from .output_files import PICTURES, ForceOption, Output, check_files, deliver
 from .posterior_options import (
     PlotPosteriorOption,
     PosteriorOption,
@@ -124,6 +124,7 @@ def calibrate(
     out: OutOption = None,
     plot: PlotOption = None,
     plot_posterior: PlotPosteriorOption = None,
+    force: ForceOption = False,
 ) -> None:
     """Any numbers of a scene from measured torque, power, temperature, speed or displacement at many operating points:
     values, intervals, and which of them the measurements cannot tell."""
@@ -150,7 +151,7 @@ def calibrate(
         others = [_prediction(text) for text in predictions or []]
         sampling = sampling_of(posterior, samples, plot_posterior)
         pictures = ("--plot", plot, PICTURES), ("--plot-posterior", plot_posterior, PICTURES)
-        check_files((*pictures, *(("--out", file, OUT) for file in out or [])))
+        check_files((*pictures, *(("--out", file, OUT) for file in out or [])), force)
 
     from .cache import enable_compilation_cache
     from .quiet import without_false_alarms

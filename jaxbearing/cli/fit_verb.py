@@ -10,7 +10,7 @@ import typer
 
 from .messages import BAD_INPUT, NOT_CONVERGED, bad_input, refuse, say
 from .options import SCENE_HELP, JsonOption, LossOption, SetOption, labelled
-from .output_files import PICTURES, Output, check_files, deliver
+from .output_files import PICTURES, ForceOption, Output, check_files, deliver
 from .posterior_options import (
     PlotPosteriorOption,
     PosteriorOption,
@@ -117,6 +117,7 @@ def fit(
     plot: Plot = None,
     plot_posterior: PlotPosteriorOption = None,
     out: Out = None,
+    force: ForceOption = False,
 ) -> None:
     """Shear modulus and stress of an oil from traction curves, with intervals and with what the curves cannot tell.
 
@@ -150,7 +151,7 @@ def fit(
         machine, measurements, notes = _loaded(data, scene, changes)
         sampling = sampling_of(posterior, samples, plot_posterior)
         pictures = ("--plot", plot, PICTURES), ("--plot-posterior", plot_posterior, PICTURES)
-        check_files((*pictures, ("--out", out, (".toml",))))
+        check_files((*pictures, ("--out", out, (".toml",))), force)
 
     from .cache import enable_compilation_cache
     from .quiet import without_false_alarms

@@ -23,16 +23,18 @@ def say(message: str, code: int) -> int:
 
 @contextmanager
 def bad_input(notes: list[str] | None = None) -> Iterator[None]:
-    """Context that turns errors of the input into one message and exit code 2.
+    """Context that turns errors of the input into one message and exit code 2. The files that are read in it are known
+    as inputs to `output_files.check_files`.
 
     **Arguments:** `notes`: list that gets notes on the input; left out: they are printed on stderr.
     """
     from ..scenes.errors import MeanUsedWarning, PresetUsedWarning, SceneError, StatesUnusedWarning
+    from ..scenes.input_files import remembered_inputs
 
     notable = (MeanUsedWarning, PresetUsedWarning, StatesUnusedWarning)
     said: list[str] = []
     try:
-        with warnings.catch_warnings(record=True) as caught:
+        with warnings.catch_warnings(record=True) as caught, remembered_inputs():
             for category in notable:
                 warnings.simplefilter("always", category)
             yield

@@ -9,7 +9,7 @@ import typer
 
 from .messages import bad_input, refuse
 from .options import JsonOption, option_quantity
-from .output_files import unwritten
+from .output_files import ForceOption, check_kept, unwritten
 from .terminal import console
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def new(
             help="File to write, or the folder for it; the designation with .toml in this folder if not given.",
         ),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
+    force: ForceOption = False,
     as_json: JsonOption = False,
 ) -> None:
     """Write a scene file for a standard bearing: boundary dimensions by its designation, an estimated internal geometry
@@ -149,9 +149,7 @@ def _target(output: Path | None, file: str, force: bool) -> Path:
     target = Path(file) if output is None else output
     if target.is_dir():
         target = target / file
-    if target.exists() and not force:
-        expected = "a new file (--output FILE), or --force to overwrite it"
-        raise SceneError(str(target), "", "a file that exists already", expected)
+    check_kept("--output", target, force)
     if not target.parent.is_dir():
         raise SceneError(str(target), "", "no such folder", "a file in an existing folder")
     return target

@@ -5,7 +5,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import typer
 
@@ -14,6 +14,10 @@ from .interrupt import ALL, if_interrupted, tell
 from .messages import NO_OUTPUT, refuse, say
 
 PICTURES = (".png", ".svg", ".pdf")
+ForceOption = Annotated[
+    bool,
+    typer.Option("--force", help="Overwrite a .toml file that exists; a file that this command reads never is."),
+]
 
 
 class Output(NamedTuple):
@@ -26,14 +30,16 @@ class Output(NamedTuple):
     long: bool = False
 
 
-def check_files(wanted: Iterable[tuple[str, Path | None, tuple[str, ...]]]) -> None:
-    """Refuse a name that cannot be written before the work, not after it.
+def check_files(wanted: Iterable[tuple[str, Path | None, tuple[str, ...]]], force: bool = False) -> None:
+    """Refuse a name that cannot be written before the work, not after it, when all files that are read have been.
 
-    **Arguments:** option, path (`None`: nothing is written) and the suffixes that it may have, of each file.
+    **Arguments:** option, path (`None`: nothing is written) and the suffixes that it may have, of each file; `force`:
+    whether a scene or an oil that is there may be overwritten.
     """
     from ..report.files import check_place
     from ..scenes.errors import one_of
 
+    places: dict[str, str] = {}
     for option, path, suffixes in wanted:
         if path is None:
             continue
@@ -41,11 +47,27 @@ def check_files(wanted: Iterable[tuple[str, Path | None, tuple[str, ...]]]) -> N
             refuse(f"{option}: found '{path}'; expected a file name that ends in {one_of(suffixes)}")
         if not path.parent.is_dir() or path.is_dir():
             refuse(f"{option}: found '{path}'; expected a file in an existing folder")
+        place = os.path.realpath(path)
+        if place in places:
+            refuse(f"{option}: found '{path}', which {places[place]} writes; expected another file")
+        places[place] = option
+        # scenes and oils are somebody's work; results and pictures can be made again, and are replaced
+        check_kept(option, path, force or path.suffix.lower() != ".toml")
         try:
             check_place(path)
             try_to_write(path)
         except OSError as error:
             raise typer.Exit(unwritten(path, error)) from None
+
+
+def check_kept(option: str, path: Path, force: bool) -> None:
+    """Refuses to overwrite a file that the command has read, in any case, and without `force` any file."""
+    from ..scenes.input_files import is_input
+
+    if is_input(path):
+        refuse(f"{option}: found '{path}', which this command reads; expected another file")
+    if not force and path.exists():
+        refuse(f"{option}: found '{path}', a file that exists already; expected a new file, or --force to overwrite it")
 
 
 def try_to_write(path: Path) -> None:

@@ -8,7 +8,7 @@ import typer
 
 from .messages import bad_input, refuse
 from .options import SetOption, labelled
-from .output_files import unwritten
+from .output_files import ForceOption, check_kept, unwritten
 from .terminal import console
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
@@ -29,7 +29,7 @@ def scenes(
     to: Annotated[
         Path | None, typer.Option("--to", metavar="FILE", help="File to write; SCENE.toml in this folder if not given.")
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
+    force: ForceOption = False,
 ) -> None:
     """List the built-in scenes, or write a scene out as a file to edit."""
     with bad_input():
@@ -86,12 +86,8 @@ def _copy(scene: str, changes: list[str], to: Path | None, force: bool) -> None:
     try:
         if target.is_dir():
             target = target / file
-        if target.exists() and not force:
-            found, expected = "a file that exists already", "a new file (--to FILE), or --force to overwrite it"
-            raise SceneError(str(target), "", found, expected)
+        check_kept("--to", target, force)
         write_whole(target, text)
-    except SceneError:
-        raise
     except (OSError, ValueError) as error:
         if isinstance(error, OSError) and error.errno in _FULL:
             raise typer.Exit(unwritten(target, error)) from None

@@ -109,9 +109,9 @@ def simulate(
             _check_warm_up(model, length, every)
         elif not film:
             _check_motion(model, length or float(model.simulation.duration), every)
+        last = None if restart is None else _last_state(restart, model, scene, length)
         check_files((("--plot", plot, PICTURES), ("--out", out, (".nc",)), ("--animation", animation, ANIMATIONS)))
         _check_animation(animation)
-        last = None if restart is None else _last_state(restart, model, scene, length)
 
     from .cache import enable_compilation_cache
     from .quiet import without_false_alarms

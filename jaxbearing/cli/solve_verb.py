@@ -10,7 +10,7 @@ import typer
 from . import solve_sensitivities as extra
 from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import DragPriorOption, JsonOption, SceneArgument, SetOption, labelled
-from .output_files import PICTURES, Output, check_files, deliver
+from .output_files import PICTURES, ForceOption, Output, check_files, deliver
 from .terminal import console
 
 if TYPE_CHECKING:
@@ -67,6 +67,7 @@ def solve(
     sensitivities_of: extra.SensitivitiesOfOption = None,
     sensitivities_by: extra.SensitivitiesByOption = extra.BY[0],
     full: FullOption = False,
+    force: ForceOption = False,
 ) -> None:
     """Steady state: life, power loss, loads, films, pressures, speeds; of a two-disk machine, its traction curves; of a
     line contact, its film."""
@@ -83,7 +84,7 @@ def solve(
         wanted = _line_contact(line_contact, model, scene)
         contact = None if wanted is None else wanted.path
         files = (("--plot", plot, PICTURES), ("--out", out, (".nc",)), ("--line-contact", contact, (".toml",)))
-        check_files(files)
+        check_files(files, force)
 
     from .cache import enable_compilation_cache
     from .quiet import without_false_alarms

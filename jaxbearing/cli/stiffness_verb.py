@@ -9,7 +9,7 @@ import typer
 
 from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled, option_quantity
-from .output_files import Output, check_files, deliver
+from .output_files import ForceOption, Output, check_files, deliver
 from .terminal import console
 
 if TYPE_CHECKING:
@@ -53,6 +53,7 @@ def stiffness(
     as_json: JsonOption = False,
     ross: Ross = None,
     load_direction: LoadDirection = "-90 deg",
+    force: ForceOption = False,
 ) -> None:
     """Stiffness against shaft speed, at the loads of the scene; of a shaft that of each set and bearing. On request it
     is written as a bearing, or a rotor, for ROSS."""
@@ -65,7 +66,7 @@ def stiffness(
         angle = option_quantity("--load-direction", load_direction, ANGLE)
         model = load_scene(scene, split_assignments(changes or []))
         _check(scene, model, values, ross)
-        check_files((("--ross", ross, (".toml",)),))
+        check_files((("--ross", ross, (".toml",)),), force)
 
     from .cache import enable_compilation_cache
     from .quiet import without_false_alarms

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .messages import NO_OUTPUT, refuse, say
-from .output_files import unwritten
+from .output_files import check_kept, try_to_write, unwritten
 from .terminal import console
 
 if TYPE_CHECKING:
@@ -52,7 +52,6 @@ def check_run_target(target: Path) -> None:
     from importlib.util import find_spec
 
     from ..sweeps.engine import SweepError, check_target
-    from .output_files import try_to_write
 
     try:
         check_target(target)
@@ -62,6 +61,7 @@ def check_run_target(target: Path) -> None:
         refuse(f"--out: found '{target}', which needs the extra 'cluster'; expected .nc, or {EXTRA}")
     if not target.parent.is_dir():
         refuse(f"--out: found '{target}'; expected a file in an existing folder")
+    check_kept("--out", target, force=True)
     try:
         try_to_write(target)
     except OSError as error:

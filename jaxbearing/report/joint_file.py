@@ -8,6 +8,7 @@ import xarray as xr
 
 from .. import __version__
 from ..joint import JointDistribution
+from ..scenes.input_files import check_regular
 from .dataset import write_netcdf
 
 _NEEDED = ("centre", "positive", "covariance")
@@ -45,6 +46,7 @@ def read_joint(path: str | os.PathLike[str]) -> JointDistribution:
     """
     name = os.fspath(path)
     try:
+        check_regular(name)
         with xr.open_dataset(name, engine="h5netcdf") as dataset:
             missing = [one for one in (*_NEEDED, "field") if one not in dataset.variables]
             if missing:

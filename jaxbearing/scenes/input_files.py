@@ -6,6 +6,8 @@ for this process, as `<(command)` and `/dev/stdin` do, is read, up to the same s
 
 import os
 import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 LARGEST_TEXT = 4 * 2**20
@@ -15,6 +17,33 @@ LARGEST_TABLE = 32 * 2**20
 _PIPES = ("/dev/fd/", "/dev/stdin", "/proc/self/fd/")
 _read_pipes: dict[tuple[int, int], bytes] = {}
 """Contents of pipes, by device and number: a pipe can be read once only, and some files are looked at twice."""
+_inputs: set[tuple[int, int]] | None = None
+"""Files that were read, by device and number, while somebody wants to know them."""
+
+
+@contextmanager
+def remembered_inputs() -> Iterator[None]:
+    """Context in which `is_input` knows the files that were read since it began."""
+    global _inputs
+    before, _inputs = _inputs, set()
+    try:
+        yield
+    finally:
+        _inputs = before
+
+
+def is_input(path: str | os.PathLike[str]) -> bool:
+    """True for a file that was read in this `remembered_inputs`, by whatever name or link."""
+    try:
+        status = os.stat(path)
+    except (OSError, ValueError):
+        return False
+    return _inputs is not None and (status.st_dev, status.st_ino) in _inputs
+
+
+def _remember(status: os.stat_result) -> None:
+    if _inputs is not None:
+        _inputs.add((status.st_dev, status.st_ino))
 
 
 class UnfitFileError(ValueError):
@@ -39,7 +68,8 @@ def read_bytes(path: str | os.PathLike[str], largest: int = LARGEST_TEXT) -> byt
         # not to be waited for, should it have become a pipe since
         descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
         with open(descriptor, "rb") as file:
-            _check(os.fstat(descriptor), largest)
+            _check(status := os.fstat(descriptor), largest)
+            _remember(status)
             # some regular files, in /proc, do not tell their size
             return _bounded(file.read(largest + 1), largest)
     except FileNotFoundError:
@@ -59,7 +89,8 @@ def check_regular(path: str | os.PathLike[str]) -> None:
     **Raises:** `OSError` if there is no such file, or if it is not a regular one.
     """
     try:
-        _check(os.stat(path))
+        _check(status := os.stat(path))
+        _remember(status)
     except UnfitFileError as error:
         raise OSError(22, f"it is {error.found}", os.fspath(path)) from None
 

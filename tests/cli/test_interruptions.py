@@ -14,14 +14,17 @@ VERBS = {
     "solve": (("solve", "reference_roller", *DRY, "--out"), "state.nc"),
     "plot": (("solve", "reference_roller", *DRY, "--plot"), "state.png"),
     "report": (("report", "reference_roller", *DRY, "--out"), "page.html"),
-    "stiffness": (("stiffness", "deep_groove_6205", "--speeds", "2000 rpm:3000 rpm:2", "--ross"), "bearing.toml"),
+    "stiffness": (
+        ("stiffness", "deep_groove_6205", "--force", "--speeds", "2000 rpm:3000 rpm:2", "--ross"),
+        "bearing.toml",
+    ),
     "sweep": (
         ("sweep", "reference_roller", *DRY, "--overwrite", "--over", "operation.radial_load=5 kN:9 kN:5", "--out"),
         "cases.nc",
     ),
     "simulate": ((*MOVING, "--out"), "run.nc"),
     "animation": ((*MOVING, "--animation"), "run.gif"),
-    "fit": (("fit", str(MEDIAN), "--scene", "two_disk_etm", "--starts", "1", "--out"), "oil.toml"),
+    "fit": (("fit", str(MEDIAN), "--scene", "two_disk_etm", "--starts", "1", "--force", "--out"), "oil.toml"),
 }
 # The signal comes when the file has been written beside its place and is about to take it.
 STOP = """

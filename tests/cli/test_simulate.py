@@ -50,9 +50,12 @@ def test_files(run):
 
 
 def test_restart_goes_on(run):
-    """By the duration, from the time at which the file ends."""
+    """By the duration, from the time at which the file ends; the earlier run is not overwritten."""
     _, folder = run
     arguments = [*BASE, "--duration", "0.5 ms", "--restart", str(folder / "run.nc")]
+    refused = CliRunner().invoke(app, [*arguments, "--out", str(folder / "run.nc")])
+    assert refused.exit_code == 2
+    assert "which this command reads" in refused.stderr
     result = CliRunner().invoke(app, [*arguments, "--json"])
     assert result.exit_code == 0
     found = json.loads(result.stdout)

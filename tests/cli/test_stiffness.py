@@ -26,7 +26,7 @@ def test_screen_and_file(jaxbearing_command, folder):
 
 
 def test_json_and_load_direction(jaxbearing_command, folder):
-    arguments = ("stiffness", "deep_groove_6205", *SPEEDS, "--json", "--ross", "a.toml")
+    arguments = ("stiffness", "deep_groove_6205", *SPEEDS, "--json", "--force", "--ross", "a.toml")
     found = {}
     for direction in ("-90 deg", "0 deg"):
         result = jaxbearing_command(*arguments, "--load-direction", direction)
