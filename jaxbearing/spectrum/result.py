@@ -7,6 +7,7 @@ import jax
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
+from .._checks import about
 from ..bearings.solution import Solution
 from ..life.duty import SpectrumLife, governing
 from ..numerics.status import SolveError, Status
@@ -62,7 +63,7 @@ class Spectrum(eqx.Module):
             for text in one.warnings:
                 found.setdefault(text, []).append(name)
         every = len(self.names)
-        said = [text if len(names) == every else f"{', '.join(names)}: {text}" for text, names in found.items()]
+        said = [text if len(names) == every else about(", ".join(names), text) for text, names in found.items()]
         return [*said, *self.notes]
 
     def raise_if_failed(self) -> None:
