@@ -21,6 +21,11 @@ class Information(str):
         return Information(super().format(*args, **kwargs))
 
 
+def as_note(text: str) -> str:
+    """A note with its group: it is an assumption unless it is information."""
+    return text if isinstance(text, Information) else Assumed(text)
+
+
 def about(name: str, text: str) -> str:
     """The text with the name of what it is about in front, in the group that it has."""
     return type(text)(f"{name}: {text}")

@@ -11,7 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
-from ._checks import Assumed, Checks, Information, in_groups
+from ._checks import Checks, as_note, in_groups
 from ._derived import derived as derived
 from ._derived import derived_part as derived_part
 from ._shown import Shown
@@ -161,8 +161,7 @@ class AbstractSolution(Shown):
         if any(np.ndim(broken) for broken in self.range_checks.values()):
             raise ValueError(OF_A_BATCH)
         left = [text for text, broken in self.range_checks.items() if bool(broken)]
-        notes = [note if isinstance(note, Information) else Assumed(note) for note in self.notes]
-        act, assumed, information = in_groups([*self.broken_rules, *left, *notes])
+        act, assumed, information = in_groups([*self.broken_rules, *left, *map(as_note, self.notes)])
         return [*act, *assumed, *information]
 
     def raise_if_failed(self) -> None:
