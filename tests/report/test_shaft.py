@@ -93,6 +93,10 @@ def test_lives_safety_and_lubrication(scene, filled):
     system = f"at 90 % reliability: basic reference life L10r {digits(float(filled.life.L10r_hours))} h"
     assert system in " ".join(screen(print_summary, rated, "a shaft").split())
     assert f"ISO 281 L10 {digits(float(filled.life.L10h))} h" in " ".join(screen(print_summary, rated, "x").split())
+    mixed = bearings | {"pair.2": _with_life(bearings["pair.2"], dataclasses.replace(two, reliability=0.90))}
+    mixed = dataclasses.replace(filled, bearings=mixed)
+    assert "Lnmr\nh, n" in life_columns(mixed)
+    assert "Reliability n pair.1 98 %, pair.2 90 %" in " ".join(screen(print_summary, mixed, "x").split())
     page = html_report(scene, rated, "x", scene_inputs("spindle_pair", {}, scene), datetime(2026, 1, 1, tzinfo=UTC))
     for words in ("Lnmr, h, 98 %", "safety, contact", "system life L10, 90 %", "system life L10r, 90 %"):
         assert words in page

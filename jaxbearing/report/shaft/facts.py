@@ -141,15 +141,24 @@ def _power_of_ten(value: float) -> str:
 
 def life_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     """Name and text of the life of the system, and of what the narrow table of `life_columns` leaves out."""
-    if solution.life is not None:
-        for text_of_kind in lives_in_words(solution.life):
-            yield "System life", text_of_kind
+    yield from system_facts(solution)
     safeties = {name: _of_life(one.life, "contact_static_safety", 3) for name, one in solution.bearings.items()}
     degrees = {name: _temperatures(one) for name, one in solution.bearings.items()}
     for title, texts in (("Static, contact", safeties), ("Rings, degC", degrees)):
         said = ", ".join(f"{name} {own}" for name, own in texts.items() if own != "-")
         if said:
             yield title, said
+
+
+def system_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
+    """Name and text of the life of the system, and of the reliabilities n where bearings are rated for several."""
+    if solution.life is not None:
+        for lives in lives_in_words(solution.life):
+            yield "System life", lives
+    shares = {name: one.life.reliability for name, one in solution.bearings.items() if one.life is not None}
+    if len(set(shares.values())) > 1:
+        each = ", ".join(f"{name} {percent(share)}" for name, share in shares.items())
+        yield "Reliability n", f"{each}; lives at different reliabilities make no life of the system"
 
 
 def loss_of(one: BearingOnShaft) -> float | None:

@@ -9,7 +9,7 @@ from ...numerics.status import Status
 from ...shafts.scene import ShaftSystem
 from ...shafts.solution import BearingOnShaft, ShaftSolution
 from ..bearing.facts import facts as bearing_facts
-from ..bearing.life_facts import life_headlines, lives_in_words
+from ..bearing.life_facts import life_headlines
 from ..bearing.ring_panels import bent_rings, shape_panels
 from ..colours import LOSS
 from ..display import axis_unit, with_unit
@@ -28,6 +28,7 @@ from .facts import (
     shaft_facts,
     shaft_warnings,
     stiffness_rows,
+    system_facts,
 )
 from .panels import shaft_panels
 from .picture import pictures
@@ -106,8 +107,8 @@ def _tables(solution: ShaftSolution) -> Iterator[Listing]:
     yield _table("Bearings", bearing_columns(solution), "Forces of the bearings on the shaft; azimuths from Y.")
     columns = life_columns(solution)
     if columns:
-        system = () if solution.life is None else lives_in_words(solution.life)
-        yield _table("Life, safety and losses", columns, *(f"System life {text}." for text in system))
+        system = (f"{name}: {text}." for name, text in system_facts(solution))
+        yield _table("Life, safety and losses", columns, *system)
 
 
 def _table(title: str, columns: dict[str, list[str]], *remarks: str) -> Listing:
