@@ -1,9 +1,42 @@
-"""Validity of a result: the ranges of laws that it left, and the inputs that were invalid."""
+"""Validity of a result: the ranges of laws that it left, and the inputs that were invalid; the groups of warnings.
 
-from collections.abc import Iterator, Mapping
+The texts of checks are keys, and those of notes static fields. The group of a text is its class: a plain text is one
+to act on if it is a check, and an assumption if it is a note.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
 
 import equinox as eqx
 from jaxtyping import Array, Bool
+
+
+class Assumed(str):
+    """A warning about what nobody gave: a number that was estimated, or an assumption of the model."""
+
+
+class Information(str):
+    """A warning, or a note, that nobody need act on: a law beyond its range, an input without effect."""
+
+    def format(self, *args: object, **kwargs: object) -> "Information":
+        return Information(super().format(*args, **kwargs))
+
+
+def as_note(text: str) -> str:
+    """A note with its group: it is an assumption unless it is information."""
+    return text if isinstance(text, Information) else Assumed(text)
+
+
+def about(name: str, text: str) -> str:
+    """The text with the name of what it is about in front, in the group that it has."""
+    return type(text)(f"{name}: {text}")
+
+
+def in_groups(texts: Iterable[str]) -> tuple[list[str], list[Assumed], list[Information]]:
+    """The texts in the order in which people are told them: what to act on, what was assumed, information."""
+    told = list(texts)
+    assumed = [text for text in told if isinstance(text, Assumed)]
+    information = [text for text in told if isinstance(text, Information)]
+    return [text for text in told if not isinstance(text, Assumed | Information)], assumed, information
 
 
 class Checks(eqx.Module, Mapping[str, Bool[Array, "*batch"]]):

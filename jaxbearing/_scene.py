@@ -11,7 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
-from ._checks import Checks
+from ._checks import Checks, as_note, in_groups
 from ._derived import derived as derived
 from ._derived import derived_part as derived_part
 from ._shown import Shown
@@ -154,14 +154,16 @@ class AbstractSolution(Shown):
 
     @property
     def warnings(self) -> list[str]:
-        """The warnings in words: broken rules and ranges, and the assumptions of the model (one solution only).
+        """The warnings in words (one solution only), in three groups: what to act on, broken rules first; what was
+        assumed (`_checks.Assumed`); information (`_checks.Information`).
 
         **Raises:** `ValueError` for a batch of solutions, as do `failure` and `broken_rules`.
         """
         if any(np.ndim(broken) for broken in self.range_checks.values()):
             raise ValueError(OF_A_BATCH)
         left = [text for text, broken in self.range_checks.items() if bool(broken)]
-        return [*self.broken_rules, *left, *self.notes]
+        act, assumed, information = in_groups([*self.broken_rules, *left, *map(as_note, self.notes)])
+        return [*act, *assumed, *information]
 
     def raise_if_failed(self) -> None:
         """Raises if this solve failed. It does nothing while JAX traces; look at `status` then.

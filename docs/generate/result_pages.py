@@ -14,7 +14,7 @@ from jaxbearing.bearings.warming import history as warming
 from jaxbearing.ehl import history as film_history
 from jaxbearing.ehl import solution as film
 from jaxbearing.life.duty import SpectrumLife
-from jaxbearing.life.result import Life
+from jaxbearing.life.result import CatalogueLife, Life
 from jaxbearing.machines import two_disk
 from jaxbearing.numerics.status import Status
 from jaxbearing.report.labels import udunits
@@ -43,6 +43,7 @@ SECTIONS = {
         "frequencies": frequencies.KinematicFrequencies,
         "textbook_frequencies": frequencies.KinematicFrequencies,
         "life": Life,
+        "catalogue_life": CatalogueLife,
     },
     "Load spectrum": {"life": SpectrumLife},
     "Rolling elements and power: cylindrical rollers": {

@@ -6,6 +6,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Int
 
+from .._checks import Information
 from ..contacts.rolling_heating import rolling_words
 from ..numerics.newton import NewtonResult
 from .bearing import AbstractBearing
@@ -90,7 +91,8 @@ def assemble(
     notes = scene.assumptions()
     if scene.unused_parts():
         unused = ", ".join(scene.unused_parts())
-        notes = (*notes, f"without {scene.required_part} these tables have no effect: {unused}")
+        text = Information(f"without {scene.required_part} these tables have no effect: {unused}")
+        notes = (*notes, text)
     return Solution(
         status=result.status,
         iterations=result.iterations if iterations is None else iterations,

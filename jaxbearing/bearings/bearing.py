@@ -186,9 +186,10 @@ class AbstractBearing(AbstractScene):
     def rated_contacts(self, elements: Any, laminae: LaminaLoads | None, force: Array | None = None) -> RatedContacts:
         """Sizes and loads of the raceway contacts for the life calculation.
 
-        **Arguments:** fields of a solution with these names: `elements`, the state of the rolling elements; `laminae`,
-        the loads on the slices of the rollers; `force`, the loads that hold the ring. If the displacement of the ring
-        is given, the equivalent load P of ISO 281 follows from `force`; without `force` it is not known.
+        **Arguments:** fields of a solution with these names: `elements`, the state of the rolling elements, `None` of
+        an unloaded bearing; `laminae`, the loads on the slices of the rollers; `force`, the loads that hold the ring.
+        If the displacement of the ring is given, the equivalent load P of ISO 281 follows from `force`; without `force`
+        it is not known.
         """
 
     @abc.abstractmethod

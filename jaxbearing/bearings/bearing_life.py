@@ -9,6 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
+from .._checks import Information
 from .._scene import AbstractScene, AbstractSolution
 from .._types import Scalar
 from ..life.basic import EXPONENTS, HOURS, RELIABILITY_FACTORS, basic_life, tapered_equivalent_load
@@ -30,7 +31,7 @@ from ..life.reference import (
     roller_contact_capacities,
     roller_damage_rate,
 )
-from ..life.result import Life
+from ..life.result import CatalogueLife, Life
 from ..life.static import ball_static_capacity, contact_safety, rated_modulus, roller_static_capacity
 from ..lubricants import Lubricant
 from .bearing import AbstractBearing
@@ -50,7 +51,7 @@ NO_LINEAR_LOADS = (
     "rating.tilt = 'iso': the loads of the first-order motion of the ring were not found, and there is no life; "
     "rating.tilt = 'exact' takes the loads of the solution"
 )
-STEEP_WARNING = (
+STEEP_WARNING = Information(
     "contact angle above 45 degrees: the X and Y of radial ball bearings end there, and there is no L10; L10r holds "
     "for any contact angle"
 )
@@ -58,6 +59,12 @@ THIN_WARNING = (
     "viscosity ratio kappa below 0.1: ISO 281 gives no a_ISO there, that of kappa = 0.1 is used; boundary lubrication"
 )
 
+
+UNSAFE = "static safety C0/P0 below 1: larger permanent dents than the static load rating of ISO 76 allows"
+TOO_LIGHT = (
+    "the load of the contacts is below a maker's least load against skidding, 0.01 C of ball and 0.02 C of roller "
+    "bearings: elements may slide"
+)
 
 AnySolution = TypeVar("AnySolution", bound=AbstractSolution)
 
@@ -84,6 +91,9 @@ def with_life(scene: AbstractScene, solution: AnySolution) -> AnySolution:
     checks = dict(solution.checks)
     if life.modification_factor is not None and life.viscosity_ratio is not None:
         checks[THIN_WARNING] = life.viscosity_ratio < KAPPA_RANGE[0]
+    if life.static_safety is not None:
+        checks[UNSAFE] = life.static_safety < 1.0
+    checks[TOO_LIGHT] = life.equivalent_load < life.minimum_load
     steep = not scene.line_contacts and scene.geometry.contact_angle is not None
     if steep and life.catalogue_load is not None:
         checks[STEEP_WARNING] = scene.drawing_angle > LARGEST_ANGLE * (1.0 + 1e-12)
@@ -93,7 +103,7 @@ def with_life(scene: AbstractScene, solution: AnySolution) -> AnySolution:
     return dataclasses.replace(solution, life=life, checks=checks, notes=notes)
 
 
-def ineffective_inputs(scene: AbstractBearing, life: Life) -> list[str]:
+def ineffective_inputs(scene: AbstractBearing, life: Life) -> list[Information]:
     """Notes on fields of the rating without effect: they need what the scene lacks, or belong to another kind."""
     rating = scene.rating
     assert rating is not None
@@ -117,7 +127,7 @@ def ineffective_inputs(scene: AbstractBearing, life: Life) -> list[str]:
         found.append(f"rating.{name} has no effect without {lacking}")
     if rating.roughness_rings is not None and life.film_ratio_inner is None:
         found.append("rating.roughness_rings and roughness_elements have no effect without films")
-    return found
+    return [Information(text) for text in found]
 
 
 def bearing_life(scene: object, solution: Solution) -> Life:
@@ -182,9 +192,32 @@ def bearing_life(scene: object, solution: Solution) -> Life:
         reliability_factor=jnp.asarray(reliability),
         contact_static_safety=contact_safety(heavier.pressure_inner, heavier.pressure_outer, rated.family),
         family=rated.family,
+        reliability=rating.reliability,
         **more,
     )
     return jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), life)
+
+
+def catalogue_life(scene: AbstractBearing) -> CatalogueLife:
+    """Life of ISO 281 under the loads that the scene gives, without a solve: also of loads without an equilibrium, such
+    as a radial load alone on a tapered roller bearing, whose axial force an opposed bearing gives.
+
+    NaN where the catalogues' formulas have none: under a moment, with a given displacement, with an axial load on
+    flanges or in the direction in which the bearing carries none.
+
+    **Raises:** `ValueError` for a scene without a rating.
+    """
+    if scene.rating is None:
+        raise ValueError("catalogue_life needs a scene with a rating, got one without")
+    operation: AbstractOperation = scene.operation
+    rated = rated_by(scene.rated_contacts(None, None), scene.rating, _turning(operation))
+    load = jnp.asarray(jnp.nan) if rated.catalogue_load is None else rated.catalogue_load
+    axial = operation.load("axial")
+    if axial is not None:
+        load = jnp.where((scene.one_way_angle > 0) & (jnp.asarray(axial) < 0), jnp.nan, load)
+    life = (rated.dynamic_capacity / load) ** EXPONENTS[rated.family]
+    hours = life * HOURS / jnp.abs(jnp.asarray(operation.inner_speed) - operation.outer_speed)
+    return CatalogueLife(L10h=hours, L10=life, catalogue_load=load, dynamic_capacity=rated.dynamic_capacity)
 
 
 def _turning(operation: AbstractOperation) -> tuple[Bool[Array, ""], Bool[Array, ""]]:

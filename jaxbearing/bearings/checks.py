@@ -13,6 +13,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array
 
+from .._checks import Information
 from ..contacts import Gupta
 from ..contacts.laws import SPEED_SMOOTHING
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
@@ -89,7 +90,7 @@ def _skid(result: SolvedBearing) -> Excess:
 
 
 def _hot(result: SolvedBearing) -> Excess:
-    text = "oil in the contacts of {place} beyond 200 degC: the oil laws are extrapolated"
+    text = Information("oil in the contacts of {place} beyond 200 degC: the oil laws are extrapolated")
 
     def hot(contacts: Contacts) -> Array | None:
         return None if contacts.temperature is None else contacts.most(contacts.temperature) - FITTED_TEMPERATURES[1]
@@ -98,7 +99,7 @@ def _hot(result: SolvedBearing) -> Excess:
 
 
 def _sheared(result: SolvedBearing) -> Excess:
-    text = "mean contact pressure beyond 1.8 GPa on {place}: the traction rheology is extrapolated"
+    text = Information("mean contact pressure beyond 1.8 GPa on {place}: the traction rheology is extrapolated")
 
     def sheared(contacts: Contacts) -> Array | None:
         if contacts.laws is None or contacts.laws.traction is None:
@@ -109,7 +110,7 @@ def _sheared(result: SolvedBearing) -> Excess:
 
 
 def _rough(result: SolvedBearing) -> Excess:
-    text = (
+    text = Information(
         "asperities carry more than 1 % of a load on {place} at a pressure beyond 0.5 GPa: their share is known to a "
         "factor of 10 there, and so is the boundary friction"
     )
@@ -128,10 +129,11 @@ def _gupta(result: SolvedBearing) -> Excess:
         if not isinstance(thermal, Gupta) or contacts.mean_speed is None or inlet is None:
             return {}
         loading = contacts.most(thermal.thermal_loading(contacts.mean_speed, inlet))
-        found = contacts.said("thermal loading beyond 20 on {place}: Gupta's factor is extrapolated", loading - 20.0)
+        text = Information("thermal loading beyond 20 on {place}: Gupta's factor is extrapolated")
+        found = contacts.said(text, loading - 20.0)
         if contacts.sliding is not None:
             slide = contacts.most(thermal.slide_ratio(contacts.mean_speed, contacts.sliding))
-            text = "slide ratio of a loaded contact beyond 2 on {place}: Gupta's factor is extrapolated"
+            text = Information("slide ratio of a loaded contact beyond 2 on {place}: Gupta's factor is extrapolated")
             found |= contacts.said(text, slide - 2.0)
         return found
 
@@ -248,8 +250,8 @@ def _inlet(scene: AbstractBearing) -> Excess:
         return {}
     temperature, (low, high) = jnp.asarray(scene.operation.oil_temperature), FITTED_TEMPERATURES
     return {
-        "inlet oil beyond 200 degC: the oil laws are extrapolated": temperature - high,
-        "inlet oil below -20 degC: the oil laws are extrapolated": low - temperature,
+        Information("inlet oil beyond 200 degC: the oil laws are extrapolated"): temperature - high,
+        Information("inlet oil below -20 degC: the oil laws are extrapolated"): low - temperature,
     }
 
 
@@ -265,7 +267,7 @@ def _wide_land(scene: AbstractBearing) -> Excess:
     if cage is None or not scene.slips:
         return {}
     diameter = cage.bore(scene.geometry) if cage.guidance == "inner_ring" else cage.outside(scene.geometry)
-    text = "land wider than a third of its radius: the short journal film overestimates"
+    text = Information("land wider than a third of its radius: the short journal film overestimates")
     return {text: jnp.asarray(cage.land_width - diameter / 6.0)}
 
 
@@ -275,7 +277,7 @@ def _thick_rim(scene: AbstractBearing) -> Excess:
     for side, ring in enumerate(rings):
         if ring is None or not ring.harmonics:
             continue
-        text = (
+        text = Information(
             f"the {('inner', 'outer')[side]} ring is thicker than a fifth of its radius: the bending of a thin ring is "
             "wrong by about the square of this ratio, 4 % and more"
         )
@@ -283,7 +285,7 @@ def _thick_rim(scene: AbstractBearing) -> Excess:
         found[text] = thickness / ring.centroid_radius(raceway) - THICK_RIM
         seat = (scene.geometry.bore, scene.geometry.outside_diameter)[side]
         if seat is not None:
-            text = (
+            text = Information(
                 f"{ring.part}.thickness is more than the wall between raceway and seat: a section of this height bends "
                 "less than the ring"
             )

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from .._checks import about
 from ..mounting import PartTemperatures
 from ..numerics.checks import known, nan_unless
 from ..numerics.refusals import refusals_of
@@ -229,7 +230,7 @@ def heat_paths(network: Network, temperatures: Float[Array, " node"], losses: No
 
 def thermal_notes(scene: AbstractBearing) -> tuple[str, ...]:
     """Notes for the user: what the network assumes, and what a steady state does not say."""
-    return f"thermal: {START_NOTE}", *network_notes(scene)
+    return about("thermal", START_NOTE), *network_notes(scene)
 
 
 def network_notes(scene: AbstractBearing) -> tuple[str, ...]:

@@ -28,6 +28,7 @@ def bad_input(notes: list[str] | None = None) -> Iterator[None]:
 
     **Arguments:** `notes`: list that gets notes on the input; left out: they are printed on stderr.
     """
+    from .._checks import Information
     from ..scenes.errors import MeanUsedWarning, PresetUsedWarning, SceneError, StatesUnusedWarning
     from ..scenes.input_files import remembered_inputs
 
@@ -42,7 +43,8 @@ def bad_input(notes: list[str] | None = None) -> Iterator[None]:
             if not issubclass(one.category, notable):
                 warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
             elif str(one.message) not in said:
-                said.append(str(one.message))
+                unused = issubclass(one.category, StatesUnusedWarning)
+                said.append(Information(one.message) if unused else str(one.message))
     except SceneError as error:
         refuse(str(error) + _of_a_bearing(error))
     for text in said if notes is None else ():

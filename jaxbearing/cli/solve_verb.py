@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
@@ -16,6 +17,7 @@ from .terminal import console
 if TYPE_CHECKING:
     from .._scene import AbstractScene, AbstractSolution
     from ..bearings.ball.scene import BallBearing
+    from ..life.result import CatalogueLife
 
 OutOption = Annotated[
     Path | None, typer.Option("--out", metavar="FILE.nc", help="Write all results, with units, as NetCDF.")
@@ -32,7 +34,8 @@ FullOption = Annotated[
     bool,
     typer.Option(
         "--full",
-        help="All of a bearing on the screen: each loaded element, spin, heat, seats, oil supply, frequencies.",
+        help="All of a bearing on the screen: assumptions, each loaded element, spin, heat, seats, oil supply, "
+        "frequencies.",
     ),
 ]
 
@@ -97,7 +100,10 @@ def solve(
         solution = dataclasses.replace(solution, notes=(*solution.notes, *said)) if said else solution
         failure = "" if bool(solution.converged) else solution.failure()
         moved = extra.moved(model, solution, slopes, asked, scene, assignments)
-        show = lambda: _print_json(solution, moved) if as_json else _print_screen(solution, moved, label, full)
+        needless = _without_equilibrium(model, solution)
+        show = lambda: (
+            _print_json(solution, moved, needless) if as_json else _print_screen(solution, moved, label, full, needless)
+        )
         bridge = lambda _: _write_line_contact(wanted, solution, scene, changes)
         taken = "" if as_json else f"wrote {contact}: take it as a scene, jaxbearing solve {contact}"
         outputs = (
@@ -169,21 +175,56 @@ def _write_plot(solution: "AbstractSolution", label: str, plot: Path, model: "Ab
     save_plot(plot_solution(solution, label, model), plot)
 
 
-def _print_json(solution: "AbstractSolution", moved: extra.Moved | None) -> None:
+def _without_equilibrium(model: "AbstractScene", solution: "AbstractSolution") -> "CatalogueLife | None":
+    """The life by catalogue formulas of a bearing whose loads have no equilibrium; `None` of all others."""
+    from ..bearings.bearing import AbstractBearing
+    from ..bearings.solution import Solution
+    from ..numerics.status import Status
+
+    if not isinstance(model, AbstractBearing) or not isinstance(solution, Solution) or model.rating is None:
+        return None
+    if int(solution.status) != Status.NO_EQUILIBRIUM:
+        return None
+    from ..bearings.bearing_life import catalogue_life
+
+    found = catalogue_life(model)
+    return found if math.isfinite(float(found.L10)) else None
+
+
+def _print_json(
+    solution: "AbstractSolution", moved: extra.Moved | None, needless: "CatalogueLife | None" = None
+) -> None:
     from ..report.json_report import solution_to_dict
 
     results = solution_to_dict(solution)
     if moved is not None:
         results |= extra.as_json(moved)
+    if needless is not None:
+        from ..report.backends.json import plain
+
+        results["catalogue_life"] = plain(needless)
     typer.echo(json.dumps(results, allow_nan=False))
 
 
-def _print_screen(solution: "AbstractSolution", moved: extra.Moved | None, label: str, full: bool) -> None:
+def _print_screen(
+    solution: "AbstractSolution",
+    moved: extra.Moved | None,
+    label: str,
+    full: bool,
+    needless: "CatalogueLife | None" = None,
+) -> None:
     from ..report.summary import print_summary
 
     print_summary(solution, label, console(), full)
+    if needless is not None:
+        from ..report.backends.screen import print_line
+        from ..report.bearing.life_facts import catalogue_fact
+
+        print_line(*catalogue_fact(needless), console())
     if not full and _has_more(solution):
-        console().print("  More: --full (each loaded element, spin, heat, seats, oil supply, frequencies)", style="dim")
+        console().print(
+            "  More: --full (assumptions, each loaded element, spin, heat, seats, oil supply, frequencies)", style="dim"
+        )
     if moved is not None and bool(solution.converged):
         extra.print_screen(moved)
 

@@ -7,6 +7,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from .._checks import Information
 from .._scene import AbstractSolution, label
 from .._types import Scalar
 from ..lubricants.ranges import FITTED_TEMPERATURES
@@ -196,8 +197,8 @@ def range_checks(scene: EHLLineContact, scales: Scales, film: Scalar | None = No
         )
         missed = {text: jnp.asarray(jnp.maximum(by_mesh, by_inlet) > model.accuracy)}
     return missed | {
-        "oil beyond 200 degC: the oil laws are extrapolated": temperature > high,
-        "oil below -20 degC: the oil laws are extrapolated": temperature < low,
+        Information("oil beyond 200 degC: the oil laws are extrapolated"): temperature > high,
+        Information("oil below -20 degC: the oil laws are extrapolated"): temperature < low,
         "Hertz pressure beyond 4.2 GPa: the bodies would yield": scales.hertz_pressure > 4.2e9,
         "contact.inlet is too short for this light load: the films are more than 0.5 % low": (
             jnp.asarray(by_inlet > LARGEST_CUT_ERROR)

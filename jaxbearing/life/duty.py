@@ -7,7 +7,7 @@ under the load $P = (\sum\varphi_kP_k^p)^{1/p}$. Computed with rates of damage, 
 **Evidence:** [D] from the rule that damages add up, which is Palmgren's and Miner's.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import equinox as eqx
@@ -16,9 +16,10 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from .._scene import label
+from .._types import Scalar
 from ..numerics.arguments import require_numbers
 from .basic import EXPONENTS, HOURS
-from .result import Life
+from .result import AtReliability, Life, reliability_field
 
 SUM_TOLERANCE = 1e-6
 """Difference from 1 that the sum of the shares of time may have."""
@@ -34,26 +35,31 @@ def _optional(unit: str, description: str):
     return eqx.field(default=None, metadata=label(unit, description), kw_only=True)
 
 
-class SpectrumLife(eqx.Module):
+class SpectrumLife(AtReliability):
     """Life under a load spectrum, with the names of `Life`; what a state does not have is `None`. Lives count millions
     of revolutions of the rings against each other."""
 
-    Lnmr_hours: _Number | None = _optional("h", "modified reference rating life of the spectrum")
-    Lnmr: _Number | None = _optional("1", "modified reference rating life of the spectrum, million revolutions")
-    L10r_hours: _Number = _result("h", "basic reference rating life of the spectrum")
-    L10r: _Number = _result("1", "basic reference rating life of the spectrum, million revolutions")
+    Lnmr_hours: _Number | None = _optional("h", "modified reference rating life of the spectrum at the reliability n")
+    Lnmr: _Number | None = _optional(
+        "1", "modified reference rating life of the spectrum at the reliability n, million revolutions"
+    )
+    L10r_hours: _Number = _result("h", "basic reference rating life of the spectrum at 90 % reliability")
+    L10r: _Number = _result("1", "basic reference rating life of the spectrum at 90 % reliability, million revolutions")
     L10mh: _Number | None = _optional("h", "modified rating life of ISO 281 of the spectrum at 90 % reliability")
     L10m: _Number | None = _optional(
         "1", "modified rating life of ISO 281 of the spectrum at 90 % reliability, million revolutions"
     )
-    L10h: _Number | None = _optional("h", "basic rating life of ISO 281 of the spectrum")
-    L10: _Number | None = _optional("1", "basic rating life of ISO 281 of the spectrum, million revolutions")
+    L10h: _Number | None = _optional("h", "basic rating life of ISO 281 of the spectrum at 90 % reliability")
+    L10: _Number | None = _optional(
+        "1", "basic rating life of ISO 281 of the spectrum at 90 % reliability, million revolutions"
+    )
     equivalent_load: _Number = _result("N", "constant load P at which ISO 281 gives the L10r of the spectrum")
     catalogue_load: _Number | None = _optional("N", "constant load P at which ISO 281 gives the L10 of the spectrum")
     mean_speed: _Number = _result("rad/s", "mean speed of the rings against each other")
     revolutions: _States = _result("1", "share of each state in the revolutions")
     damage: _States = _result("1", "share of each state in the damage, by the modified life where all states have it")
     reference_damage: _States = _result("1", "share of each state in the damage by the basic reference life")
+    reliability: float = reliability_field()
 
 
 def revolution_shares(time_shares: _States, speeds: _States) -> _States:
@@ -90,31 +96,21 @@ def spectrum_life(lives: Sequence[Life], time_shares: _States, speeds: _States) 
     **Arguments:** `lives` of the states; `time_shares`, which add up to 1; `speeds` of the rings against each other,
     rad/s.
 
-    **Raises:** `ValueError` for states of bearings of different families.
+    **Raises:** `ValueError` for states of different families or reliabilities.
     """
     families = {life.family for life in lives}
     if len(families) != 1:
         raise ValueError(f"the states are of one bearing, got {' and '.join(sorted(families))} bearings")
+    reliabilities = {life.reliability for life in lives}
+    if len(reliabilities) != 1:
+        raise ValueError(f"rating.reliability: expected the same in all states, got {sorted(reliabilities)}")
     exponent = EXPONENTS[families.pop()]
     of: Any = lambda name: jnp.stack([jnp.asarray(getattr(life, name)) for life in lives])
-    all_have = lambda name: all(getattr(life, name) is not None for life in lives)
     shares = jnp.asarray(time_shares)
     revolutions = revolution_shares(shares, speeds)
     speed = jnp.sum(shares * jnp.abs(jnp.asarray(speeds)))
-    rates = {"L10r": of("damage_rate")}
-    if all_have("modification_factor"):
-        rates["Lnmr"] = rates["L10r"] / (of("reliability_factor") * of("modification_factor"))
-    if all_have("catalogue_load"):
-        rates["L10"] = (of("catalogue_load") / of("dynamic_capacity")) ** exponent
-    if all_have("catalogue_factor"):
-        rates["L10m"] = rates["L10"] / of("catalogue_factor")
-    found: dict[str, Any] = {}
-    for name, each in rates.items():
-        rate = miner_rate(revolutions, each)
-        damaged = rate > 0
-        # a rate that is NaN has no life, not an endless one
-        life = jnp.where(damaged, 1.0 / jnp.where(damaged, rate, 1.0), jnp.where(rate == 0, jnp.inf, jnp.nan))
-        found |= {name: life, _IN_HOURS[name]: life * HOURS / speed}
+    found = lives_of(miner_rates(lives, revolutions), speed)
+    rates = {name: jnp.stack(each) for name, each in common_rates(map(damage_rates, lives)).items()}
     if "L10" in rates:
         found["catalogue_load"] = mean_load(revolutions, of("catalogue_load"), exponent)
     return SpectrumLife(
@@ -123,12 +119,56 @@ def spectrum_life(lives: Sequence[Life], time_shares: _States, speeds: _States) 
         revolutions=revolutions,
         damage=_parts(revolutions * rates.get("Lnmr", rates["L10r"])),
         reference_damage=_parts(revolutions * rates["L10r"]),
+        reliability=reliabilities.pop(),
         **found,
     )
 
 
-_IN_HOURS = {"Lnmr": "Lnmr_hours", "L10r": "L10r_hours", "L10m": "L10mh", "L10": "L10h"}
+IN_HOURS = {"Lnmr": "Lnmr_hours", "L10r": "L10r_hours", "L10m": "L10mh", "L10": "L10h"}
 """Life in revolutions -> the same in hours."""
+
+
+def damage_rates(life: Life) -> dict[str, Array]:
+    """1/L by the name of each kind of life that a bearing has, per million revolutions; 0 without load."""
+    rates = {"L10r": life.damage_rate}
+    if life.modification_factor is not None:
+        rates["Lnmr"] = life.damage_rate / (life.reliability_factor * life.modification_factor)
+    if life.catalogue_load is not None:
+        rates["L10"] = (life.catalogue_load / life.dynamic_capacity) ** EXPONENTS[life.family]
+    factor = life.catalogue_factor
+    if factor is not None:
+        rates["L10m"] = rates["L10"] / factor
+    return rates
+
+
+def common_rates(rates: Iterable[Mapping[str, Array]]) -> dict[str, list[Array]]:
+    """The rates of each kind of life that all states, or all bearings, have."""
+    each = list(rates)
+    return {name: [one[name] for one in each] for name in IN_HOURS if all(name in one for one in each)}
+
+
+def miner_rates(lives: Sequence[Life], revolutions: _States) -> dict[str, Array]:
+    """1/L of one bearing under all states, of each kind that all states have. **Arguments:** as `miner_rate`."""
+    rates = common_rates(map(damage_rates, lives))
+    return {name: miner_rate(revolutions, jnp.stack(each)) for name, each in rates.items()}
+
+
+def lives_of(rates: Mapping[str, Array], speed: Scalar) -> dict[str, Array]:
+    """Lives by their names, in millions of revolutions and in hours, from 1/L by kind.
+
+    **Arguments:** `speed`: of the rings against each other, rad/s.
+    """
+    found = {}
+    for name, rate in rates.items():
+        life = life_of(rate)
+        found |= {name: life, IN_HOURS[name]: life * HOURS / jnp.abs(speed)}
+    return found
+
+
+def life_of(rate: Float[Array, "..."]) -> Float[Array, "..."]:
+    """1/rate; infinite without damage. A rate that is NaN has no life, not an endless one."""
+    damaged = rate > 0
+    return jnp.where(damaged, 1.0 / jnp.where(damaged, rate, 1.0), jnp.where(rate == 0, jnp.inf, jnp.nan))
 
 
 def _parts(damages: _States) -> _States:

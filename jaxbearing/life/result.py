@@ -5,7 +5,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._scene import derived, label
-from .basic import MINIMUM_LOADS
+from .basic import MINIMUM_LOADS, RELIABILITY_FACTORS
 from .modification import Family, modification_factor
 
 _Number = Float[Array, ""]
@@ -19,17 +19,79 @@ def _optional(unit: str, description: str):
     return eqx.field(default=None, metadata=label(unit, description), kw_only=True)
 
 
-class Life(eqx.Module):
-    """Life of a solved bearing; what the scene does not model is `None`. Lives count millions of revolutions of the
-    rings against each other. The order is that of the reports: the modified life is the one to design by."""
+def reliability_field():
+    """Field of the reliability n that a rating asks for (structure)."""
+    described = label("1", "reliability n of Lnmr, Lnr, Lnm and Ln")
+    return eqx.field(static=True, default=0.90, kw_only=True, metadata=described)
 
-    Lnmr_hours: _Number | None = _optional("h", "modified reference rating life")
-    Lnmr: _Number | None = _optional("1", "modified reference rating life a_1 a_ISO L10r, million revolutions")
-    L10r_hours: _Number = _result("h", "basic reference rating life")
-    L10r: _Number = _result("1", "basic reference rating life, million revolutions")
-    L10h: _Number | None = _optional("h", "basic rating life of ISO 281 by catalogue formulas")
-    L10: _Number | None = _optional("1", "basic rating life of ISO 281 by catalogue formulas, million revolutions")
-    reliability_factor: _Number = _result("1", "a_1")
+
+class AtReliability(eqx.Module):
+    """Lives at the reliability n of the rating: a_1 times those at 90 %, which the classes that derive from this have.
+
+    a_1 is that of ISO 281 for one bearing, and holds for several together as well: their lives at n make a life of the
+    system at n by the same law of survival as their lives at 90 % do (`shafts.lives`).
+    """
+
+    reliability: eqx.AbstractVar[float]
+
+    def _reduced(self, name: str) -> Array | None:
+        life: Array | None = getattr(self, name)
+        return None if life is None else jnp.asarray(RELIABILITY_FACTORS[self.reliability] * life)
+
+    @derived("h", "basic reference rating life a_1 L10r at the reliability n")
+    def Lnr_hours(self) -> Float[Array, "*batch"] | None:
+        return self._reduced("L10r_hours")
+
+    @derived("1", "basic reference rating life a_1 L10r at the reliability n, million revolutions")
+    def Lnr(self) -> Float[Array, "*batch"] | None:
+        return self._reduced("L10r")
+
+    @derived("h", "modified rating life a_1 a_ISO L10 of ISO 281 at the reliability n")
+    def Lnmh(self) -> Float[Array, "*batch"] | None:
+        return self._reduced("L10mh")
+
+    @derived("1", "modified rating life a_1 a_ISO L10 of ISO 281 at the reliability n, million revolutions")
+    def Lnm(self) -> Float[Array, "*batch"] | None:
+        return self._reduced("L10m")
+
+    @derived("h", "basic rating life a_1 L10 of ISO 281 at the reliability n")
+    def Lnh(self) -> Float[Array, "*batch"] | None:
+        return self._reduced("L10h")
+
+    @derived("1", "basic rating life a_1 L10 of ISO 281 at the reliability n, million revolutions")
+    def Ln(self) -> Float[Array, "*batch"] | None:
+        return self._reduced("L10")
+
+
+class CatalogueLife(eqx.Module):
+    """Life by the formulas of catalogues, from loads alone; NaN where they have none for these loads."""
+
+    L10h: _Number = _result("h", "basic rating life of ISO 281 by catalogue formulas at 90 % reliability")
+    L10: _Number = _result(
+        "1", "basic rating life of ISO 281 by catalogue formulas at 90 % reliability, million revolutions"
+    )
+    catalogue_load: _Number = _result("N", "equivalent dynamic load P of ISO 281, by X and Y")
+    dynamic_capacity: _Number = _result("N", "basic dynamic load rating C")
+
+
+class Life(AtReliability):
+    """Life of a solved bearing; what the scene does not model is `None`. Lives count millions of revolutions of the
+    rings against each other. The order is that of the reports: the modified life is the one to design by.
+
+    Lives whose names begin with L10 are those that 90 % of bearings reach; those whose names begin with Ln are those
+    that the part `reliability` (n) reaches, which the rating asks for."""
+
+    Lnmr_hours: _Number | None = _optional("h", "modified reference rating life at the reliability n")
+    Lnmr: _Number | None = _optional(
+        "1", "modified reference rating life a_1 a_ISO L10r at the reliability n, million revolutions"
+    )
+    L10r_hours: _Number = _result("h", "basic reference rating life at 90 % reliability")
+    L10r: _Number = _result("1", "basic reference rating life at 90 % reliability, million revolutions")
+    L10h: _Number | None = _optional("h", "basic rating life of ISO 281 by catalogue formulas at 90 % reliability")
+    L10: _Number | None = _optional(
+        "1", "basic rating life of ISO 281 by catalogue formulas at 90 % reliability, million revolutions"
+    )
+    reliability_factor: _Number = _result("1", "a_1, by which a life at the reliability n is shorter than at 90 %")
     modification_factor: _Number | None = _optional("1", "a_ISO")
     viscosity_ratio: _Number | None = _optional("1", "kappa, viscosity over that of an adequate film")
     film_ratio_inner: Float[Array, " element"] | None = _optional(
@@ -52,6 +114,7 @@ class Life(eqx.Module):
     fatigue_load_limit: _Number | None = _optional("N", "fatigue load limit C_u")
     damage_rate: _Number = _result("1", "1/L10r, per million revolutions: 0 without load, smooth")
     family: Family = eqx.field(static=True, default="ball", kw_only=True)
+    reliability: float = reliability_field()
 
     @derived("1", "static safety C0/P0 of ISO 76")
     def static_safety(self) -> Float[Array, "*batch"] | None:

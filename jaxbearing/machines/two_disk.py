@@ -10,6 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from .._checks import Information
 from .._scene import AbstractScene, AbstractSolution, label, number, optional_number
 from .._types import Scalar, Values
 from ..contacts import (
@@ -366,7 +367,7 @@ def solve_two_disk(scene: TwoDisk, options: NewtonOptions | None = None) -> TwoD
     modelled = lambda field: None if field is None else shown(field)
     excess = _range_excess(scene, contact, load)
     excess |= {
-        "oil in the contacts beyond 200 degC: the oil laws are extrapolated": _hottest_excess(
+        Information("oil in the contacts beyond 200 degC: the oil laws are extrapolated"): _hottest_excess(
             temperature, traction, good
         )
     }
@@ -412,9 +413,9 @@ def _range_excess(scene: TwoDisk, contact: LineContact | PointContact, load: Arr
     operation, (low, high) = scene.operation, FITTED_TEMPERATURES
     temperature, slide = jnp.asarray(operation.temperature), jnp.max(jnp.abs(operation.slide_to_roll))
     excess = {
-        "inlet oil beyond 200 degC: the oil laws are extrapolated": jnp.max(temperature) - high,
-        "inlet oil below -20 degC: the oil laws are extrapolated": low - jnp.min(temperature),
-        "mean contact pressure beyond 1.8 GPa: the traction rheology is extrapolated": jnp.max(
+        Information("inlet oil beyond 200 degC: the oil laws are extrapolated"): jnp.max(temperature) - high,
+        Information("inlet oil below -20 degC: the oil laws are extrapolated"): low - jnp.min(temperature),
+        Information("mean contact pressure beyond 1.8 GPa: the traction rheology is extrapolated"): jnp.max(
             contact.mean_pressure(load)
         )
         - FITTED_PRESSURE,
@@ -424,7 +425,7 @@ def _range_excess(scene: TwoDisk, contact: LineContact | PointContact, load: Arr
     if isinstance(thermal, Gupta):
         speed = jnp.asarray(operation.entrainment_speed)
         loading = thermal.thermal_loading(speed[:, None], scene.oil.at(temperature[None, :]))
-        excess["thermal loading beyond 20: Gupta's factor is extrapolated"] = jnp.max(loading) - 20.0
+        excess[Information("thermal loading beyond 20: Gupta's factor is extrapolated")] = jnp.max(loading) - 20.0
     return excess
 
 

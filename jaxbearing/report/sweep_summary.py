@@ -26,7 +26,9 @@ _MAIN = (
     "film_minimum",
     "life_Lnmr_hours",
     "life_L10r_hours",
+    "system_Lnmr_hours",
     "system_L10r_hours",
+    "system_L10h",
     "bearing_largest_load",
     "torque_power_loss",
 )

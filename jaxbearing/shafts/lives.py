@@ -5,8 +5,15 @@ $\sum_b(L/L_b)^{e_b} = 1$ with the Weibull slopes e, 10/9 of ball and 9/8 of rol
 damage of all states adds up along each bearing first (Palmgren and Miner), then the bearings make the system: damage
 adds up along one bearing's history, survival multiplies over bearings.
 
+With one slope for all this is the $L = (\sum_bL_b^{-e})^{-1/e}$ of catalogues. Ball and roller bearings on one shaft
+keep their own slopes, and the sum has no closed solution then. The law is the same for each kind of life. Lives at
+another reliability n than 90 % have $\ln n$ in the place of $\ln0.9$ and make a life of the system at n, so that all
+bearings must be rated for the same one.
+
 **Evidence:** [D] from the distribution of Weibull; the slopes are those of ISO 281's reference life.
 """
+
+from collections.abc import Mapping, Sequence
 
 import jax
 import jax.numpy as jnp
@@ -14,7 +21,10 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from .._types import Scalar
+from ..life.duty import common_rates, life_of, lives_of
+from ..life.result import Life
 from ..numerics.arguments import require_numbers
+from .solution import SystemLifeResult
 
 SLOPES = {"ball": 10.0 / 9.0, "roller": 9.0 / 8.0}
 """Weibull slopes of the standards, by family."""
@@ -57,12 +67,6 @@ def system_life(lives: Float[Array, " bearing"], slopes: Float[Array, " bearing"
     return life_of(system_rate(1.0 / jnp.asarray(lives), slopes))
 
 
-def life_of(rate: Float[Array, ""]) -> Float[Array, ""]:
-    """1/rate; infinite without damage."""
-    damaged = rate > 0
-    return jnp.where(damaged, 1.0 / jnp.where(damaged, rate, 1.0), jnp.where(rate == 0, jnp.inf, jnp.nan))
-
-
 def slopes_of(families: list[str], weibull: Scalar | None) -> Float[Array, " bearing"]:
     """Weibull slope of each bearing. **Arguments:** "ball" or "roller"; one slope for all, or `None`."""
     if weibull is not None:
@@ -70,6 +74,20 @@ def slopes_of(families: list[str], weibull: Scalar | None) -> Float[Array, " bea
     return jnp.asarray([SLOPES[family] for family in families])
 
 
-def hourly_rates(rates: Float[Array, "..."], speed: Scalar) -> Float[Array, "..."]:
-    """1/h from 1/10^6 revolutions. **Arguments:** `speed`: rad/s."""
-    return rates * jnp.abs(speed) * 3600.0 / (2.0 * jnp.pi * 1e6)
+def system_of(
+    lives: Sequence[Life], rates: Sequence[Mapping[str, Array]], weibull: Scalar | None, speed: Scalar
+) -> SystemLifeResult:
+    """Life of all bearings together, of each kind that all of them have; no Lnmr of bearings that are rated for
+    different reliabilities.
+
+    **Arguments:** `lives` of the bearings; `rates`: 1/L of each by kind (`life.duty.damage_rates`); `weibull`: see
+    `slopes_of`; `speed` of the shaft, rad/s.
+    """
+    slopes = slopes_of([life.family for life in lives], weibull)
+    reliabilities = {life.reliability for life in lives}
+    kinds = common_rates(rates)
+    if len(reliabilities) > 1:
+        kinds.pop("Lnmr", None)
+        reliabilities = {0.90}
+    together = jax.vmap(system_rate, in_axes=(0, None))(jnp.stack([jnp.stack(each) for each in kinds.values()]), slopes)
+    return SystemLifeResult(**lives_of(dict(zip(kinds, together, strict=True)), speed), reliability=reliabilities.pop())

@@ -13,7 +13,8 @@ from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractSolution, label
 from ..bearings.solution import FailureCause, RingDisplacement, Solution, causes_in_words
-from ..life.result import Life
+from ..life.duty import SpectrumLife
+from ..life.result import AtReliability, Life, reliability_field
 from ..numerics.status import Status
 from .heat import ShaftThermalResult
 
@@ -129,25 +130,61 @@ class TorqueBalance(eqx.Module):
     power_loss: _Number = eqx.field(metadata=label("W", "sum of the losses of all bearings"))
 
 
-class SystemLifeResult(eqx.Module):
-    """Life of all bearings together: the time that 90 % of such shafts survive with all bearings."""
+def _of_system(unit: str, description: str):
+    return eqx.field(default=None, kw_only=True, metadata=label(unit, description))
 
-    L10r: _Number = eqx.field(metadata=label("1", "life of the system, million revolutions of the shaft"))
-    L10r_hours: _Number = eqx.field(metadata=label("h", "life of the system"))
+
+class SystemLifeResult(AtReliability):
+    """Life of all bearings together, of each kind that all of them have: the time that 90 % of such shafts, or the part
+    `reliability`, survive with all bearings. Lives count millions of revolutions of the shaft.
+
+    With bearings that are rated for different reliabilities there is no Lnmr of the system.
+    """
+
+    Lnmr_hours: _Number | None = _of_system("h", "modified reference rating life of the system at the reliability n")
+    Lnmr: _Number | None = _of_system(
+        "1", "modified reference rating life of the system at the reliability n, million revolutions"
+    )
+    L10r_hours: _Number = eqx.field(
+        kw_only=True, metadata=label("h", "basic reference rating life of the system at 90 % reliability")
+    )
+    L10r: _Number = eqx.field(
+        kw_only=True,
+        metadata=label("1", "basic reference rating life of the system at 90 % reliability, million revolutions"),
+    )
+    L10mh: _Number | None = _of_system("h", "modified rating life of ISO 281 of the system at 90 % reliability")
+    L10m: _Number | None = _of_system(
+        "1", "modified rating life of ISO 281 of the system at 90 % reliability, million revolutions"
+    )
+    L10h: _Number | None = _of_system("h", "basic rating life of ISO 281 of the system at 90 % reliability")
+    L10: _Number | None = _of_system(
+        "1", "basic rating life of ISO 281 of the system at 90 % reliability, million revolutions"
+    )
+    reliability: float = reliability_field()
 
 
 class DutyResult(eqx.Module):
     """A duty cycle: first the damage of all states adds up for each bearing, then the bearings make the system.
 
-    **Arguments:** `names`: of the states; `bearing_hours`: life of each rated bearing by its name; `system_hours`:
-    `None` if a bearing has no rating; `states`: the solutions of all states, stacked along a first axis of every array.
+    **Arguments:** `lives`: of each rated bearing by its name; `system`: `None` if a bearing has no rating; `names`: of
+    the states; `states`: their solutions, stacked along a first axis of every array.
     """
 
-    bearing_hours: dict[str, _Number]
-    system_hours: _Number | None = eqx.field(metadata=label("h", "life of the system under the duty cycle"))
+    lives: dict[str, SpectrumLife]
+    system: SystemLifeResult | None
     shares: Float[Array, " state"] = eqx.field(metadata=label("1", "shares of the time"))
     states: "ShaftSolution"
     names: tuple[str, ...] = eqx.field(static=True)
+
+    @property
+    def bearing_hours(self) -> dict[str, Float[Array, "*batch"]]:
+        """L10r of each rated bearing, h."""
+        return {name: life.L10r_hours for name, life in self.lives.items()}
+
+    @property
+    def system_hours(self) -> Float[Array, "*batch"] | None:
+        """L10r of the system, h."""
+        return None if self.system is None else self.system.L10r_hours
 
 
 class ShaftSolution(AbstractSolution):

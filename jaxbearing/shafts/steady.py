@@ -8,9 +8,11 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
+from .._checks import about
 from ..bearings.bearing import AbstractBearing
 from ..bearings.bearing_life import with_life
 from ..bearings.solution import RING_FREEDOMS, FailureCause, RingDisplacement, Solution
+from ..life.duty import SpectrumLife, damage_rates, miner_rates, revolution_shares, spectrum_life
 from ..numerics.known_roots import own_roots
 from ..numerics.newton import NewtonOptions
 from ..numerics.precision import as_float
@@ -28,7 +30,7 @@ from .batches import (
     pressure_centre,
     with_carried_loads,
 )
-from .lives import hourly_rates, life_of, slopes_of, system_rate
+from .lives import system_of
 from .mounting import LinearBearing
 from .preload import Mounted, groups_of, mount
 from .scene import Place, ShaftSystem
@@ -102,15 +104,16 @@ def _any_state(checks: Mapping[str, Bool[Array, ""]]) -> dict[str, Bool[Array, "
 
 def _duty_lives(
     system: ShaftSystem, found: ShaftSolution, shares: Array, speeds: Array
-) -> tuple[dict[str, Array], Array | None]:
-    """Lives of all bearings under the duty cycle, h, by name, and that of the system; none without ratings."""
-    lives = {name: one.life for name, one in found.bearings.items() if one.life is not None}
-    rates = {name: jnp.sum(shares * hourly_rates(life.damage_rate, speeds)) for name, life in lives.items()}
-    hours = {name: life_of(rate) for name, rate in rates.items()}
+) -> tuple[dict[str, SpectrumLife], SystemLifeResult | None]:
+    """Lives of all rated bearings under the duty cycle by name, and that of the system."""
+    rated = {name: one.life for name, one in found.bearings.items() if one.life is not None}
+    states = lambda life: [jax.tree.map(lambda leaf, at=at: leaf[at], life) for at in range(len(shares))]
+    lives = {name: spectrum_life(states(life), shares, speeds) for name, life in rated.items()}
     if len(lives) < len(found.bearings):
-        return hours, None
-    slopes = slopes_of([life.family for life in lives.values()], system.life.weibull)
-    return hours, life_of(system_rate(jnp.stack(list(rates.values())), slopes))
+        return lives, None
+    rates = [miner_rates(states(life), revolution_shares(shares, speeds)) for life in rated.values()]
+    mean_speed = jnp.sum(shares * jnp.abs(speeds))
+    return lives, system_of(list(rated.values()), rates, system.life.weibull, mean_speed)
 
 
 def _solve(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
@@ -267,8 +270,8 @@ def _bearings(
                 sliding_difference=None if apart is None else apart[number],
             )
             if one is not None:
-                checks |= {f"{place.name}: {text}": flag for text, flag in one.checks.items()}
-                notes += [f"{place.name}: {note}" for note in one.notes]
+                checks |= {about(place.name, text): flag for text, flag in one.checks.items()}
+                notes += [about(place.name, note) for note in one.notes]
             if apart is not None:
                 notes.append(f"{place.name}: {SLIDING_APART}")
             if one is not None and _has_angle(place):
@@ -359,10 +362,7 @@ def _system_life(system: ShaftSystem, found: dict[str, BearingOnShaft]) -> Syste
     rated = [life for life in lives if life is not None]
     if len(rated) < len(lives):
         return None
-    rates = jnp.stack([life.damage_rate for life in rated])
-    slopes = slopes_of([life.family for life in rated], system.life.weibull)
-    rate = system_rate(rates, slopes)
-    return SystemLifeResult(L10r=life_of(rate), L10r_hours=life_of(hourly_rates(rate, system.shaft.speed)))
+    return system_of(rated, list(map(damage_rates, rated)), system.life.weibull, system.shaft.speed)
 
 
 def _nodes(system: ShaftSystem, axis: Axis, parts: Parts, position: Float[Array, " bearing"]) -> ShaftNodes:

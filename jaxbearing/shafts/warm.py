@@ -15,6 +15,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from .._checks import about
 from ..bearings.bearing import AbstractBearing
 from ..bearings.heat import bearing_heat, bearing_network, heat_capacities, inlet_temperature, rings_of
 from ..bearings.warm import MOST_BROYDEN, at_temperatures, heat_paths, network_notes
@@ -161,7 +162,7 @@ def _answer(system: ShaftSystem, warm: _Warm, state: ThermalState) -> ShaftSolut
     solution, heats = state.losses.other
     ended: ShaftSolution = state.ended.other[0]
     good = state.status == Status.CONVERGED
-    bearings, notes = dict(solution.bearings), [f"thermal: {START_NOTE}"]
+    bearings, notes = dict(solution.bearings), [about("thermal", START_NOTE)]
     results = []
     for number, name in enumerate(warm.names):
         result = _of_bearing(warm, number, state, heats[number])

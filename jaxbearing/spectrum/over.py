@@ -9,18 +9,12 @@ from rich.console import Console
 from rich.padding import Padding
 from rich.table import Table
 
+from ..life.duty import IN_HOURS
 from ..report.backends.screen import counted, headline, print_rule, print_warnings
+from ..report.bearing.life_facts import percent
 from ..report.display import digits, display_unit, number
 from .result import Spectrum
 from .tables import spectrum_to_dict
-
-_COLUMNS = {
-    "Lnmr\nh": "Lnmr_hours",
-    "L10r\nh": "L10r_hours",
-    "L10m\nh": "L10mh",
-    "L10\nh": "L10h",
-}
-"""Heading -> life in hours."""
 
 
 def print_over(
@@ -64,13 +58,14 @@ def over_columns(path: str, unit: str, values: Sequence[float], found: Sequence[
     """Heading, with the unit on a second line -> texts, one a value; lives that no value has are left out."""
     own = path.rpartition(".")[2].replace("_", " ")
     columns = {f"{own}\n{display_unit(unit)}": [number(value, unit) for value in values]}
-    for heading, name in _COLUMNS.items():
-        texts = ["-" if one.failures else _text(getattr(one.life, name)) for one in found]
+    kinds = {"Lnmr": found[0].life.reliability, "L10r": 0.90, "L10m": 0.90, "L10": 0.90}
+    for kind, reliability in kinds.items():
+        texts = ["-" if one.failures else _text(getattr(one.life, IN_HOURS[kind])) for one in found]
         if set(texts) != {"-"}:
-            columns[heading] = texts
+            columns[f"{kind}\nh, {percent(reliability)}"] = texts
     loads = ["-" if one.failures else _text(1e-3 * np.asarray(one.life.equivalent_load)) for one in found]
     safety = [_text(_least(one), 3) for one in found]
-    most = [f"{one.governing}, {_percent(one)} %" if one.governing is not None else "-" for one in found]
+    most = [f"{one.governing}, {_most(one)} %" if one.governing is not None else "-" for one in found]
     return columns | {"load\nkN": loads, "least\nC0/P0": safety, _GOVERNS: most}
 
 
@@ -92,7 +87,7 @@ def _least(found: Spectrum) -> float:
     return float("nan") if any(one is None for one in known) else float(np.min([np.asarray(one) for one in known]))
 
 
-def _percent(found: Spectrum) -> str:
+def _most(found: Spectrum) -> str:
     return digits(100.0 * float(np.max(np.asarray(found.life.damage))), 3)
 
 

@@ -7,6 +7,7 @@ import jax
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
+from .._checks import about, as_note, in_groups
 from ..bearings.solution import Solution
 from ..life.duty import SpectrumLife, governing
 from ..numerics.status import SolveError, Status
@@ -56,14 +57,16 @@ class Spectrum(eqx.Module):
 
     @property
     def warnings(self) -> list[str]:
-        """The warnings of the states, where what only some of them have names these; then the notes on the scene."""
+        """The warnings of the states, where what only some of them have names these, and the notes on the scene, in the
+        groups of `AbstractSolution.warnings`."""
         found: dict[str, list[str]] = {}
         for name, one in zip(self.names, self.solutions, strict=True):
             for text in one.warnings:
                 found.setdefault(text, []).append(name)
         every = len(self.names)
-        said = [text if len(names) == every else f"{', '.join(names)}: {text}" for text, names in found.items()]
-        return [*said, *self.notes]
+        said = [text if len(names) == every else about(", ".join(names), text) for text, names in found.items()]
+        act, assumed, information = in_groups([*said, *map(as_note, self.notes)])
+        return [*act, *assumed, *information]
 
     def raise_if_failed(self) -> None:
         """Does nothing while JAX traces.

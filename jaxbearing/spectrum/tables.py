@@ -13,6 +13,7 @@ from ..bearings.solution import Solution
 from ..numerics.status import Status
 from ..report.backends.json import finite, plain
 from ..report.backends.screen import counted, headline, pieces, print_line, print_rule, print_warnings
+from ..report.bearing.life_facts import lives_in_words, percent
 from ..report.display import digits, with_unit
 from ..report.json_report import solution_to_dict
 from ..report.labels import labelled
@@ -20,13 +21,6 @@ from ..report.page_content import Listing
 from .result import Spectrum
 
 TITLE = "Load spectrum"
-_LIVES = {
-    "Lnmr": ("Lnmr_hours", "modified life Lnmr"),
-    "L10r": ("L10r_hours", "basic reference life L10r"),
-    "L10m": ("L10mh", "ISO 281 modified L10m"),
-    "L10": ("L10h", "ISO 281 L10"),
-}
-"""Life in revolutions -> the same in hours, words."""
 
 
 def print_spectrum(
@@ -66,7 +60,7 @@ def spectrum_rows(found: Spectrum) -> tuple[list[str], list[list[str]]]:
     """Headings, their units on a second line, and a row of texts for each state; "-" for what it does not have."""
     life = found.life
     all_modified = life.Lnmr is not None
-    words = "Lnmr\nh" if all_modified else "L10r\nh"
+    words = f"Lnmr\nh, {percent(life.reliability)}" if all_modified else "L10r\nh, 90 %"
     name_of_life = "Lnmr_hours" if all_modified else "L10r_hours"
     columns: dict[str, list[str]] = {
         "state": list(found.names),
@@ -90,12 +84,8 @@ def spectrum_facts(found: Spectrum) -> Iterator[tuple[str, str]]:
     if found.failures:
         yield "Life", f"none: {', '.join(found.failures)} failed, and its damage is not known"
         return
-    known = [
-        f"{words} {_number(getattr(life, hours))} h ({_number(getattr(life, name))} million revolutions)"
-        for name, (hours, words) in _LIVES.items()
-        if _there(getattr(life, name))
-    ]
-    yield "Life", "; ".join(known)
+    for text in lives_in_words(life):
+        yield "Life", text
     said = [f"equivalent to the contacts' loads {with_unit(float(life.equivalent_load), 'N')}"]
     if _there(life.catalogue_load):
         said.append(f"by ISO 281 P {with_unit(float(np.asarray(life.catalogue_load)), 'N')}")

@@ -15,6 +15,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from .._checks import Information
 from .._types import Scalar
 from ..numerics import lapack
 from ..numerics.batching import in_turn
@@ -31,7 +32,9 @@ LIMIT = 523.15
 
 UNSTABLE = "unstable: a bearing would leave this state"
 """Warning of a steady state that is a root and no more."""
-START_NOTE = "a stable steady state need not be reached by a start at speed: only a run in time (simulate) says so"
+START_NOTE = Information(
+    "a stable steady state need not be reached by a start at speed: only a run in time (simulate) says so"
+)
 """Note beside margin and rate."""
 
 

@@ -70,10 +70,14 @@ SAID = (
 @pytest.mark.usefixtures("new_scene")
 @pytest.mark.parametrize("command", [("solve", "a.toml"), ("spectrum", "states.toml")])
 def test_screen_and_json_say_what_nobody_gave(jaxbearing_command, command):
+    """On the screen in one line, which `solve --full` lists."""
     shown = " ".join(jaxbearing_command(*command).out.split())
+    assert "entries, which solve --full lists" in shown
+    full = " ".join(jaxbearing_command("solve", "a.toml", "--full").out.split())
     warnings = json.loads(jaxbearing_command(*command, "--json").out)["warnings"]
     for text in SAID:
-        assert text in shown
+        assert text in full
+        assert text not in shown
         assert sum(text in one for one in warnings) == 1
 
 

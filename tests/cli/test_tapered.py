@@ -79,6 +79,26 @@ def test_no_equilibrium(jaxbearing_command, folder):
     assert found["iterations"] == 0  # the loads alone tell
 
 
+def test_a_catalogue_life_needs_no_equilibrium(jaxbearing_command, folder):
+    """A radial load alone opens the bearing, P = F_r: no results, but the life of the catalogue, and the way to hold
+    the ring. A load with an equilibrium, and one that the bearing cannot carry, have no such line."""
+    alone = ("--set", "operation.axial_load=0 N", "--set", "operation.radial_load=5 kN")
+    found = json.loads(jaxbearing_command("solve", "tapered_example", *alone, "--json").out)
+    assert (found["converged"], found["life"]["L10"], found["ring"]["axial"]) == (False, None, None)
+    life = found["catalogue_life"]
+    assert life["catalogue_load"] == 5e3
+    np.testing.assert_allclose(life["L10"], (life["dynamic_capacity"] / 5e3) ** (10.0 / 3.0), rtol=1e-12)
+    np.testing.assert_allclose(life["L10h"], life["L10"] * 1e6 / (60.0 * 3000.0), rtol=1e-12)
+    result = jaxbearing_command("solve", "tapered_example", *alone)
+    said = " ".join(result.out.split())
+    assert result.code == 3
+    assert "operation.displacement.axial" in said
+    assert f"Catalogue life needs no equilibrium: ISO 281 L10 {life['L10h']:.0f} h" in said
+    for change in ("operation.axial_load=5 kN", "operation.axial_load=-5 kN"):
+        result = jaxbearing_command("solve", "tapered_example", "--set", change, "--json")
+        assert "catalogue_life" not in json.loads(result.out)
+
+
 def test_a_moment_about_the_apex_is_warned_of(jaxbearing_command, folder):
     """The radial load then has a lever of 110 mm, which no cup can hold: on the screen with the reason."""
     result = jaxbearing_command("solve", "tapered_example", "--set", "operation.moment=0 N*m")

@@ -12,13 +12,14 @@ import pytest
 import jaxbearing as jb
 from jaxbearing.bearings.ball.geometry import BallGeometry
 from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
-from jaxbearing.bearings.bearing_life import ineffective_inputs, rated_by
+from jaxbearing.bearings.bearing_life import bearing_life, catalogue_life, ineffective_inputs, rated_by
 from jaxbearing.bearings.profile import RollerProfile
 from jaxbearing.bearings.rating import Rating
 from jaxbearing.contacts import CrownedProfile
 from jaxbearing.life.reference import roller_damage_rate
 from jaxbearing.life.result import Life
 from jaxbearing.materials import CATALOGUE, reduced_modulus
+from jaxbearing.report.bearing.life_facts import lives_in_words
 
 STEEL = CATALOGUE["52100"]
 
@@ -103,6 +104,47 @@ def test_static_rating_of_ceramic_elements_in_every_kind_of_bearing(name, elemen
     ratio = float(reduced_modulus(STEEL, STEEL) / reduced_modulus(STEEL, CATALOGUE["Si3N4"]))
     np.testing.assert_allclose(ceramic.static_capacity / steel.static_capacity, ratio**power, rtol=1e-14)
     assert ceramic.dynamic_capacity == steel.dynamic_capacity
+
+
+def test_lives_at_the_reliability_of_the_rating():
+    """a_1 of ISO 281:2007 at 98 % is 0.37, for every kind of life that the bearing has, on the screen too: also without
+    data on lubrication; L10 lives stay those at 90 %."""
+    numbers = {field.name: jnp.ones(()) for field in dataclasses.fields(Life) if field.default is dataclasses.MISSING}
+    numbers |= {"L10r_hours": jnp.asarray(1000.0), "L10h": jnp.asarray(500.0), "L10": jnp.asarray(50.0)}
+    life = Life(**numbers, reliability=0.98)
+    np.testing.assert_allclose([life.Lnr_hours, life.Lnh, life.Ln], [370.0, 185.0, 18.5], rtol=1e-14)
+    assert life.Lnm is life.Lnmh is None
+    first, second = lives_in_words(life)
+    assert first.startswith(
+        "at 98 % reliability: basic reference life Lnr 370.0 h (0.3700 million revolutions); ISO 281 Ln"
+    )
+    assert second.startswith("at 90 % reliability: basic reference life L10r 1000 h")
+    (only,) = lives_in_words(Life(**numbers, Lnmr=jnp.ones(()), Lnmr_hours=jnp.ones(())))
+    assert only.startswith("at 90 % reliability: modified life Lnmr 1.000 h")
+    assert "Lnr" not in only
+    scene = jb.load_scene("angular_contact_218")
+    solved = jb.solve(scene.replace({"rating": Rating()}))
+    rated = bearing_life(scene.replace({"rating": Rating(reliability=0.98)}), solved)
+    assert rated.reliability == 0.98
+    np.testing.assert_allclose(rated.Ln / solved.life.L10, 0.37, rtol=1e-12)
+
+
+def test_catalogue_life_of_given_loads():
+    """Also of a radial load alone, which opens the bearing. None under a moment, and in the direction in which the
+    bearing carries nothing."""
+    ball, roller = (jb.load_scene(name) for name in ("angular_contact_218", "tapered_example"))
+    ball = ball.replace({"rating": Rating(dynamic_capacity=100e3)})
+    roller = roller.replace({"rating": Rating(dynamic_capacity=100e3)})
+    plane = jb.load_scene("reference_roller").replace({"rating": Rating(dynamic_capacity=100e3)})
+    for scene, exponent in ((ball, 3.0), (roller, 10.0 / 3.0)):
+        alone = scene.at_operation(axial_load=0.0, radial_load=5e3)
+        np.testing.assert_allclose(catalogue_life(alone).L10, 20.0**exponent, rtol=1e-12)
+        assert np.isnan(catalogue_life(scene.at_operation(axial_load=-1e3, radial_load=5e3)).L10)
+    assert np.isnan(catalogue_life(roller.at_operation(moment=100.0)).L10)
+    life = catalogue_life(plane.at_operation(radial_load=5e3))
+    np.testing.assert_allclose(life.L10, 20.0 ** (10.0 / 3.0), rtol=1e-12)
+    with pytest.raises(ValueError, match="needs a scene with a rating"):
+        catalogue_life(plane.replace({"rating": None}))
 
 
 def test_settings_of_other_kinds_of_bearings_are_said_to_have_no_effect():

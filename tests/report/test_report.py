@@ -9,7 +9,10 @@ import numpy as np
 import pytest
 from rich.console import Console
 
+import jaxbearing as jb
+from jaxbearing._checks import Information, about, in_groups
 from jaxbearing.bearings.ball.solution import BallPowerLoss
+from jaxbearing.bearings.checks import input_excess
 from jaxbearing.bearings.cylindrical.solution import PowerLoss, RollerResults
 from jaxbearing.bearings.operation import Operation
 from jaxbearing.bearings.solution import CageState, RingDisplacement, Solution
@@ -170,7 +173,7 @@ def test_every_kind_of_loss_may_be_left_out(loss):
 
 def test_the_life_to_design_by_comes_first():
     """The modified life where it is known, and hours before revolutions, in every output."""
-    numbers = {field.name: jnp.ones(()) for field in dataclasses.fields(Life) if field.name != "family"}
+    numbers = {field.name: jnp.ones(()) for field in dataclasses.fields(Life) if not field.metadata.get("static")}
     numbers |= {"Lnmr_hours": jnp.asarray(570.0), "L10r_hours": jnp.asarray(1912.0), "L10h": jnp.asarray(700.0)}
     numbers |= {name: jnp.ones(N) for name in ("film_ratio_inner", "film_ratio_outer")}
     lasting = ["Lnmr_hours", "Lnmr", "L10r_hours", "L10r", "L10h", "L10"]
@@ -184,6 +187,34 @@ def test_the_life_to_design_by_comes_first():
     plain = solution(life=Life(**numbers | {"Lnmr_hours": None, "Lnmr": None, "modification_factor": None}))
     assert "570" not in text_of(plain)
     assert next(iter(solution_to_dict(plain)["life"])) == "L10r_hours"
+
+
+def test_warnings_come_in_three_groups():
+    """What to act on, what was assumed, information: on the screen the assumptions are one line, which --full lists."""
+    notes = ("geometry.a is not given", Information("rating.b has no effect"), "geometry.c is not given")
+    checks = {Information("the oil laws are extrapolated"): jnp.asarray(True), "balls yield": jnp.asarray(True)}
+    warned = solution(notes=notes, checks=checks)
+    act, assumed, information = in_groups(warned.warnings)
+    assert act == ["balls yield"]
+    assert assumed == ["geometry.a is not given", "geometry.c is not given"]
+    assert information == ["the oil laws are extrapolated", "rating.b has no effect"]
+    assert warned.warnings == [*act, *assumed, *information] == solution_to_dict(warned)["warnings"]
+    short, full = text_of(warned), text_of(warned, full=True)
+    order = ["Warnings", "balls yield", "Notes", "assumed: 2 entries", "the oil laws", "rating.b"]
+    assert [short.index(words) for words in order] == sorted(short.index(words) for words in order)
+    assert "geometry.a" not in short
+    assert full.index("assumed: geometry.a") < full.index("assumed: geometry.c") < full.index("the oil laws")
+    # one assumption is said at once; texts of a shaft and of a load spectrum keep their group
+    assert "assumed: geometry.a is not given" in text_of(solution(notes=notes[:1]))
+    assert in_groups([about("rear", text) for text in warned.warnings])[2] == [f"rear: {text}" for text in information]
+
+
+def test_laws_beyond_their_range_are_information():
+    """No family, and no input, calls for action by a law that is extrapolated."""
+    for name in ("turbine_roller", "turbine_ball", "tapered_example"):
+        texts = input_excess(jb.load_scene(name))
+        assert any("extrapolated" in text for text in texts)
+        assert all(isinstance(text, Information) for text in texts if "extrapolated" in text)
 
 
 @pytest.mark.parametrize("number", [np.nan, np.inf])
@@ -220,7 +251,7 @@ def test_summary_at_any_width(width, full):
 
 
 def test_life_and_power_come_first_then_warnings_then_the_parts():
-    numbers = {field.name: jnp.ones(()) for field in dataclasses.fields(Life) if "unit" in field.metadata}
+    numbers = {field.name: jnp.ones(()) for field in dataclasses.fields(Life) if not field.metadata.get("static")}
     numbers |= {name: jnp.ones(N) for name in ("film_ratio_inner", "film_ratio_outer")}
     known = solution(life=Life(**numbers))
     order = ["Operating point", "Life", "Lubrication", "Rating", "Power loss", "Torque", "Drive power", "Warnings"]

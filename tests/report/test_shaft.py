@@ -20,7 +20,7 @@ from jaxbearing.report.json_report import solution_to_dict
 from jaxbearing.report.plots import plot_solution, save_plot
 from jaxbearing.report.shaft.bending import bending_line, cut_loads
 from jaxbearing.report.shaft.drawn import svg
-from jaxbearing.report.shaft.facts import life_facts
+from jaxbearing.report.shaft.facts import life_columns
 from jaxbearing.report.shaft.modes import natural_frequencies
 from jaxbearing.report.shaft.picture import Area, Pointer, pictures
 from jaxbearing.report.shaft.ross import ross_rotor, write_ross_rotor
@@ -65,28 +65,41 @@ def test_screen(filled):
         "pair.1",
         "pair.2",
     ]
-    for name in ("axial", "radial", "moment", "Q max", "L10r", "System life", "Deflection", "Torques"):
+    for name in ("axial", "radial", "moment", "Q max", "L10 ", "L10r", "System life", "Deflection", "Torques"):
         assert name in text
 
 
-def test_lives_safety_and_lubrication(filled):
-    """A line each with the numbers of all bearings that have one."""
+def test_lives_safety_and_lubrication(scene, filled):
+    """A row for each bearing, with the reliability of every life; what no bearing has is no column. The page has what a
+    narrow screen has no room for, and both the life of the system of each kind."""
     lives = [one.life for one in filled.bearings.values()]
     one, two = (
-        dataclasses.replace(life, viscosity_ratio=kappa, Lnmr_hours=hours)
+        dataclasses.replace(life, viscosity_ratio=kappa, Lnmr_hours=hours, reliability=0.98)
         for life, kappa, hours in zip(lives, (jnp.asarray(0.4321), None), (jnp.asarray(2e4), None), strict=True)
     )
     bearings = dict(zip(filled.bearings, map(_with_life, filled.bearings.values(), (one, two)), strict=True))
-    told = dict(life_facts(dataclasses.replace(filled, bearings=bearings)))
-    names = list(filled.bearings)
-    assert told["kappa"] == f"{names[0]} 0.432"
-    assert told["Lnmr"] == f"{names[0]} 20000 h"
-    assert told["Static C0/P0"] == ", ".join(
-        f"{name} {digits(float(life.static_capacity / life.static_load), 3)}"
-        for name, life in zip(names, (one, two), strict=True)
-    )
-    assert list(told)[-1] == "System life"
-    assert told["Static C0/P0"] in " ".join(screen(print_summary, filled, "a shaft").split())
+    rated = dataclasses.replace(filled, bearings=bearings)
+    columns = life_columns(rated)
+    assert columns["kappa"] == ["0.432", "-"]
+    assert columns["Lnmr\nh, 98 %"] == ["20000", "-"]
+    assert columns["Ln\nh, 98 %"] == [digits(0.37 * float(life.L10h)) for life in (one, two)]
+    assert columns["L10\nh, 90 %"] == [digits(float(life.L10h)) for life in (one, two)]
+    assert columns["safety\nC0/P0"] == [
+        digits(float(life.static_capacity / life.static_load), 3) for life in (one, two)
+    ]
+    assert "clearance\num" not in columns
+    assert set(life_columns(rated, wide=False)) < set(columns)
+    assert {"L10r\nh, 90 %", "L10\nh, 90 %"} <= set(life_columns(filled))
+    system = f"at 90 % reliability: basic reference life L10r {digits(float(filled.life.L10r_hours))} h"
+    assert system in " ".join(screen(print_summary, rated, "a shaft").split())
+    assert f"ISO 281 L10 {digits(float(filled.life.L10h))} h" in " ".join(screen(print_summary, rated, "x").split())
+    mixed = bearings | {"pair.2": _with_life(bearings["pair.2"], dataclasses.replace(two, reliability=0.90))}
+    mixed = dataclasses.replace(filled, bearings=mixed)
+    assert "Lnmr\nh, n" in life_columns(mixed)
+    assert "Reliability n pair.1 98 %, pair.2 90 %" in " ".join(screen(print_summary, mixed, "x").split())
+    page = html_report(scene, rated, "x", scene_inputs("spindle_pair", {}, scene), datetime(2026, 1, 1, tzinfo=UTC))
+    for words in ("Lnmr, h, 98 %", "safety, contact", "system life L10, 90 %", "system life L10r, 90 %"):
+        assert words in page
 
 
 def _with_life(one, life):

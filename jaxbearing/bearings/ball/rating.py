@@ -39,13 +39,16 @@ def _by_flank(
 
 
 def rated_contacts(
-    scene: BallBearing, elements: "BallResults", force: Float[Array, " freedom"] | None = None
+    scene: BallBearing, elements: "BallResults | None", force: Float[Array, " freedom"] | None = None
 ) -> RatedContacts:
-    """**Arguments:** `elements`: `BallResults` of a solution; `force`: its `force`."""
+    """**Arguments:** `elements`: `BallResults` of a solution, `None` of an unloaded bearing; `force`: its `force`."""
     geometry = scene.geometry
-    inner, outer = elements.load_inner, elements.load_outer
-    second = elements.load_inner_second, elements.load_outer_second
-    if scene.rated_to_first_order:
+    inner = outer = jnp.zeros(scene.n_elements)
+    second = (None, None)
+    if elements is not None:
+        inner, outer = elements.load_inner, elements.load_outer
+        second = elements.load_inner_second, elements.load_outer_second
+    if elements is not None and scene.rated_to_first_order:
         inner, outer, second = _by_flank(scene, linear_tilt_loads(running_scene(scene)[0]))
     radial, axial = sizes_of_loads(scene.operation, force)
     return RatedContacts(

@@ -323,7 +323,7 @@ class BallBearing(AbstractMovingBearing):
         return ball_outline(self, of)
 
     def rated_contacts(
-        self, elements: "BallResults", laminae: LaminaLoads | None, force: Array | None = None
+        self, elements: "BallResults | None", laminae: LaminaLoads | None, force: Array | None = None
     ) -> RatedContacts:
         from .rating import rated_contacts
 

@@ -2,6 +2,7 @@
 
 import jax.numpy as jnp
 
+from ..._checks import Information
 from ...numerics.safe import safe_norm
 from ..facts import LOADED, Excess, RangeChecks, SolvedBearing
 from ..parts import azimuths
@@ -40,7 +41,7 @@ def _standing_cage(scene: CylindricalRollerBearing) -> Excess:
     if scene.contact is None:
         return {}
     motion = roller_kinematics(scene.geometry, scene.operation)
-    text = "rolling without slip would nearly hold the cage still: its slip has no meaning"
+    text = Information("rolling without slip would nearly hold the cage still: its slip has no meaning")
     return {text: 0.01 * motion.orbit_unit - jnp.abs(motion.free_orbit)}
 
 

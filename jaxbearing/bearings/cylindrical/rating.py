@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING
 
+import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..rated import RatedContacts, is_misaligned, sizes_of_loads
@@ -14,16 +15,21 @@ if TYPE_CHECKING:
 
 def rated_contacts(
     scene: CylindricalRollerBearing,
-    elements: "RollerResults",
+    elements: "RollerResults | None",
     laminae: LaminaLoads | None,
     force: Float[Array, " freedom"] | None = None,
 ) -> RatedContacts:
-    """**Arguments:** `RollerResults` and, of rollers in laminae, `LaminaLoads` of a solution; `force`: its `force`."""
+    """**Arguments:** `RollerResults`, `None` of an unloaded bearing, and, of rollers in laminae, `LaminaLoads` of a
+    solution; `force`: its `force`."""
     geometry, operation = scene.geometry, scene.operation
     radial, _ = sizes_of_loads(operation, force)
     # ISO 281 has no formula for an axial load on flanges: it sends its reader to the maker
     other = is_misaligned(operation) or operation.axial_given
-    loads = (elements.load_inner, elements.load_outer) if laminae is None else (laminae.inner, laminae.outer)
+    loads = (jnp.zeros(scene.n_elements),) * 2
+    if laminae is not None:
+        loads = (laminae.inner, laminae.outer)
+    elif elements is not None:
+        loads = (elements.load_inner, elements.load_outer)
     return RatedContacts(
         n_elements=geometry.n_rollers,
         diameter=geometry.roller_diameter,

@@ -222,7 +222,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         return roller_outline(self)
 
     def rated_contacts(
-        self, elements: "RollerResults", laminae: LaminaLoads | None, force: Array | None = None
+        self, elements: "RollerResults | None", laminae: LaminaLoads | None, force: Array | None = None
     ) -> RatedContacts:
         from .rating import rated_contacts
 

@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from ..._checks import Information
 from ..._identity import Identity, identity_of, require_same
 from ...numerics.arrow import ArrowPoint
 from ...numerics.integrator import IntegratorOptions, NestedField, Segment
@@ -86,7 +87,7 @@ MOST_GROWTH = 1e-2
 """Largest relative growth of the pitch circle of the same bearing on seats: 1 % is 800 K of steel."""
 MAY_CHANGE = ("operation", "oil", "contact", "drag", "simulation", "ring_freedom", "rating", "temperatures")
 """Parts of a scene that may differ from those of the run that is continued."""
-UNKNOWN = (
+UNKNOWN = Information(
     "restart: the state does not say of which bearing it is (an earlier version wrote it); only the number of rollers, "
     "the pitch circle and whether there is a cage have been compared"
 )

@@ -2,6 +2,7 @@
 
 import jax.numpy as jnp
 
+from ..._checks import Information
 from ..facts import BUSY, Excess, RangeChecks, SolvedBearing
 from .scene import TaperedRollerBearing
 
@@ -23,7 +24,7 @@ def _would_skid(result: SolvedBearing) -> Excess:
 def _at_apex(scene: TaperedRollerBearing) -> Excess:
     if scene.operation.load("tilt") is None and scene.operation.load("tilt_lateral") is None:
         return {}
-    text = (
+    text = Information(
         "operation.load_position is 0: radial load and moment act at the common apex of the cones, not at the "
         "bearing's middle"
     )

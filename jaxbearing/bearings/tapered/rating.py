@@ -1,5 +1,6 @@
 """Sizes and loads of a tapered roller bearing from which its life is computed."""
 
+import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..rated import RatedContacts, is_misaligned, sizes_of_loads
@@ -8,9 +9,12 @@ from .scene import TaperedRollerBearing
 
 
 def rated_contacts(
-    scene: TaperedRollerBearing, laminae: LaminaLoads, force: Float[Array, " freedom"] | None = None
+    scene: TaperedRollerBearing, laminae: LaminaLoads | None, force: Float[Array, " freedom"] | None = None
 ) -> RatedContacts:
-    """**Arguments:** `LaminaLoads` of a solution; `force`: its `force`."""
+    """**Arguments:** `LaminaLoads` of a solution, `None` of an unloaded bearing; `force`: its `force`."""
+    if laminae is None:
+        unloaded = jnp.zeros((scene.n_elements, 1))
+        laminae = LaminaLoads(unloaded, unloaded)
     geometry, operation = scene.geometry, scene.operation
     radial, axial = (None, None) if is_misaligned(operation) else sizes_of_loads(operation, force)
     return RatedContacts(

@@ -189,11 +189,10 @@ class TaperedRollerBearing(AbstractBearing):
         return tapered_outline(self)
 
     def rated_contacts(
-        self, elements: "TaperedResults", laminae: LaminaLoads | None, force: Array | None = None
+        self, elements: "TaperedResults | None", laminae: LaminaLoads | None, force: Array | None = None
     ) -> RatedContacts:
         from .rating import rated_contacts
 
-        assert laminae is not None  # tapered rollers are in laminae
         return rated_contacts(self, laminae, force)
 
     @property

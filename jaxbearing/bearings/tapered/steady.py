@@ -160,7 +160,8 @@ def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Failure
     sliding, least = slides_out(scene, inertia), least_axial_load(scene, inertia)
     given = jnp.asarray(scene.operation.axial_load)
     found = {
-        "the axial load of {:.6g} N must be at least {:.6g} N to hold the cone in the cup": FailureCause(
+        "the axial load of {:.6g} N must be at least {:.6g} N to hold the cone in the cup; where an opposed bearing "
+        "gives it, operation.displacement.axial in its place holds the cone": FailureCause(
             sliding, jnp.stack([given, least * (1.0 + ROUNDED_UP)])
         )
     }

@@ -357,7 +357,7 @@ class _Run:
         own = input_excess(scene=self.scene)
         for name in self.done[0].seen.checks:
             applies = any(bool(np.any(one.seen.checks[name])) for one in self.done)
-            found[name if name in own else f"{AT_SOME_TIME}{name}"] = jnp.asarray(applies)
+            found[name if name in own else type(name)(AT_SOME_TIME + name)] = jnp.asarray(applies)
         return found
 
 

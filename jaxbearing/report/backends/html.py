@@ -1,5 +1,6 @@
 """The content of a report as one HTML page that needs no network."""
 
+import dataclasses
 import platform
 from collections.abc import Mapping, Sequence
 from datetime import datetime
@@ -7,6 +8,7 @@ from importlib.metadata import version
 from typing import Any
 
 from ... import __version__
+from ..._checks import Information
 from ..display import typeset
 from ..page_content import Content
 from ..panels import Bars, Curves, Numbers, Panel, Polar
@@ -30,6 +32,8 @@ def page(
     from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
     from markupsafe import Markup
 
+    # warnings to act on come before those that are information
+    ordered = sorted(content.checks, key=lambda check: isinstance(check[0], Information))
     loader = PackageLoader("jaxbearing.report.backends", "templates")
     escaped = select_autoescape(default=True, default_for_string=True)
     environment = Environment(
@@ -38,7 +42,7 @@ def page(
     environment.filters["typeset"] = typeset
     return environment.get_template("report.html").render(
         title=title,
-        page=content,
+        page=dataclasses.replace(content, checks=ordered),
         inputs=inputs,
         results=results,
         sketches=[(one.title, Markup(one.markup), one.caption) for one in content.sketches],

@@ -11,6 +11,7 @@ from rich.rule import Rule
 from rich.table import Table
 from rich.text import Text
 
+from ..._checks import in_groups
 from ..display import bar, digits, displayed
 
 _SHORTEST_BAR = 4
@@ -38,12 +39,23 @@ def print_failure(label: str, status: str, reason: str, console: Console) -> Non
     console.print(Padding(Text("No results: the point where the iteration stopped is not a solution."), (0, 2)))
 
 
-def print_warnings(warnings: Iterable[str], console: Console) -> None:
-    texts = list(warnings)
-    if texts:
+def print_warnings(warnings: Iterable[str], console: Console, full: bool = False) -> None:
+    """Warnings in three groups: what to act on, what was assumed, information.
+
+    **Arguments:** `full`: lists what was assumed; without it a line counts more than one.
+    """
+    act, assumed, information = in_groups(warnings)
+    if act:
         console.print(Rule("Warnings", align="left", style="yellow"))
-    for text in texts:
+    for text in act:
         console.print(Padding(Text(f"- {text}", style="yellow"), (0, 2)))
+    if assumed or information:
+        print_rule("Notes", console)
+    if len(assumed) > 1 and not full:
+        console.print(Padding(Text(f"- assumed: {len(assumed)} entries, which solve --full lists"), (0, 2)))
+        assumed = []
+    for text in (*(f"assumed: {text}" for text in assumed), *information):
+        console.print(Padding(Text(f"- {text}"), (0, 2)))
 
 
 def print_rule(title: str, console: Console) -> None:

@@ -6,18 +6,75 @@ import numpy as np
 
 from ...bearings.solution import Solution
 from ...life.basic import MINIMUM_LOADS
-from ..display import digits
+from ...life.result import AtReliability, CatalogueLife
+from ..display import digits, with_unit
 
 TITLES = ("Life", "Rating", "Load", "Static safety", "Least load", "Lubrication")
 """Titles of these facts."""
-SAID = ("life.L10m", "life.L10mh", "life.static_safety", "life.minimum_load")
-"""Results that follow from others and stand in these facts."""
-_LIVES = (
-    ("Lnmr", "Lnmr_hours", "modified life Lnmr"),
-    ("L10r", "L10r_hours", "basic reference life L10r"),
-    ("L10m", "L10mh", "ISO 281 modified L10m"),
-    ("L10", "L10h", "ISO 281 L10"),
+AT_NINETY = {
+    "L10r": ("L10r_hours", "basic reference life L10r"),
+    "L10m": ("L10mh", "ISO 281 modified L10m"),
+    "L10": ("L10h", "ISO 281 L10"),
+}
+"""Life at 90 % reliability in revolutions -> the same in hours, words."""
+_MODIFIED = {"Lnmr": ("Lnmr_hours", "modified life Lnmr")}
+AT_RELIABILITY = {
+    "Lnr": ("Lnr_hours", "basic reference life Lnr"),
+    "Lnm": ("Lnmh", "ISO 281 modified Lnm"),
+    "Ln": ("Lnh", "ISO 281 Ln"),
+}
+"""Life at the reliability of the rating, as `AT_NINETY`; at 90 % these are the same lives."""
+_FIRST = ("Lnmr", "Lnr", "L10r", "L10")
+"""Lives at the top of a page."""
+SAID = (
+    *(f"life.{name}" for revolutions, (hours, _) in AT_RELIABILITY.items() for name in (revolutions, hours)),
+    *("life.L10m", "life.L10mh", "life.static_safety", "life.minimum_load"),
 )
+"""Results that follow from others and stand in these facts."""
+
+
+def percent(reliability: float) -> str:
+    return f"{100.0 * reliability:g} %"
+
+
+def known_lives(life: AtReliability) -> dict[float, dict[str, tuple[str, str]]]:
+    """The lives that a bearing, a system or a spectrum has, by reliability, that of the rating first: life in
+    revolutions -> the same in hours, words. What the catalogues' formulas do not give is NaN, and is left out."""
+    there = lambda name: (value := getattr(life, name)) is not None and not np.isnan(float(np.asarray(value)))
+    kinds = {life.reliability: _MODIFIED | AT_RELIABILITY, 0.90: AT_NINETY}
+    if life.reliability == 0.90:
+        kinds = {0.90: _MODIFIED | AT_NINETY}
+    return {share: {name: of for name, of in names.items() if there(name)} for share, names in kinds.items()}
+
+
+def repeated_lives(life: AtReliability | None) -> set[str]:
+    """Names of the lives at the reliability of the rating that at 90 % stand under another name."""
+    if life is None or life.reliability != 0.90:
+        return set()
+    return {name for revolutions, (hours, _) in AT_RELIABILITY.items() for name in (revolutions, hours)}
+
+
+def lives_in_words(life: AtReliability) -> Iterator[str]:
+    """A text for each reliability that lives are known at, hours before revolutions."""
+    of = lambda name: digits(float(np.asarray(getattr(life, name))))
+    for share, names in known_lives(life).items():
+        said = [f"{words} {of(hours)} h ({of(name)} million revolutions)" for name, (hours, words) in names.items()]
+        yield f"at {percent(share)} reliability: {'; '.join(said)}"
+
+
+def life_headlines(life: AtReliability) -> Iterator[tuple[str, str]]:
+    """Name and text of the lives at the top of a page, in hours, each with its reliability."""
+    for share, names in known_lives(life).items():
+        for name, hours in ((name, names[name][0]) for name in _FIRST if name in names):
+            yield f"life {name}, {percent(share)}", f"{digits(float(np.asarray(getattr(life, hours))))} h"
+
+
+def catalogue_fact(life: CatalogueLife) -> tuple[str, str]:
+    """Name and text of the life of loads that have no equilibrium."""
+    of = lambda name: digits(float(np.asarray(getattr(life, name))))
+    loads = f"P {with_unit(float(life.catalogue_load), 'N')}, C {with_unit(float(life.dynamic_capacity), 'N')}"
+    lasting = f"{of('L10h')} h ({of('L10')} million revolutions)"
+    return "Catalogue life", f"needs no equilibrium: ISO 281 L10 {lasting} at 90 % reliability, {loads}"
 
 
 def life_facts(solution: Solution) -> Iterator[tuple[str, str]]:
@@ -28,9 +85,8 @@ def life_facts(solution: Solution) -> Iterator[tuple[str, str]]:
     # what the catalogues' formulas do not give is NaN
     there = lambda name: getattr(life, name) is not None and not np.isnan(of(name))
     kilonewton = lambda name: f"{digits(1e-3 * of(name))} kN"
-    lasting = lambda name, hours: f"{digits(of(hours))} h ({digits(of(name))} million revolutions)"
-    known = [f"{words} {lasting(name, hours)}" for name, hours, words in _LIVES if there(name)]
-    yield "Life", "; ".join(known)
+    for text in lives_in_words(life):
+        yield "Life", text
     yield "Rating", f"C {kilonewton('dynamic_capacity')}, C0 {kilonewton('static_capacity')}"
     said = [f"equivalent to the contacts' loads {kilonewton('equivalent_load')}"]
     if there("catalogue_load"):

@@ -14,7 +14,7 @@ from ..tables import element_columns, result_rows
 from .drawing.section import section
 from .drawing.sketch import front_view
 from .facts import facts, not_modelled
-from .life_facts import TITLES
+from .life_facts import TITLES, life_headlines, repeated_lives
 from .operation import operating_point, unused_operation
 from .panels import bearing_diagrams, bearing_panels, power_losses
 from .ring_panels import rigid_counterpart
@@ -38,7 +38,7 @@ def page_content(scene: AbstractBearing, solution: Solution) -> Content:
     total = float(solution.power_loss.total) if losses else 0.0
     unused = {f"operation.{name}" for name in unused_operation(solution)}
     results = [row for row in result_rows(solution, unused | set(_SOLVER)) if not row.path.startswith("operation.")]
-    name = solution.element_name
+    name, repeated = solution.element_name, {f"life.{one}" for one in repeated_lives(solution.life)}
     return Content(
         kind=scene.kind.replace("_", " "),
         operation=pretty(operating_point(solution)),
@@ -48,7 +48,7 @@ def page_content(scene: AbstractBearing, solution: Solution) -> Content:
             Sketch(f"The most loaded {name}", section(scene, solution), _section_caption(scene, name)),
         ],
         facts=[fact for fact in facts(solution) if fact[0] not in TITLES],
-        life=[row for row in results if row.path.startswith("life.")],
+        life=[row for row in results if row.path.startswith("life.") and row.path not in repeated],
         not_modelled=not_modelled(solution) if solution.not_modelled else "",
         charts=bearing_panels(solution, rigid_counterpart(scene, solution)),
         diagrams=bearing_diagrams(solution),
@@ -98,10 +98,8 @@ def _headlines(solution: Solution, total: float | None) -> Iterator[tuple[str, s
         yield "thinnest film", with_unit(min(float(np.nanmin(film)) for film in found), "m")
     if solution.cage is not None:
         yield "cage slip", f"{digits(100.0 * float(solution.cage.slip), 3)} %"
-    if life is not None and life.Lnmr_hours is not None:
-        yield "modified life Lnmr", f"{digits(float(life.Lnmr_hours))} h"
     if life is not None:
-        yield "basic life L10r", f"{digits(float(life.L10r_hours))} h"
+        yield from life_headlines(life)
 
 
 def _convergence(solution: Solution, total: float | None) -> Iterator[tuple[str, str]]:

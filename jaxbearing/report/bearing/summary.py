@@ -74,7 +74,7 @@ def print_summary(solution: Solution, scene_label: str, console: Console, full: 
     print_line("Operating point", operating_point(solution), console)
     said = _by_name(facts(solution))
     _print_first(solution, {name: said[name] for name in FIRST if name in said}, console)
-    print_warnings(solution.warnings, console)
+    print_warnings(solution.warnings, console, full)
     _print_losses(solution, console)
     _print_loads(solution, console, full)
     print_rule("Motion and films", console)

@@ -5,23 +5,21 @@ from typing import Any
 
 import numpy as np
 
+from ..._checks import about
 from ...bearings.solution import RING_FREEDOMS
+from ...life.duty import IN_HOURS
+from ...life.result import Life
 from ...shafts.solution import BearingOnShaft, SetResult, ShaftSolution
 from ..backends.json import finite
 from ..bearing.facts import bending
+from ..bearing.life_facts import AT_RELIABILITY, lives_in_words, percent
 from ..display import ZERO_CELSIUS, digits, with_unit
 from .bending import bending_line
 
 NAMES = "bearing\n"
 """Heading of the names of bearings."""
-_LIFE_NUMBERS = (
-    ("L10r", "L10r_hours", 4, " h"),
-    ("Lnmr", "Lnmr_hours", 4, " h"),
-    ("Static C0/P0", "static_safety", 3, ""),
-    ("Static, contact", "contact_static_safety", 3, ""),
-    ("kappa", "viscosity_ratio", 3, ""),
-)
-"""Title, field of a `Life`, significant digits, unit."""
+_MANY_HOURS = 1e7
+"""Lives from so many hours on have an exponent."""
 _LEAST_MOVE = 1e-13
 """Displacements, m, and tilts, rad, up to which they are shown as 0: round-off."""
 CARRIES = 1e-3
@@ -59,9 +57,62 @@ def bearing_columns(solution: ShaftSolution) -> dict[str, list[str]]:
         "at\ndeg": [_azimuth(one) if radial[i] else "-" for i, one in enumerate(bearings)],
         "moment\nN m": [f"{_above(float(one.moment), moment):{_width(moment, 2)}}" for one in bearings],
         "Q max\nN": [text(one.largest_load) for one in bearings],
-        "L10r\n10^6 rev": _lives(bearings),
-        "loss\nW": [text(loss_of(one)) for one in bearings],
     }
+
+
+def life_columns(solution: ShaftSolution, wide: bool = True) -> dict[str, list[str]]:
+    """The table of lives, safety, lubrication, clearance, temperatures and losses: heading, with the unit on a second
+    line -> texts, one a bearing; "-" for what one does not have, nothing of what none has.
+
+    **Arguments:** `wide`: with what a screen of 80 columns has no room for.
+    """
+    bearings = list(solution.bearings.values())
+    lives = [one.life for one in bearings]
+    shares = {life.reliability for life in lives if life is not None}
+    rated_for = f"h, {percent(shares.pop())}" if len(shares) == 1 else "h, n"
+    of = lambda name, significant=3: [_of_life(life, name, significant) for life in lives]
+    hours = lambda name: ["-" if life is None else _hours(getattr(life, name)) for life in lives]
+    columns = {f"{name}\nh, 90 %": hours(IN_HOURS[name]) for name in ("L10", "L10r")}
+    if wide:
+        columns["L10m\nh, 90 %"] = hours("L10mh")
+    if rated_for != "h, 90 %":
+        columns |= {f"{name}\n{rated_for}": hours(AT_RELIABILITY[name][0]) for name in ("Ln", "Lnr")}
+    columns |= {f"Lnmr\n{rated_for}": hours("Lnmr_hours"), "kappa": of("viscosity_ratio")}
+    columns["safety\nC0/P0"] = of("static_safety")
+    if wide:
+        columns["safety\ncontact"] = of("contact_static_safety")
+    columns["clearance\num"] = [_clearance(one) for one in bearings]
+    if wide:
+        columns["rings\ndegC"] = [_temperatures(one) for one in bearings]
+    columns["loss\nW"] = [text(loss_of(one)) for one in bearings]
+    kept = {heading: texts for heading, texts in columns.items() if set(texts) != {"-"}}
+    return {NAMES: [one.name for one in bearings]} | kept if kept else {}
+
+
+def _of_life(life: Life | None, name: str, significant: int) -> str:
+    return "-" if life is None else text(getattr(life, name), significant)
+
+
+def _hours(value: object) -> str:
+    """A life; "-" of a bearing without load."""
+    hours = number(value)
+    return "-" if hours is None else _power_of_ten(hours) if hours >= _MANY_HOURS else digits(hours)
+
+
+def _clearance(one: BearingOnShaft) -> str:
+    """Diametral clearance of the running bearing, where its fits make it a result, um."""
+    fit = getattr(one.solution, "fit", None)
+    clearance = None if fit is None else number(fit.clearance)
+    return "-" if clearance is None else f"{1e6 * clearance:.1f}"
+
+
+def _temperatures(one: BearingOnShaft) -> str:
+    """Of the inner and of the outer ring."""
+    thermal = getattr(one.solution, "thermal", None)
+    if thermal is None:
+        return "-"
+    rings = (getattr(thermal.temperatures, f"{side}_ring") for side in ("inner", "outer"))
+    return "/".join(f"{float(ring) - ZERO_CELSIUS:.1f}" for ring in rings)
 
 
 def _azimuth(one: BearingOnShaft) -> str:
@@ -84,30 +135,30 @@ def _column(values: Sequence[float], decimals: int) -> list[str]:
     return [f"{value:.{decimals}f}" for value in values]
 
 
-def _lives(bearings: Sequence[BearingOnShaft]) -> list[str]:
-    """Lives in millions of revolutions, all in one form; "-" without a rating, and of a bearing without load."""
-    found = [None if one.life is None else number(one.life.L10r) for one in bearings]
-    powers = any(life is not None and life >= 1e4 for life in found)
-    return ["-" if life is None else _power_of_ten(life) if powers else f"{life:.4g}" for life in found]
-
-
 def _power_of_ten(value: float) -> str:
     return f"{value:.2e}".replace("e+0", "e").replace("e+", "e")
 
 
 def life_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
-    """Name and text of what is known of the lives of the bearings, their static safety and lubrication, and of the life
-    of the system."""
-    lives = {name: one.life for name, one in solution.bearings.items() if one.life is not None}
-    for words, attribute, significant, unit in _LIFE_NUMBERS:
-        known = {name: number(getattr(life, attribute)) for name, life in lives.items()}
-        said = ", ".join(
-            f"{name} {digits(value, significant)}{unit}" for name, value in known.items() if value is not None
-        )
+    """Name and text of the life of the system, and of what the narrow table of `life_columns` leaves out."""
+    yield from system_facts(solution)
+    safeties = {name: _of_life(one.life, "contact_static_safety", 3) for name, one in solution.bearings.items()}
+    degrees = {name: _temperatures(one) for name, one in solution.bearings.items()}
+    for title, texts in (("Static, contact", safeties), ("Rings, degC", degrees)):
+        said = ", ".join(f"{name} {own}" for name, own in texts.items() if own != "-")
         if said:
-            yield words, said
-    if life_fact(solution):
-        yield "System life", life_fact(solution)
+            yield title, said
+
+
+def system_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
+    """Name and text of the life of the system, and of the reliabilities n where bearings are rated for several."""
+    if solution.life is not None:
+        for lives in lives_in_words(solution.life):
+            yield "System life", lives
+    shares = {name: one.life.reliability for name, one in solution.bearings.items() if one.life is not None}
+    if len(set(shares.values())) > 1:
+        each = ", ".join(f"{name} {percent(share)}" for name, share in shares.items())
+        yield "Reliability n", f"{each}; lives at different reliabilities make no life of the system"
 
 
 def loss_of(one: BearingOnShaft) -> float | None:
@@ -143,16 +194,6 @@ def _carry(bearings: Sequence[BearingOnShaft]) -> str:
     forces = {one.name: abs(float(one.on_shaft[0])) for one in bearings}
     free = [name for name, force in forces.items() if force <= CARRIES * max(forces.values())]
     return f"here {', '.join(free)} is unloaded" if free else "here all bearings carry"
-
-
-def life_fact(solution: ShaftSolution) -> str:
-    """Life of the system in words; "" without one."""
-    life = solution.life
-    if life is None or number(life.L10r) is None:
-        return ""
-    hours = number(life.L10r_hours)
-    said = f"{digits(float(life.L10r))} million revolutions"
-    return said if hours is None else f"{said}, {digits(hours)} h"
 
 
 def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
@@ -208,8 +249,8 @@ def shaft_warnings(solution: ShaftSolution) -> list[str]:
     for text in solution.warnings:
         name, _, rest = text.partition(": ")
         own = name in solution.bearings and rest
-        names.setdefault(rest if own else text, []).extend([name] if own else [])
-    return [f"{', '.join(bearings)}: {text}" if bearings else text for text, bearings in names.items()]
+        names.setdefault(type(text)(rest) if own else text, []).extend([name] if own else [])
+    return [about(", ".join(bearings), text) if bearings else text for text, bearings in names.items()]
 
 
 def _moved(value: float) -> float:

@@ -70,4 +70,6 @@ def _duty(duty: DutyResult) -> dict[str, Any]:
         "shares": shares,
         "bearing_hours": {name: plain(value) for name, value in duty.bearing_hours.items()},
         "system_hours": None if duty.system_hours is None else plain(duty.system_hours),
+        "lives": plain(duty.lives),
+        "system_life": plain(duty.system),
     }

@@ -9,16 +9,27 @@ from ...numerics.status import Status
 from ...shafts.scene import ShaftSystem
 from ...shafts.solution import BearingOnShaft, ShaftSolution
 from ..bearing.facts import facts as bearing_facts
+from ..bearing.life_facts import life_headlines
 from ..bearing.ring_panels import bent_rings, shape_panels
 from ..colours import LOSS
-from ..display import axis_unit, digits, with_unit
+from ..display import axis_unit, with_unit
 from ..labels import labelled
 from ..page_content import Content, Listing, Sketch
 from ..panels import Bars, Curves, Polar
 from ..tables import Row, row_of
 from .bending import bending_line
 from .drawn import svg
-from .facts import bearing_columns, life_fact, loss_of, number, set_facts, shaft_facts, shaft_warnings, stiffness_rows
+from .facts import (
+    bearing_columns,
+    life_columns,
+    loss_of,
+    number,
+    set_facts,
+    shaft_facts,
+    shaft_warnings,
+    stiffness_rows,
+    system_facts,
+)
 from .panels import shaft_panels
 from .picture import pictures
 from .plots import operating_text
@@ -37,7 +48,7 @@ def page_content(scene: ShaftSystem, solution: ShaftSolution) -> Content:
         facts=[*shaft_facts(solution), *((f"set {name}", text) for name, text in set_facts(solution))],
         facts_title="Shaft and sets",
         charts=[*([_losses(losses)] if losses else []), *shaft_panels(solution), *_rings(solution)],
-        listings=[_table(solution), *(_of_bearing(one) for one in bearings.values())],
+        listings=[*_tables(solution), *(_of_bearing(one) for one in bearings.values())],
         convergence=[
             ("status", Status(int(solution.status)).text.replace("_", " ")),
             ("steps of the convex minimisation", str(int(solution.start_steps))),
@@ -78,8 +89,9 @@ def _losses(losses: dict[str, float]) -> Bars:
 
 
 def _headlines(solution: ShaftSolution, total: float | None) -> Iterator[tuple[str, str]]:
-    if life_fact(solution) and solution.life is not None:
-        yield "system life L10r", f"{digits(float(solution.life.L10r_hours))} h"
+    if solution.life is not None:
+        for name, text in life_headlines(solution.life):
+            yield f"system {name}", text
     size, _ = bending_line(solution).largest()
     yield "largest deflection", with_unit(size, "m")
     if total is not None:
@@ -90,11 +102,18 @@ def _headlines(solution: ShaftSolution, total: float | None) -> Iterator[tuple[s
         yield "largest load of an element", with_unit(largest, "N")
 
 
-def _table(solution: ShaftSolution) -> Listing:
-    columns = bearing_columns(solution)
+def _tables(solution: ShaftSolution) -> Iterator[Listing]:
+    """Forces of the bearings; their lives, safety, lubrication, clearance, temperatures and losses."""
+    yield _table("Bearings", bearing_columns(solution), "Forces of the bearings on the shaft; azimuths from Y.")
+    columns = life_columns(solution)
+    if columns:
+        system = (f"{name}: {text}." for name, text in system_facts(solution))
+        yield _table("Life, safety and losses", columns, *system)
+
+
+def _table(title: str, columns: dict[str, list[str]], *remarks: str) -> Listing:
     headings = [heading.rstrip("\n").replace("\n", ", ") for heading in columns]
-    rows = [list(row) for row in zip(*columns.values(), strict=True)]
-    return Listing("Bearings", headings, rows, ["Forces of the bearings on the shaft; azimuths from Y."])
+    return Listing(title, headings, [list(row) for row in zip(*columns.values(), strict=True)], remarks)
 
 
 def _of_bearing(one: BearingOnShaft) -> Listing:

@@ -7,9 +7,10 @@ from ...shafts.scene import ShaftSystem
 from ...shafts.solution import ShaftSolution
 from ..backends.matplotlib.panels import draw
 from ..backends.matplotlib.sheet import foot, head
+from ..bearing.life_facts import life_headlines
 from ..display import display_unit, displayed
 from .drawn import draw_picture
-from .facts import life_fact, shaft_warnings
+from .facts import shaft_warnings
 from .panels import shaft_panels
 from .picture import pictures
 
@@ -50,5 +51,6 @@ def operating_text(solution: ShaftSolution) -> str:
     """Speed and life in words."""
     speed = displayed(float(solution.operation.speed), "rad/s")
     said = [f"shaft speed {speed:.6g} {display_unit('rad/s')}"]
-    said += [f"system life {life_fact(solution)}"] if life_fact(solution) else []
+    if solution.life is not None:
+        said += [f"system {name} {text}" for name, text in life_headlines(solution.life)]
     return "   ·   ".join(said)

@@ -14,8 +14,8 @@ from ..backends.screen import (
     print_table,
     print_warnings,
 )
-from ..display import digits
-from .facts import NAMES, bearing_columns, life_facts, set_facts, shaft_facts, shaft_warnings
+from ..bearing.life_facts import lives_in_words
+from .facts import NAMES, bearing_columns, life_columns, life_facts, set_facts, shaft_facts, shaft_warnings
 
 
 def print_summary(solution: ShaftSolution, scene_label: str, console: Console, full: bool = False) -> None:
@@ -29,12 +29,12 @@ def print_summary(solution: ShaftSolution, scene_label: str, console: Console, f
     state = f"{steps}, {counts}, largest scaled residual {float(solution.residual_norm):.1e}"
     headline(scene_label, "CONVERGED", "bold green", state, console)
     _print_bearings(solution, console)
+    print_warnings(shaft_warnings(solution), console, full)
     print_rule("Shaft", console)
     for name, text in shaft_facts(solution):
         print_line(name, text, console)
     if solution.duty is not None:
         _print_duty(solution.duty, console)
-    print_warnings(shaft_warnings(solution), console)
     if full:
         from ..bearing.summary import print_summary as print_bearing
 
@@ -45,15 +45,20 @@ def print_summary(solution: ShaftSolution, scene_label: str, console: Console, f
 
 def _print_bearings(solution: ShaftSolution, console: Console) -> None:
     print_rule("Bearings", console)
-    columns = bearing_columns(solution)
-    first = {NAMES: columns.pop(NAMES)}
-    for piece in pieces(first, columns, console.width):
-        print_table(piece, [0.0] * len(solution.bearings), 0, "", console, named=NAMES)
+    _print_columns(bearing_columns(solution), console)
     print_line("", "Forces of the bearings on the shaft; azimuths from Y in the sense of rotation.", console, 0)
-    for name, text in set_facts(solution):
+    columns = life_columns(solution, wide=False)
+    if columns:
+        _print_columns(columns, console)
+    for name, text in (*life_facts(solution), *set_facts(solution)):
         print_line(name, text, console)
-    for name, text in life_facts(solution):
-        print_line(name, text, console)
+
+
+def _print_columns(columns: dict[str, list[str]], console: Console) -> None:
+    first = {NAMES: columns[NAMES]}
+    rest = {heading: texts for heading, texts in columns.items() if heading != NAMES}
+    for piece in pieces(first, rest, console.width):
+        print_table(piece, [0.0] * len(first[NAMES]), 0, "", console, named=NAMES)
 
 
 def _print_duty(duty: DutyResult, console: Console) -> None:
@@ -62,7 +67,8 @@ def _print_duty(duty: DutyResult, console: Console) -> None:
         f"{name} {100.0 * float(share):.4g} %" for name, share in zip(duty.names, duty.shares, strict=True)
     )
     print_line("States", shares, console)
-    hours = ", ".join(f"{name} {digits(float(value))} h" for name, value in duty.bearing_hours.items())
-    print_line("Life", hours, console)
-    if duty.system_hours is not None:
-        print_line("System life", f"{digits(float(duty.system_hours))} h", console)
+    for name, life in duty.lives.items():
+        for text in lives_in_words(life):
+            print_line(name, text, console)
+    for text in () if duty.system is None else lives_in_words(duty.system):
+        print_line("System life", text, console)

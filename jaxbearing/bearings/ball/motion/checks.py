@@ -56,7 +56,7 @@ def run_excess(scene: BallBearing, instants: BallInstant) -> Excess:
     own, zero = instants.cage, jnp.zeros(())
     cage = None if own is None else CageState(zero, zero, jnp.nanmax(jnp.asarray(own.eccentricity_ratio)), zero)
     found = result_excess(scene, Facts((contacts,)), RingDisplacement(**largest), cage)
-    return {AT_SOME_TIME + text: value for text, value in found.items()}
+    return {type(text)(AT_SOME_TIME + text): value for text, value in found.items()}
 
 
 def _mean_speeds(

@@ -52,4 +52,4 @@ def run_excess(scene: CylindricalRollerBearing, instants: RollerInstant) -> Exce
     ring = RingDisplacement(**dict.fromkeys(RING_FREEDOMS, zero))  # a ring that moves does not tilt
     cage = None if own is None else CageState(zero, zero, jnp.nanmax(jnp.asarray(own.eccentricity_ratio)), zero)
     found = result_excess(scene, Facts((contacts,)), ring, cage)
-    return {AT_SOME_TIME + text: value for text, value in found.items()}
+    return {type(text)(AT_SOME_TIME + text): value for text, value in found.items()}

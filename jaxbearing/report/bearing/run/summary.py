@@ -17,6 +17,8 @@ def print_summary(history: History, label: str, console: "Console") -> None:
     from rich.table import Table
     from rich.text import Text
 
+    from ...backends.screen import print_warnings
+
     found = statistics(history)
     console.print(Text(label, style="bold"))
     steps = f"{int(history.accepted)} steps ({int(history.rejected)} more tried)"
@@ -73,8 +75,7 @@ def print_summary(history: History, label: str, console: "Console") -> None:
         f"\nThe energy balance leaves {float(history.energy.error):.1e} of the drive work open. Shocks are not "
         "repeatable turn by turn: compare statistics, to 10-20 %."
     )
-    for text in history.warnings:
-        console.print(Text(f"- {text}", style="yellow"))
+    print_warnings(history.warnings, console)
 
 
 def _print_motion(found: dict[str, Any], element: str, console: "Console") -> None:
