@@ -11,6 +11,7 @@ ROSS 2.3 says that the file was made by another version: it has none of a versio
 
 import math
 import os
+from collections import Counter
 from itertools import pairwise
 from typing import Any
 
@@ -55,8 +56,10 @@ def ross_rotor(
         tag = one.name
         disk = {"n": _node(nodes, float(one.position)), "m": float(one.mass), "Id": 0.0, "Ip": 0.0, "tag": tag}
         found[f"DiskElement_{tag}"] = disk
+    flat = Counter(name.replace(".", "_") for name in table.bearings)
     for name, values in table.bearings.items():
-        tag = name.replace(".", "_")
+        # the name itself where two bearings, `front.1` and `front_1`, would have one tag
+        tag = name if flat[name.replace(".", "_")] > 1 else name.replace(".", "_")
         node = _node(nodes, table.position[name])
         found[f"BearingElement_{tag}"] = element_of(table.speed, values, load_direction, node, tag)
     return found
