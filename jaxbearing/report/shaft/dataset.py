@@ -56,11 +56,10 @@ def to_dataset(solution: ShaftSolution, dims: Sequence[str] = ()) -> xr.Dataset:
 
 
 def fronts(solution: ShaftSolution, dims: tuple[str, ...] = ()) -> dict[str, str]:
-    """What stands before the names of the results of each bearing's family: its name with `_` for the dot and behind it,
-    `front_1_`.
+    """Beginning of the names of each bearing's own results: its name with `_` for the dot, and `_` behind: `front_1_`.
 
-    Where two results of the shaft would have the same name so, as those of `front.1` in a set and of a bearing `front_1`
-    have, the bearings concerned keep the dot and have one behind: `front.1.load_inner` and `front_1.load_inner`.
+    Two results would have the same name so if a bearing beside the set `front` were called `front_1`. The bearings
+    concerned then keep the dot and have one behind: `front.1.load_inner` and `front_1.load_inner`.
     """
     families = {name: one.solution for name, one in solution.bearings.items() if one.solution is not None}
     flat = {name: f"{name.replace('.', '_')}_" for name in families}

@@ -8,7 +8,7 @@ import numpy as np
 from ...bearings.solution import RING_FREEDOMS
 from ...shafts.solution import BearingOnShaft, SetResult, ShaftSolution
 from ..backends.json import finite
-from ..bearing.facts import bending
+from ..bearing.facts import OVERLOAD, bending, overload
 from ..display import ZERO_CELSIUS, digits, with_unit
 from .bending import bending_line
 
@@ -108,6 +108,15 @@ def life_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
             yield words, said
     if life_fact(solution):
         yield "System life", life_fact(solution)
+
+
+def overloads(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
+    """The bearings that yield, which have no life, nor has the system."""
+    families = {name: one.solution for name, one in solution.bearings.items() if one.solution is not None}
+    said = {name: overload(family) for name, family in families.items()}
+    texts = [f"{name} {text}" for name, text in said.items() if text]
+    if texts:
+        yield OVERLOAD, f"yield, so that neither these bearings nor the system has a life: {'; '.join(texts)}"
 
 
 def loss_of(one: BearingOnShaft) -> float | None:

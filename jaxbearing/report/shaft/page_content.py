@@ -18,7 +18,17 @@ from ..panels import Bars, Curves, Polar
 from ..tables import Row, row_of
 from .bending import bending_line
 from .drawn import svg
-from .facts import bearing_columns, life_fact, loss_of, number, set_facts, shaft_facts, shaft_warnings, stiffness_rows
+from .facts import (
+    bearing_columns,
+    life_fact,
+    loss_of,
+    number,
+    overloads,
+    set_facts,
+    shaft_facts,
+    shaft_warnings,
+    stiffness_rows,
+)
 from .panels import shaft_panels
 from .picture import pictures
 from .plots import operating_text
@@ -78,6 +88,7 @@ def _losses(losses: dict[str, float]) -> Bars:
 
 
 def _headlines(solution: ShaftSolution, total: float | None) -> Iterator[tuple[str, str]]:
+    yield from ((name.lower(), text) for name, text in overloads(solution))
     if life_fact(solution) and solution.life is not None:
         yield "system life L10r", f"{digits(float(solution.life.L10r_hours))} h"
     size, _ = bending_line(solution).largest()

@@ -15,7 +15,7 @@ from ..backends.screen import (
     print_warnings,
 )
 from ..display import digits
-from .facts import NAMES, bearing_columns, life_facts, set_facts, shaft_facts, shaft_warnings
+from .facts import NAMES, bearing_columns, life_facts, overloads, set_facts, shaft_facts, shaft_warnings
 
 
 def print_summary(solution: ShaftSolution, scene_label: str, console: Console, full: bool = False) -> None:
@@ -45,6 +45,8 @@ def print_summary(solution: ShaftSolution, scene_label: str, console: Console, f
 
 def _print_bearings(solution: ShaftSolution, console: Console) -> None:
     print_rule("Bearings", console)
+    for name, text in overloads(solution):
+        print_line(name, text, console)
     columns = bearing_columns(solution)
     first = {NAMES: columns.pop(NAMES)}
     for piece in pieces(first, columns, console.width):
