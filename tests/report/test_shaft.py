@@ -3,6 +3,7 @@
 import dataclasses
 import io
 import json
+import tomllib
 from datetime import UTC, datetime
 
 import jax.numpy as jnp
@@ -18,6 +19,7 @@ from jaxbearing.report.display import digits
 from jaxbearing.report.html_report import html_report
 from jaxbearing.report.json_report import solution_to_dict
 from jaxbearing.report.plots import plot_solution, save_plot
+from jaxbearing.report.ross import TESTED
 from jaxbearing.report.shaft.bending import bending_line, cut_loads
 from jaxbearing.report.shaft.drawn import svg
 from jaxbearing.report.shaft.facts import life_facts
@@ -214,7 +216,12 @@ def test_rotor_for_ross(scene, tmp_path):
     first = rotor["BearingElement_pair_1"]
     assert (first["n"], first["kyy"][0], first["kzz"][0]) == (1, 3e8, 1e8)
     np.testing.assert_allclose(first["kxx"], [2e8, 2.2e8], rtol=1e-15)
-    write_ross_rotor(table_of(scene), scene, tmp_path / "rotor.toml", "a shaft")
+    assert first["speed"] == [0.0, 100.0]
+    for version in (2, 3):
+        write_ross_rotor(table_of(scene), scene, tmp_path / "rotor.toml", "a shaft", version=version)
+        read = tomllib.loads((tmp_path / "rotor.toml").read_text(encoding="utf-8"))
+        assert read["ross_version"] == TESTED[version]
+        assert read["BearingElement_pair_1"][{2: "frequency", 3: "speed"}[version]] == [0.0, 100.0]
     with pytest.raises(ValueError, match="rigid shaft"):
         ross_rotor(table_of(scene), scene.replace({"shaft.sections": ()}))
 
