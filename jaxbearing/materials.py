@@ -10,7 +10,7 @@ from jaxtyping import Array, Float
 
 from ._types import Scalar
 from .numerics.arguments import require_choice
-from .numerics.checks import Checked, bounded, label
+from .numerics.checks import Checked, bounded, demand, label, numbers_or_none
 
 BALL_PRESSURE, ROLLER_PRESSURE = 4.2e9, 4.0e9
 """Hertz pressure of the most loaded contact of hardened steel at the static rating, Pa (ISO 76, [M])."""
@@ -123,4 +123,27 @@ def catalogue_material(name: str, *, thermal: bool = False) -> Material:
     expansion, conductivity, capacity = map(np.float64, _THERMAL[name])
     return dataclasses.replace(
         CATALOGUE[name], thermal_expansion=expansion, conductivity=conductivity, heat_capacity=capacity
+    )
+
+
+LARGEST_STRAIN = 0.01
+"""Interference over diameter beyond which nothing stays elastic: hardened steel yields at about 2 GPa of 207 GPa."""
+
+
+def check_interference(name: str, interference: object, diameter: object) -> None:
+    """**Arguments:** lengths, m; one that is not given or that a file has wrong is passed over.
+
+    **Raises:** `ValueError` for an interference that would stretch steel rings beyond their yield strength.
+    """
+    sizes = numbers_or_none(interference, diameter)
+    if sizes is None:
+        return
+    demand(
+        f"{name} must be no interference beyond a hundredth of the diameter",
+        sizes[0] <= LARGEST_STRAIN * sizes[1],
+        lambda: (
+            f"{name}: found an interference of {1e3 * float(sizes[0]):g} mm on a diameter of "
+            f"{1e3 * float(sizes[1]):g} mm, expected at most a hundredth of it, where hardened steel yields; check "
+            "sign and unit"
+        ),
     )

@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Array
 
 from .._checks import Information
+from .._types import Scalar
 from ..contacts import Gupta
 from ..contacts.laws import SPEED_SMOOTHING
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
@@ -41,6 +42,9 @@ THICK_RIM = 0.2
 neutral fibre changes the stiffness by about the square of this, 4 %."""
 MORE_THAN_WALL = 1.01
 """Thickness of a ring that bends over the wall between its raceway and its seat, which a warning allows."""
+LARGEST_INTERFERENCE, LARGEST_CLEARANCE = 1e-3, 1e-2
+"""Of the pitch diameter: rings that are stretched by a thousandth carry 0.2 GPa; the widest classes of clearance are
+about a thousandth."""
 SLOWEST = 99.9 * 2.0 * np.pi / 60.0
 """Speed of the rings against each other below which the lubricated models have no meaning, rad/s (100 rpm)."""
 
@@ -271,6 +275,18 @@ def _wide_land(scene: AbstractBearing) -> Excess:
     return {text: jnp.asarray(cage.land_width - diameter / 6.0)}
 
 
+def _clearance(scene: AbstractBearing) -> Excess:
+    clearance: Scalar | None = getattr(scene.geometry, "diametral_clearance", None)
+    if clearance is None:
+        return {}
+    text = (
+        "clearance beyond what bearings have (interference, which is below 0, of more than a thousandth of the pitch "
+        "diameter, or more than a hundredth of play): check sign and unit of geometry.diametral_clearance"
+    )
+    part = jnp.asarray(clearance) / scene.geometry.pitch_diameter
+    return {text: jnp.maximum(-part - LARGEST_INTERFERENCE, part - LARGEST_CLEARANCE)}
+
+
 def _thick_rim(scene: AbstractBearing) -> Excess:
     rings: list[AbstractBendingRing | None] = [getattr(scene, f"{side}_ring", None) for side in ("inner", "outer")]
     found = {}
@@ -298,5 +314,6 @@ INPUT_CHECKS: tuple[Callable[[AbstractBearing], Excess], ...] = (
     _slow,
     _wide_land,
     _thick_rim,
+    _clearance,
 )
 """The checks of scenes that all bearings have."""

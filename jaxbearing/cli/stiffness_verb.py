@@ -38,6 +38,16 @@ Ross = Annotated[
         "sections the rotor: rs.Rotor.load(FILE). Damping is 0: the model has none.",
     ),
 ]
+RossVersion = Annotated[
+    int,
+    typer.Option(
+        "--ross-version",
+        metavar="2|3",
+        min=2,
+        max=3,
+        help="Of ROSS: 3 reads speed, 2 frequency.",
+    ),
+]
 LoadDirection = Annotated[
     str,
     typer.Option(
@@ -52,6 +62,7 @@ def stiffness(
     changes: SetOption = None,
     as_json: JsonOption = False,
     ross: Ross = None,
+    ross_version: RossVersion = 3,
     load_direction: LoadDirection = "-90 deg",
     force: ForceOption = False,
 ) -> None:
@@ -83,8 +94,9 @@ def stiffness(
             failure = str(error)
         else:
             read = "Rotor" if model.kind == SHAFT else "BearingElement"
-            wrote = "" if as_json else f"wrote {ross}: read it with ross.{read}.load"
-            output = Output(ross, lambda path: _write(table, path, scene, model, changes, angle), wrote)
+            other = {3: "; ROSS 2: --ross-version 2", 2: ""}[ross_version]
+            wrote = "" if as_json else f"wrote {ross}: read it with ross.{read}.load (ROSS {ross_version}{other})"
+            output = Output(ross, lambda path: _write(table, path, scene, model, changes, angle, ross_version), wrote)
             deliver(lambda: _print(table, label, as_json), (output,))
     if failure:
         _print_failure(failure, label, ross, as_json)
@@ -149,19 +161,21 @@ def _write(
     model: "AbstractScene",
     changes: list[str] | None,
     angle: float,
+    ross_version: int,
 ) -> None:
     from ..report.ross import write_ross
     from ..report.shaft.ross import write_ross_rotor
     from ..report.shaft.stiffness import ShaftStiffness
     from ..shafts.scene import ShaftSystem
 
+    label, version = labelled(Path(scene).name, changes), 2 if ross_version == 2 else 3
     if isinstance(table, ShaftStiffness):
         assert isinstance(model, ShaftSystem)
-        write_ross_rotor(table, model, file, labelled(Path(scene).name, changes), load_direction=angle)
+        write_ross_rotor(table, model, file, label, load_direction=angle, version=version)
         return
     name = Path(scene).stem
     tag = re.sub(r"[^A-Za-z0-9_-]+", "_", name) or "bearing"
-    write_ross(table, file, labelled(Path(scene).name, changes), load_direction=angle, tag=tag)
+    write_ross(table, file, label, load_direction=angle, tag=tag, version=version)
 
 
 def _print(table: "StiffnessTable | ShaftStiffness", label: str, as_json: bool) -> None:

@@ -9,7 +9,7 @@ from jaxtyping import Array, Float
 
 from .._scene import label, number, optional_number
 from .._types import Scalar
-from ..materials import Material, catalogue_material
+from ..materials import Material, catalogue_material, check_interference
 from ..numerics.checks import Checked, demand, numbers_or_none
 from ..numerics.refusals import refuse_all
 from ..numerics.structure import choice
@@ -107,7 +107,8 @@ class Fits(Checked):
         return ASSUMED_HOUSING * outside_diameter if self.housing_outside is None else self.housing_outside
 
     def check_room(self, bore: Scalar | None, outside_diameter: Scalar | None) -> None:
-        """**Raises:** `ValueError` where shaft or housing has no wall, or a class has no row for the diameter."""
+        """**Raises:** `ValueError` where shaft or housing has no wall, where an interference is more than steel bears,
+        and where a class has no row for the diameter."""
         shaft = numbers_or_none(bore, self.shaft_bore)
         if shaft is not None and self.on_shaft:
             demand(
@@ -125,6 +126,8 @@ class Fits(Checked):
                     f"{wall[1]:.6g} m"
                 ),
             )
+        check_interference("fits.shaft_interference", self.shaft_interference, bore)
+        check_interference("fits.housing_interference", self.housing_interference, outside_diameter)
         _check_covered("shaft_tolerance", self.shaft_tolerance, bore)
         _check_covered("housing_tolerance", self.housing_tolerance, outside_diameter)
 

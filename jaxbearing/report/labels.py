@@ -40,6 +40,11 @@ def label_unit(units: str) -> str:
     return over + "".join(f"/{name}" for name, under in named if under)
 
 
+def variable_name(path: str) -> str:
+    """Name of a result in data sets."""
+    return path.removeprefix("elements.").replace(".", "_")
+
+
 def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Mapping[str, Any]]]:
     """Path, value and label of every result, at any depth: fields that have a label, then what follows from them.
 

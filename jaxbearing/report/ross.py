@@ -7,16 +7,21 @@ turns radial and lateral into x and y. ROSS usually has the weight along -y: the
 **What the coefficients are.** Tangent stiffness of the inner ring at the shaft speeds of the table, each with all other
 freedoms of the ring held; the element of ROSS has no tilt and no coupling of z with x and y, so these are left out. The
 damping is 0 because the model is quasi-static: rolling bearings damp little, but not nothing, so add what you know.
-The coefficients belong to a shaft speed, while ROSS looks them up at the frequency that it analyses: in a synchronous
-analysis (unbalance, a Campbell diagram's forward line) the two are the same.
 
-**Between the speeds** ROSS 2.3 lays a line (2 speeds), a parabola (3) or a cubic smoothing spline (4 and more), which
-meets the values of the table to a few N/m, and goes on beyond the first and the last speed without a word.
+**The axis of the table.** The coefficients belong to a shaft speed. ROSS 3 has `speed` for that, and reads `frequency`
+as the whirl frequency. ROSS 2 knows `frequency` only, and looks the table up at the frequency that it analyses; in a
+synchronous analysis (unbalance, a Campbell diagram's forward line) the two are the same. A file has the one or the
+other: ROSS 3 takes both as the axes of a table over two, and ROSS 2 refuses a table without `frequency`.
+
+**Between the speeds** ROSS 3 lays a monotone cubic through the table, and a line beyond its ends. ROSS 2.3 lays a line
+(2 speeds), a parabola (3) or a cubic smoothing spline (4 and more), which meets the values of the table to a few N/m,
+and goes on beyond the first and the last speed without a word.
 """
 
 import math
 import os
 import re
+from typing import Literal
 
 import numpy as np
 import tomli_w
@@ -29,18 +34,30 @@ from .stiffness import StiffnessTable
 WEIGHT_DIRECTION = -math.pi / 2
 """Angle of the load line from x, rad: along -y."""
 FEWEST_SPEEDS = 2
+Version = Literal[2, 3]
+NEWEST: Version = 3
+AXES: dict[Version, str] = {2: "frequency", 3: "speed"}
+"""Major version of ROSS -> its name of the axis of shaft speeds."""
+TESTED: dict[Version, str] = {2: "2.3.0", 3: "3.1.0"}
+"""Versions that the files were read with."""
 _ZERO = ("cxx", "cxy", "cyx", "cyy", "czz")
 _TAG = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def ross_bearing(
-    table: StiffnessTable, *, load_direction: float = WEIGHT_DIRECTION, node: int = 0, tag: str = "bearing"
+    table: StiffnessTable,
+    *,
+    load_direction: float = WEIGHT_DIRECTION,
+    node: int = 0,
+    tag: str = "bearing",
+    version: Version = NEWEST,
 ) -> dict[str, object]:
     """Arguments of `ross.BearingElement`, as plain numbers and lists.
 
     **Arguments:**
     - `load_direction`: angle of the load line from ROSS's x axis towards its y axis, rad.
     - `node`: of the rotor; `tag`: name of the element, of letters, digits, _ and -.
+    - `version`: of ROSS, 2 or 3.
 
     **Raises:** `ValueError` for fewer than 2 speeds (of one, ROSS makes a constant), a stiffness that is not finite, or
     a table without the radial and the lateral freedom.
@@ -53,11 +70,11 @@ def ross_bearing(
         raise ValueError(f"ROSS needs the radial and the lateral stiffness, got {', '.join(table.modelled)}")
     if not _TAG.fullmatch(tag):
         raise ValueError(f"tag must be of letters, digits, _ and -, got {tag!r}")
-    return element_of(table.speed, table.stiffness, load_direction, node, tag)
+    return element_of(table.speed, table.stiffness, load_direction, node, tag, version)
 
 
 def element_of(
-    speed: np.ndarray, stiffness: np.ndarray, load_direction: float, node: int, tag: str
+    speed: np.ndarray, stiffness: np.ndarray, load_direction: float, node: int, tag: str, version: Version = NEWEST
 ) -> dict[str, object]:
     """Arguments of `ross.BearingElement` from stiffnesses of the five freedoms; axes: speed, row, column."""
     axial, *across = (RING_FREEDOMS.index(name) for name in ("axial", "radial", "lateral"))
@@ -69,7 +86,7 @@ def element_of(
     # 0 of cylindrical rollers without flanges, which carry nothing along the axis
     coefficients |= {"kzz": stiffness[:, axial, axial]} | dict.fromkeys(_ZERO, np.zeros(len(speed)))
     lists = {name: values.tolist() for name, values in coefficients.items()}
-    return {"n": node, "tag": tag, "frequency": speed.tolist(), **lists}
+    return {"n": node, "tag": tag, AXES[version]: speed.tolist(), **lists}
 
 
 def ross_text(
@@ -79,17 +96,20 @@ def ross_text(
     load_direction: float = WEIGHT_DIRECTION,
     node: int = 0,
     tag: str = "bearing",
+    version: Version = NEWEST,
 ) -> str:
     """The TOML file that `ross.BearingElement.load` reads. See `ross_bearing`.
 
     **Arguments:** `scene_label`: which bearing this is, for whoever reads the file.
     """
-    element = ross_bearing(table, load_direction=load_direction, node=node, tag=tag)
+    element = ross_bearing(table, load_direction=load_direction, node=node, tag=tag, version=version)
     said = [
-        f"Stiffness over shaft speed for ROSS: rs.BearingElement.load(file). Written by jaxbearing {__version__}.",
+        f"Stiffness over shaft speed for ROSS {version}: rs.BearingElement.load(file). Written by jaxbearing "
+        f"{__version__}.",
         *([f"Scene: {one_line(scene_label)}"] if scene_label else []),
-        "frequency: speed of the shaft, which carries the inner ring, rad/s. k..: N/m, tangent stiffness under the",
-        "scene's loads, other freedoms of the ring held.",
+        f"{AXES[version]}: speed of the shaft, which carries the inner ring, rad/s; ROSS 2 calls it frequency, ROSS 3 "
+        "speed.",
+        "k..: N/m, tangent stiffness under the scene's loads, other freedoms of the ring held.",
         "n: node of the rotor, and tag: change them to yours; no two elements of a rotor may have one tag.",
         "c.. = 0: the model is quasi-static and has no damping; put in what you know.",
         f"Load line of the bearing: {math.degrees(load_direction):.6g} deg from x towards y; z along the shaft.",
@@ -107,6 +127,7 @@ def write_ross(
     load_direction: float = WEIGHT_DIRECTION,
     node: int = 0,
     tag: str = "bearing",
+    version: Version = NEWEST,
 ) -> None:
     """Write the file of `ross_text`, whole or not at all; one that is there is replaced.
 
@@ -115,7 +136,7 @@ def write_ross(
     """
     if not os.fspath(file).lower().endswith(".toml"):
         raise ValueError(f"the file must end in .toml, got {os.fspath(file)!r}")
-    text = ross_text(table, scene_label, load_direction=load_direction, node=node, tag=tag)
+    text = ross_text(table, scene_label, load_direction=load_direction, node=node, tag=tag, version=version)
     write_whole(file, text)
 
 

@@ -30,6 +30,11 @@ class Cases:
     def __post_init__(self):
         if not self.paths:
             raise ValueError("a sweep needs a field to vary")
+        names = [path.replace(".", "_") for path in self.paths]
+        for i, name in enumerate(names):
+            if name in names[:i]:
+                first = self.paths[names.index(name)]
+                raise ValueError(f"{first} and {self.paths[i]} would both be called {name} in the data set")
         for path, values in zip(self.paths, self.values, strict=True):
             if values.ndim != 1 or values.size == 0 or not np.all(np.isfinite(values)):
                 raise ValueError(f"{path}: expected one or more finite numbers, one after the other")

@@ -24,11 +24,17 @@ def template(structure: AbstractSolution, elements: bool, paths: Sequence[str] =
     """The data set of one case, with names, units and dimensions but no results.
 
     **Arguments:** `structure`: a solution with shapes for arrays; `elements`: see `Plan`; `paths`: swept fields.
+
+    **Raises:** `ValueError` for a swept field that has the name of a result in the data set.
     """
     one = jax.tree.map(lambda leaf: np.zeros((1, *leaf.shape), leaf.dtype), structure)
     # a share of nothing, among the results that follow from others, is no news here
     with np.errstate(all="ignore"):
         dataset = solution_to_dataset(one, (CASE,))
+    for path in paths:
+        result = dataset.variables.get(path.replace(".", "_"))
+        if result is not None and result.attrs["path"] != path:
+            raise ValueError(f"{path} would have the name of the result {result.attrs['path']} in the data set")
     if "azimuth" in dataset and "geometry.first_element_angle" in paths:
         # elsewhere in each case
         dataset = dataset.assign_coords(azimuth=dataset["azimuth"].expand_dims({CASE: 1}))

@@ -12,7 +12,7 @@ from .._derived import derived_parts, derived_results
 from .._scene import AbstractSolution
 from ..bearings.operation import LOAD_FIELDS, AbstractOperation
 from ..bearings.solution import RING_FREEDOMS, force_units
-from ..report.labels import dimensions
+from ..report.labels import dimensions, variable_name
 from ..scenes.errors import nearest
 
 DEFAULT = (
@@ -106,12 +106,15 @@ def _in_data(solution: AbstractSolution, path: str) -> tuple[str, tuple[str, str
     if entry is not None:
         table, name, rest = entry
         if rest.startswith("solution."):
-            return f"{name.replace('.', '_')}_{variable_of(rest.removeprefix('solution.'))}", None
+            # imported here: a tolerance without samples needs no data set
+            from ..report.shaft.dataset import fronts
+
+            return f"{fronts(solution)[name]}{variable_name(rest.removeprefix('solution.'))}", None
         return f"{_ALONG[table]}_{rest.replace('.', '_')}", (_ALONG[table], name)
     part, _, rest = path.partition(".")
     if part in _SYSTEM and isinstance(getattr(solution, "bearings", None), Mapping):
         return f"{_SYSTEM[part]}_{rest.replace('.', '_')}", None
-    return variable_of(path), None
+    return variable_name(path), None
 
 
 def _at(solution: AbstractSolution, path: str) -> Any:
@@ -128,11 +131,6 @@ def _at(solution: AbstractSolution, path: str) -> Any:
 def paths_of(solution: AbstractSolution) -> tuple[str, ...]:
     """Paths of all results of a solution."""
     return tuple(path for path, _ in _known(solution))
-
-
-def variable_of(path: str) -> str:
-    """Name of a result in data sets."""
-    return path.removeprefix("elements.").replace(".", "_")
 
 
 def _unit(path: str, said: Mapping[str, Any], place: int | None) -> str:
@@ -207,10 +205,10 @@ def _of_entries(solution: AbstractSolution) -> Iterator[str]:
 def _resolved(solution: AbstractSolution, text: str, known: Mapping[str, Mapping[str, object]]) -> str:
     parted = _NAME.fullmatch(text.strip())
     name = "" if parted is None else parted["name"]
-    path = next((one for one in known if name in (one, variable_of(one), one.replace(".", "_"))), None)
+    path = next((one for one in known if name in (one, variable_name(one), one.replace(".", "_"))), None)
     value = None if path is None else _at(solution, path)
     if parted is None or path is None or value is None:
-        near = nearest(name, {one for path in known for one in (path, variable_of(path))}) if name else ""
+        near = nearest(name, {one for path in known for one in (path, variable_name(path))}) if name else ""
         hint = f"; did you mean '{near}'?" if near else ""
         raise ValueError(f"results: found '{text}', which this scene does not have; expected a result{hint}")
     if not jnp.issubdtype(value.dtype, jnp.inexact):

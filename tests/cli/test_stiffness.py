@@ -22,7 +22,7 @@ def test_screen_and_file(jaxbearing_command, folder):
     text = (folder / "a.toml").read_text(encoding="utf-8")
     assert "# Scene: angular_contact_218 --set operation.axial_load=10 kN" in text
     element = tomllib.loads(text)["BearingElement_angular_contact_218"]
-    np.testing.assert_allclose(element["frequency"], np.array([2000.0, 6000.0, 10000.0]) * RPM, rtol=1e-14)
+    np.testing.assert_allclose(element["speed"], np.array([2000.0, 6000.0, 10000.0]) * RPM, rtol=1e-14)
 
 
 def test_json_and_load_direction(jaxbearing_command, folder):

@@ -2,6 +2,7 @@
 
 import ast
 import dataclasses
+import functools
 import importlib
 import re
 import subprocess
@@ -34,6 +35,18 @@ def test_links_of_a_page_lead_to_files(path):
     for target in re.findall(r"\]\(([^)\s#]+)", text):
         if "://" not in target:
             assert (path.parent / target).exists(), target
+    for target, place in re.findall(r"\]\(([^)\s#:]*)#([^)\s]+)\)", text):
+        assert place in anchors(path.parent / target if target else path), f"{target}#{place}"
+
+
+@functools.cache
+def anchors(page):
+    """Names of the headings of a page, as the pages of the site have them."""
+    found = set()
+    for heading in re.findall(r"^#+ (.+)$", page.read_text(encoding="utf-8"), flags=re.MULTILINE):
+        own = re.search(r"\{ ?#([\w-]+) ?\}", heading)
+        found.add(own[1] if own else re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", heading).strip().lower()))
+    return found
 
 
 def test_start_page_leads_to_every_page():

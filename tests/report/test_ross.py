@@ -93,11 +93,16 @@ def test_file_is_what_it_was_made_from(axial, tmp_path):
     (element,) = read.values()
     assert element == ross_bearing(axial, load_direction=0.3, node=4, tag="drive_end")
     assert (element["n"], element["tag"]) == (4, "drive_end")
-    assert element["frequency"] == SPEEDS.tolist()
     for name in ("kxx", "kxy", "kyx", "kyy", "kzz", "cxx", "cxy", "cyx", "cyy", "czz"):
         assert len(element[name]) == len(SPEEDS)
         assert all(isinstance(value, float) for value in element[name])
         assert name[0] == "k" or not any(element[name])
+    # shaft speeds: `speed` of ROSS 3, whose `frequency` is that of the whirl, and `frequency` of ROSS 2
+    assert element["speed"] == SPEEDS.tolist()
+    assert "frequency" not in element
+    older = ross_bearing(axial, load_direction=0.3, node=4, tag="drive_end", version=2)
+    assert older.pop("frequency") == element.pop("speed")
+    assert older == element
     write_ross(axial, file)
     assert list(tomllib.loads(file.read_text(encoding="utf-8"))) == ["BearingElement_bearing"]
 

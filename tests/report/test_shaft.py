@@ -3,6 +3,7 @@
 import dataclasses
 import io
 import json
+import tomllib
 from datetime import UTC, datetime
 
 import jax.numpy as jnp
@@ -18,6 +19,7 @@ from jaxbearing.report.display import digits
 from jaxbearing.report.html_report import html_report
 from jaxbearing.report.json_report import solution_to_dict
 from jaxbearing.report.plots import plot_solution, save_plot
+from jaxbearing.report.ross import TESTED
 from jaxbearing.report.shaft.bending import bending_line, cut_loads
 from jaxbearing.report.shaft.drawn import svg
 from jaxbearing.report.shaft.facts import life_columns
@@ -32,7 +34,9 @@ from jaxbearing.report.shaft.stiffness import (
 )
 from jaxbearing.report.summary import print_summary
 from jaxbearing.scenes.inputs import scene_inputs
+from jaxbearing.shafts import MountedBearing
 from jaxbearing.solve import solve_once
+from jaxbearing.tolerance.results import labels_of
 
 RPM = np.pi / 30.0
 FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
@@ -133,6 +137,34 @@ def test_data_set(filled, tmp_path):
         assert variable.attrs["long_name"], name
 
 
+def test_results_that_would_have_one_name_keep_the_dots_of_their_bearings(scene, filled, tmp_path):
+    """A bearing beside a set may be called as one of the set's is, and as the data set calls something else."""
+    plain = solution_to_dataset(filled)
+    own = sum(str(one).startswith("pair_2_") for one in plain.variables)
+    for name, fronts in (
+        ("pair_1", ("pair_1.", "pair.1.", "pair_2_")),
+        ("bearing", ("bearing_", "pair_1_", "pair_2_")),
+        ("pair", ("pair_", "pair_1_", "pair_2_")),
+    ):
+        beside = dataclasses.replace(scene, bearings=(MountedBearing(name, scene.sets[0].scene, 0.0),))
+        solution = solution_of(beside)
+        dataset = solution_to_dataset(solution)
+        # all that the bearing adds is there, and nothing of the others is lost
+        assert len(dataset.variables) == len(plain.variables) + own, name
+        for bearing, front in zip((name, "pair.1", "pair.2"), fronts, strict=True):
+            path = f"bearings.{bearing}.solution.elements.load_inner"
+            assert dataset[f"{front}load_inner"].attrs["path"] == path
+            assert dataset[f"{front}load_inner"].dims == (f"{front}element",)
+            assert labels_of(solution, [f"{path}[0]"])[f"{path}[0]"].variable == f"{front}load_inner"
+    beside = dataclasses.replace(scene, bearings=(MountedBearing("pair_1", scene.sets[0].scene, 0.0),))
+    bearings = [one for one in ross_rotor(table_of(beside), beside) if one.startswith("Bearing")]
+    assert bearings == ["BearingElement_pair.1", "BearingElement_pair_2", "BearingElement_pair_1"]
+    dataset = solution_to_dataset(solution_of(beside))
+    write_netcdf(dataset, tmp_path / "a.nc")
+    with xr.open_dataset(tmp_path / "a.nc") as back:
+        assert {"pair.1.load_inner", "pair_1.load_inner", "pair_2_load_inner"} < set(back.variables)
+
+
 def test_page_and_plot(scene, filled, tmp_path):
     inputs = scene_inputs("spindle_pair", {}, scene)
     page = html_report(scene, filled, "a shaft", inputs, datetime(2026, 1, 1, tzinfo=UTC))
@@ -197,7 +229,12 @@ def test_rotor_for_ross(scene, tmp_path):
     first = rotor["BearingElement_pair_1"]
     assert (first["n"], first["kyy"][0], first["kzz"][0]) == (1, 3e8, 1e8)
     np.testing.assert_allclose(first["kxx"], [2e8, 2.2e8], rtol=1e-15)
-    write_ross_rotor(table_of(scene), scene, tmp_path / "rotor.toml", "a shaft")
+    assert first["speed"] == [0.0, 100.0]
+    for version in (2, 3):
+        write_ross_rotor(table_of(scene), scene, tmp_path / "rotor.toml", "a shaft", version=version)
+        read = tomllib.loads((tmp_path / "rotor.toml").read_text(encoding="utf-8"))
+        assert read["ross_version"] == TESTED[version]
+        assert read["BearingElement_pair_1"][{2: "frequency", 3: "speed"}[version]] == [0.0, 100.0]
     with pytest.raises(ValueError, match="rigid shaft"):
         ross_rotor(table_of(scene), scene.replace({"shaft.sections": ()}))
 

@@ -48,6 +48,7 @@ def test_latin_hypercube_has_one_case_in_each_part_of_every_range():
         (lambda: grid({"a": [1.0, np.nan]}), "a: expected one or more finite numbers"),
         (lambda: listed({"a": [1.0], "b": [1.0, 2.0]}), "as many values of each"),
         (lambda: grid({"a": np.ones(4000), "b": np.ones(4000)}), "16000000 cases are too many"),
+        (lambda: grid({"bearing.a.b": [1.0], "bearing.a_b": [2.0]}), "both be called bearing_a_b"),
         (lambda: random({"a": (0.0, 1.0, "log")}, 3), "needs values > 0"),
         (lambda: random({"a": (0.0, 1.0)}, 0), "found 0 cases"),
     ],

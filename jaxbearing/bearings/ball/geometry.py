@@ -10,6 +10,7 @@ from jaxtyping import Array, Float
 from ..._scene import number, optional_number
 from ..._types import Scalar, Values
 from ...contacts import PointContact
+from ...materials import check_interference
 from ...numerics.checks import demand, numbers_or_none
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import count
@@ -69,6 +70,10 @@ class BallGeometry(AbstractGeometry):
 
     def _problems(self) -> Iterator[str | ValueError]:
         yield from refusals_of(check_row_fits, self.n_balls, self.ball_diameter, self.pitch_diameter, "ball")
+        clearance = numbers_or_none(self.diametral_clearance)
+        if clearance is not None:
+            name = "geometry.diametral_clearance"
+            yield from refusals_of(check_interference, name, -clearance[0], self.pitch_diameter)
         if (self.contact_angle is None) == (self.diametral_clearance is None):
             found = "neither contact_angle nor" if self.contact_angle is None else "both contact_angle and"
             yield (

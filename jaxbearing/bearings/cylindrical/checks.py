@@ -9,9 +9,6 @@ from ..parts import azimuths
 from .kinematics import roller_kinematics
 from .scene import CylindricalRollerBearing
 
-LARGEST_INTERFERENCE = 1e-3
-"""Largest interference over the pitch diameter: rings that are stretched so much carry 0.2 GPa."""
-
 
 def _squeezed(result: SolvedBearing) -> Excess:
     scene = result.scene
@@ -28,15 +25,6 @@ def _squeezed(result: SolvedBearing) -> Excess:
     return {text: jnp.where(loose, behind - LOADED * jnp.max(load), -1.0)}
 
 
-def _interference(scene: CylindricalRollerBearing) -> Excess:
-    clearance = scene.geometry.diametral_clearance
-    text = (
-        "interference (a clearance below 0) beyond a thousandth of the pitch diameter: no fit makes so much; check "
-        "sign and unit of geometry.diametral_clearance"
-    )
-    return {text: -jnp.asarray(clearance) - LARGEST_INTERFERENCE * scene.geometry.pitch_diameter}
-
-
 def _standing_cage(scene: CylindricalRollerBearing) -> Excess:
     if scene.contact is None:
         return {}
@@ -45,4 +33,4 @@ def _standing_cage(scene: CylindricalRollerBearing) -> Excess:
     return {text: 0.01 * motion.orbit_unit - jnp.abs(motion.free_orbit)}
 
 
-CHECKS = RangeChecks(results=(_squeezed,), inputs=(_interference, _standing_cage))
+CHECKS = RangeChecks(results=(_squeezed,), inputs=(_standing_cage,))

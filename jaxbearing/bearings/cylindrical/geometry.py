@@ -7,6 +7,7 @@ from typing import ClassVar, Literal
 import jax.numpy as jnp
 
 from ..._types import Scalar
+from ...materials import check_interference
 from ...numerics.checks import Checked, demand, numbers_or_none
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import choice, count
@@ -70,6 +71,10 @@ class RollerGeometry(AbstractGeometry):
 
     def _problems(self) -> Iterator[str | ValueError]:
         yield from refusals_of(check_row_fits, self.n_rollers, self.roller_diameter, self.pitch_diameter)
+        clearance = numbers_or_none(self.diametral_clearance)
+        if clearance is not None:
+            name = "geometry.diametral_clearance"
+            yield from refusals_of(check_interference, name, -clearance[0], self.pitch_diameter)
         yield from refusals_of(check_flanges, self)
         sizes = numbers_or_none(self.contact_length, self.roller_length)
         if sizes is not None:

@@ -17,7 +17,7 @@ import xarray as xr
 
 from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
 from ...numerics.status import Status
-from ..labels import labelled, udunits
+from ..labels import labelled, udunits, variable_name
 from ..registry import check_converged
 from ..variables import CHECK, attributes, checks, common, flags, variable, without_fill
 from .operation import unused_operation
@@ -57,7 +57,7 @@ def to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Dataset:
     unused = {f"operation.{name}" for name in unused_operation(solution)}
     for path, value, metadata in labelled(solution):
         if path not in unused:
-            dataset[path.removeprefix("elements.").replace(".", "_")] = variable(value, metadata, path, dims)
+            dataset[variable_name(path)] = variable(value, metadata, path, dims)
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     dataset["worst_equation"].attrs |= flags(dataset["worst_equation"].dtype, solution.equation_names)
     if solution.range_checks:

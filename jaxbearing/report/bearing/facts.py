@@ -9,6 +9,7 @@ import numpy as np
 from ...bearings.flanks import on_heavier_flanks
 from ...bearings.ring_deflection import AbstractRingDeflection
 from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
+from ...materials import BALL_PRESSURE, ROLLER_PRESSURE
 from ..display import digits, with_unit
 from .fit_facts import fit_facts
 from .life_facts import life_facts
@@ -21,8 +22,25 @@ def not_modelled(solution: Solution) -> str:
     return f"all power losses ({names})" if solution.power_loss.total is None else names
 
 
+def overload(solution: Solution) -> str:
+    """The contacts that yield, and a static load beyond the rating, in words; "" of a bearing that carries its load."""
+    limit = BALL_PRESSURE if solution.element_name == "ball" else ROLLER_PRESSURE
+    elements, life = on_heavier_flanks(solution.elements), solution.life
+    said = []
+    for side in ("inner", "outer"):
+        largest = float(np.nanmax(np.asarray(getattr(elements, f"pressure_{side}")), initial=0.0))
+        if largest > limit:
+            said.append(f"{with_unit(largest, 'Pa')} on the {side} raceway ({1e-9 * limit:g} GPa is the limit)")
+    if life is not None and life.static_safety is not None and float(np.asarray(life.static_safety)) < 1.0:
+        said.append(f"static load {with_unit(float(np.asarray(life.static_load)), 'N')} beyond C0")
+    return ", ".join(said)
+
+
 def facts(solution: Solution) -> Iterator[tuple[str, str]]:
     """Name and text of what an engineer wants to know besides losses and loads."""
+    yields = overload(solution)
+    if yields:
+        yield OVERLOAD, f"{solution.element_name}s and races yield: {yields}. Every result is that of elastic bodies"
     if solution.cage is not None:
         cage = solution.cage
         slip = f"slip {digits(100.0 * float(cage.slip), 3)} %"
@@ -54,8 +72,8 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
             yield title, text
     yield from _supply(solution)
     yield from _frequencies(solution)
-    if solution.life is not None:
-        yield from life_facts(solution)
+    for name, text in life_facts(solution) if solution.life is not None else ():
+        yield name, f"{NO_LIFE}: {text}" if yields and name == "Life" else text
 
 
 def bending(ring: AbstractRingDeflection) -> str:
@@ -173,6 +191,9 @@ _KINDS = {
 }
 
 
+OVERLOAD = "Overload"
+"""Name of the fact that contacts yield."""
+NO_LIFE = "none, because it yields; the formulas, which do not hold here, give"
 NOTHING = 1e-9
 """Least force on the ring that is shown, over the largest one, N; moments with a lever of 1 m, N m."""
 _LOADS = {

@@ -13,7 +13,7 @@ from ..page_content import Content, Sketch
 from ..tables import element_columns, result_rows
 from .drawing.section import section
 from .drawing.sketch import front_view
-from .facts import facts, not_modelled
+from .facts import OVERLOAD, facts, not_modelled, overload
 from .life_facts import TITLES, life_headlines, repeated_lives
 from .operation import operating_point, unused_operation
 from .panels import bearing_diagrams, bearing_panels, power_losses
@@ -86,6 +86,9 @@ def _section_caption(scene: AbstractBearing, name: str) -> str:
 
 def _headlines(solution: Solution, total: float | None) -> Iterator[tuple[str, str]]:
     elements, life = on_heavier_flanks(solution.elements), solution.life
+    if overload(solution):
+        yield OVERLOAD.lower(), f"{solution.element_name}s and races yield: no life"
+        life = None
     if total is not None:
         yield "power loss", with_unit(total, "W")
     loads = np.maximum(np.asarray(elements.load_inner), np.asarray(elements.load_outer))

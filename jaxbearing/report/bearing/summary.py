@@ -26,7 +26,7 @@ from ..backends.screen import (
 from ..display import digits, display_unit, displayed
 from ..tables import derived_facts
 from .azimuth import signed_degrees
-from .facts import extremes, facts, not_modelled
+from .facts import OVERLOAD, extremes, facts, not_modelled
 from .life_facts import SAID
 from .operation import operating_point
 
@@ -49,7 +49,7 @@ _COLUMNS = {
 
 
 FIRST = (
-    *("Life", "Static safety", "Lubrication", "Load", "Rating", "Least load"),
+    *(OVERLOAD, "Life", "Static safety", "Lubrication", "Load", "Rating", "Least load"),
     *("Temperatures", "Thermal margin", "Clearance", "First contact"),
 )
 """Names of the facts that stand first, in this order, as far as the scene models them."""

@@ -1,9 +1,11 @@
 """A shaft's solution as a labelled xarray data set.
 
 Results of the bearings have the dimension `bearing`; those of a bearing's own family stand beside them, with the name
-of the bearing in front (`rear_load_inner` over `rear_element`). `node` runs along the shaft, `set` over the sets.
+of the bearing in front (`rear_load_inner` over `rear_element`). `node` runs along the shaft, `set` over the sets. A dot
+in the name of a bearing becomes `_`, unless two results would then have one name: see `fronts`.
 """
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -14,7 +16,7 @@ from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness
 from ...numerics.status import Status
 from ...shafts.solution import ShaftSolution
 from ..bearing.dataset import to_dataset as bearing_dataset
-from ..labels import labelled, udunits
+from ..labels import labelled, udunits, variable_name
 from ..registry import check_converged
 from ..variables import CHECK, attributes, checks, flags, variable, without_fill
 
@@ -45,6 +47,7 @@ def to_dataset(solution: ShaftSolution, dims: Sequence[str] = ()) -> xr.Dataset:
         check_converged(solution)
     dataset = xr.Dataset(attrs=attributes(solution, "Steady state of a shaft on bearings"))
     for name, one in _variables(solution, dims):
+        assert name not in dataset.variables, name
         dataset[name] = one
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     if solution.range_checks:
@@ -52,7 +55,35 @@ def to_dataset(solution: ShaftSolution, dims: Sequence[str] = ()) -> xr.Dataset:
     return without_fill(dataset.assign_coords(_coordinates(solution)))
 
 
+def fronts(solution: ShaftSolution, dims: tuple[str, ...] = ()) -> dict[str, str]:
+    """Beginning of the names of each bearing's own results: its name with `_` for the dot, and `_` behind: `front_1_`.
+
+    Two results would have the same name so if a bearing beside the set `front` were called `front_1`. The bearings
+    concerned then keep the dot and have one behind: `front.1.load_inner` and `front_1.load_inner`.
+    """
+    families = {name: one.solution for name, one in solution.bearings.items() if one.solution is not None}
+    flat = {name: f"{name.replace('.', '_')}_" for name in families}
+    inner_names = lambda family: ("element", *(variable_name(path) for path, *_ in labelled(family)))
+    names = {
+        name: [flat[name] + inner for inner in inner_names(family) if not inner.startswith(_OWN)]
+        for name, family in families.items()
+    }
+    count = Counter([*_coordinates(solution), *(name for name, _ in _of_shaft(solution, dims))])
+    count += Counter(name for several in names.values() for name in several)
+    return {
+        name: f"{name}." if any(count[one] > 1 for one in several) else flat[name] for name, several in names.items()
+    }
+
+
 def _variables(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
+    yield from _of_shaft(solution, dims)
+    for name, front in fronts(solution, dims).items():
+        family = solution.bearings[name].solution
+        if family is not None and (dims or bool(family.converged)):
+            yield from _of_family(name, front, family, dims)
+
+
+def _of_shaft(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
     for path, value, metadata in labelled(solution):
         if "." not in path and metadata["unit"] != "mixed":
             yield path, variable(value, metadata, path, dims)
@@ -68,9 +99,6 @@ def _variables(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple
             yield f"thermal_{path}", xr.Variable((*dims, *own), np.asarray(value), _said(metadata, f"thermal.{path}"))
     yield from _stacked(list(solution.bearings.values()), "bearing", "bearings", dims)
     yield from _stacked(list(solution.sets.values()), "set", "sets", dims)
-    for name, one in solution.bearings.items():
-        if one.solution is not None and (dims or bool(one.solution.converged)):
-            yield from _of_family(name, one.solution, dims)
 
 
 def _of_nodes(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
@@ -104,18 +132,17 @@ def _said(metadata: Mapping[str, Any], path: str) -> dict[str, str]:
     return {"units": "1" if unit == "mixed" else udunits(unit), "long_name": metadata["description"], "path": path}
 
 
-def _of_family(name: str, solution: Solution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
+def _of_family(name: str, front: str, solution: Solution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
     """The results of a bearing's family with its name in front."""
     own = bearing_dataset(solution, dims)
-    front = name.replace(".", "_")
     for inner, one in own.variables.items():
         if str(inner).startswith(_OWN) or str(inner) in dims or CHECK in one.dims or {"freedom"} & set(one.dims):
             continue
-        renamed = [f"{front}_{dim}" if dim not in dims else dim for dim in one.dims]
+        renamed = [f"{front}{dim}" if dim not in dims else dim for dim in one.dims]
         said = dict(one.attrs)
         if said.get("path"):
             said["path"] = f"bearings.{name}.solution.{said['path']}"
-        yield f"{front}_{inner}", xr.Variable(renamed, one.values, said)
+        yield f"{front}{inner}", xr.Variable(renamed, one.values, said)
 
 
 def _coordinates(solution: ShaftSolution) -> dict[str, xr.Variable]:

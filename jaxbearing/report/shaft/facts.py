@@ -11,7 +11,7 @@ from ...life.duty import IN_HOURS
 from ...life.result import Life
 from ...shafts.solution import BearingOnShaft, SetResult, ShaftSolution
 from ..backends.json import finite
-from ..bearing.facts import bending
+from ..bearing.facts import OVERLOAD, bending, overload
 from ..bearing.life_facts import AT_RELIABILITY, lives_in_words, percent
 from ..display import ZERO_CELSIUS, digits, with_unit
 from .bending import bending_line
@@ -71,7 +71,8 @@ def life_columns(solution: ShaftSolution, wide: bool = True) -> dict[str, list[s
     shares = {life.reliability for life in lives if life is not None}
     rated_for = f"h, {percent(shares.pop())}" if len(shares) == 1 else "h, n"
     of = lambda name, significant=3: [_of_life(life, name, significant) for life in lives]
-    hours = lambda name: ["-" if life is None else _hours(getattr(life, name)) for life in lives]
+    lasting = [None if _yielding(one) else one.life for one in bearings]
+    hours = lambda name: ["-" if life is None else _hours(getattr(life, name)) for life in lasting]
     columns = {f"{name}\nh, 90 %": hours(IN_HOURS[name]) for name in ("L10", "L10r")}
     if wide:
         columns["L10m\nh, 90 %"] = hours("L10mh")
@@ -152,13 +153,25 @@ def life_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
 
 def system_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     """Name and text of the life of the system, and of the reliabilities n where bearings are rated for several."""
-    if solution.life is not None:
+    if solution.life is not None and not any(overloads(solution)):
         for lives in lives_in_words(solution.life):
             yield "System life", lives
     shares = {name: one.life.reliability for name, one in solution.bearings.items() if one.life is not None}
     if len(set(shares.values())) > 1:
         each = ", ".join(f"{name} {percent(share)}" for name, share in shares.items())
         yield "Reliability n", f"{each}; lives at different reliabilities make no life of the system"
+
+
+def overloads(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
+    """The bearings that yield, which have no life, nor has the system."""
+    texts = [f"{name} {_yielding(one)}" for name, one in solution.bearings.items() if _yielding(one)]
+    if texts:
+        yield OVERLOAD, f"yield, so that neither these bearings nor the system has a life: {'; '.join(texts)}"
+
+
+def _yielding(one: BearingOnShaft) -> str:
+    """The contacts of a bearing that yield, in words."""
+    return "" if one.solution is None else overload(one.solution)
 
 
 def loss_of(one: BearingOnShaft) -> float | None:

@@ -24,6 +24,7 @@ from .facts import (
     life_columns,
     loss_of,
     number,
+    overloads,
     set_facts,
     shaft_facts,
     shaft_warnings,
@@ -89,7 +90,8 @@ def _losses(losses: dict[str, float]) -> Bars:
 
 
 def _headlines(solution: ShaftSolution, total: float | None) -> Iterator[tuple[str, str]]:
-    if solution.life is not None:
+    yield from ((name.lower(), text) for name, text in overloads(solution))
+    if solution.life is not None and not any(overloads(solution)):
         for name, text in life_headlines(solution.life):
             yield f"system {name}", text
     size, _ = bending_line(solution).largest()

@@ -10,7 +10,7 @@ from ..backends.matplotlib.sheet import foot, head
 from ..bearing.life_facts import life_headlines
 from ..display import display_unit, displayed
 from .drawn import draw_picture
-from .facts import shaft_warnings
+from .facts import overloads, shaft_warnings
 from .panels import shaft_panels
 from .picture import pictures
 
@@ -51,6 +51,6 @@ def operating_text(solution: ShaftSolution) -> str:
     """Speed and life in words."""
     speed = displayed(float(solution.operation.speed), "rad/s")
     said = [f"shaft speed {speed:.6g} {display_unit('rad/s')}"]
-    if solution.life is not None:
+    if solution.life is not None and not any(overloads(solution)):
         said += [f"system {name} {text}" for name, text in life_headlines(solution.life)]
     return "   ·   ".join(said)

@@ -6,11 +6,12 @@ shear factor as in the package; masses are disks without moments of inertia, whi
 is one element at its node, with the full 2x2 across the axis and the axial stiffness, at the equilibria of the table
 of speeds; elastic supports of its outer ring are in series.
 
-ROSS 2.3 says that the file was made by another version: it has none of a version of its own.
+`ross_version` in the file is that of the ROSS it was read with; another one says that it is another one.
 """
 
 import math
 import os
+from collections import Counter
 from itertools import pairwise
 from typing import Any
 
@@ -23,7 +24,7 @@ from ...shafts.forces import Mass
 from ...shafts.scene import ShaftSystem
 from ...shafts.shaft import Section
 from ..files import write_whole
-from ..ross import WEIGHT_DIRECTION, element_of, one_line
+from ..ross import NEWEST, TESTED, WEIGHT_DIRECTION, Version, element_of, one_line
 from .stiffness import ShaftStiffness
 
 SAME = 1e-9
@@ -40,7 +41,11 @@ def require_rotor(scene: ShaftSystem) -> None:
 
 
 def ross_rotor(
-    table: ShaftStiffness, scene: ShaftSystem, *, load_direction: float = WEIGHT_DIRECTION
+    table: ShaftStiffness,
+    scene: ShaftSystem,
+    *,
+    load_direction: float = WEIGHT_DIRECTION,
+    version: Version = NEWEST,
 ) -> dict[str, dict[str, object]]:
     """Elements of the rotor by their class and tag, each with the arguments of its class.
 
@@ -55,10 +60,12 @@ def ross_rotor(
         tag = one.name
         disk = {"n": _node(nodes, float(one.position)), "m": float(one.mass), "Id": 0.0, "Ip": 0.0, "tag": tag}
         found[f"DiskElement_{tag}"] = disk
+    flat = Counter(name.replace(".", "_") for name in table.bearings)
     for name, values in table.bearings.items():
-        tag = name.replace(".", "_")
+        # the name itself where two bearings, `front.1` and `front_1`, would have one tag
+        tag = name if flat[name.replace(".", "_")] > 1 else name.replace(".", "_")
         node = _node(nodes, table.position[name])
-        found[f"BearingElement_{tag}"] = element_of(table.speed, values, load_direction, node, tag)
+        found[f"BearingElement_{tag}"] = element_of(table.speed, values, load_direction, node, tag, version)
     return found
 
 
@@ -127,6 +134,7 @@ def write_ross_rotor(
     scene_label: str = "",
     *,
     load_direction: float = WEIGHT_DIRECTION,
+    version: Version = NEWEST,
 ) -> None:
     """Write the rotor, whole or not at all; a file that is there is replaced.
 
@@ -135,13 +143,14 @@ def write_ross_rotor(
     """
     if not os.fspath(file).lower().endswith(".toml"):
         raise ValueError(f"the file must end in .toml, got {os.fspath(file)!r}")
-    elements = ross_rotor(table, scene, load_direction=load_direction)
+    elements = ross_rotor(table, scene, load_direction=load_direction, version=version)
     said = [
-        f"A shaft on bearings for ROSS: rs.Rotor.load(file). Written by jaxbearing {__version__}.",
+        f"A shaft on bearings for ROSS {version}: rs.Rotor.load(file). Written by jaxbearing {__version__}.",
         *([f"Scene: {one_line(scene_label)}"] if scene_label else []),
         "k..: N/m, tangent stiffness of the bearings in the shaft's equilibrium, tilts held; c.. = 0: no damping.",
         "Disks have no moments of inertia (Id, Ip): put in what you know.",
         f"Y of the shaft: {math.degrees(load_direction):.6g} deg from x towards y; z along the shaft.",
     ]
     comments = "".join(f"# {line}\n" for line in said)
-    write_whole(file, f"{comments}\n{tomli_w.dumps({'parameters': {}, **elements})}")
+    read = {"ross_version": TESTED[version], "parameters": {}, **elements}
+    write_whole(file, f"{comments}\n{tomli_w.dumps(read)}")

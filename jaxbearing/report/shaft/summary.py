@@ -15,7 +15,16 @@ from ..backends.screen import (
     print_warnings,
 )
 from ..bearing.life_facts import lives_in_words
-from .facts import NAMES, bearing_columns, life_columns, life_facts, set_facts, shaft_facts, shaft_warnings
+from .facts import (
+    NAMES,
+    bearing_columns,
+    life_columns,
+    life_facts,
+    overloads,
+    set_facts,
+    shaft_facts,
+    shaft_warnings,
+)
 
 
 def print_summary(solution: ShaftSolution, scene_label: str, console: Console, full: bool = False) -> None:
@@ -45,6 +54,8 @@ def print_summary(solution: ShaftSolution, scene_label: str, console: Console, f
 
 def _print_bearings(solution: ShaftSolution, console: Console) -> None:
     print_rule("Bearings", console)
+    for name, text in overloads(solution):
+        print_line(name, text, console)
     _print_columns(bearing_columns(solution), console)
     print_line("", "Forces of the bearings on the shaft; azimuths from Y in the sense of rotation.", console, 0)
     columns = life_columns(solution, wide=False)

@@ -11,7 +11,7 @@ import xarray as xr
 from ....bearings.motion.history import History
 from ....numerics.status import Status
 from ...history_shocks import FACES, SHOCK, peaks_by_turn, sectors, whirl_ratio
-from ...labels import labelled
+from ...labels import labelled, variable_name
 from ...run_statistics import cage_stress, groove_energy, sliding_energy
 from ...variables import attributes, flags, identity_text, variable, without_fill
 
@@ -23,8 +23,7 @@ def to_dataset(history: History) -> xr.Dataset:
     dataset.attrs["not_modelled"] = ", ".join(history.not_modelled)
     for path, value, metadata in labelled(history):
         short = path.removeprefix("instants.")
-        name = short.removeprefix("elements.").replace(".", "_")
-        dataset[name] = variable(value, metadata, short, () if short == path else ("time",))
+        dataset[variable_name(short)] = variable(value, metadata, short, () if short == path else ("time",))
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     count = dataset.sizes["element"]
     dataset = dataset.assign(_statistics(history)).assign(_of_elements_and_cage(history))
