@@ -32,7 +32,8 @@ FullOption = Annotated[
     bool,
     typer.Option(
         "--full",
-        help="All of a bearing on the screen: each loaded element, spin, heat, seats, oil supply, frequencies.",
+        help="All of a bearing on the screen: each loaded element, spin, heat, seats, oil supply, frequencies; every "
+        "column of a table.",
     ),
 ]
 

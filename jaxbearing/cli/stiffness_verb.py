@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .messages import NOT_CONVERGED, bad_input, refuse
-from .options import JsonOption, SceneArgument, SetOption, labelled, option_quantity
+from .options import ColumnsOption, JsonOption, SceneArgument, SetOption, labelled, option_quantity
 from .output_files import Output, check_files, deliver
 from .terminal import console
 
@@ -53,6 +53,7 @@ def stiffness(
     as_json: JsonOption = False,
     ross: Ross = None,
     load_direction: LoadDirection = "-90 deg",
+    full: ColumnsOption = False,
 ) -> None:
     """Stiffness against shaft speed, at the loads of the scene; of a shaft that of each set and bearing. On request it
     is written as a bearing, or a rotor, for ROSS."""
@@ -84,7 +85,7 @@ def stiffness(
             read = "Rotor" if model.kind == SHAFT else "BearingElement"
             wrote = "" if as_json else f"wrote {ross}: read it with ross.{read}.load"
             output = Output(ross, lambda path: _write(table, path, scene, model, changes, angle), wrote)
-            deliver(lambda: _print(table, label, as_json), (output,))
+            deliver(lambda: _print(table, label, as_json, full), (output,))
     if failure:
         _print_failure(failure, label, ross, as_json)
         raise typer.Exit(NOT_CONVERGED)
@@ -163,7 +164,7 @@ def _write(
     write_ross(table, file, labelled(Path(scene).name, changes), load_direction=angle, tag=tag)
 
 
-def _print(table: "StiffnessTable | ShaftStiffness", label: str, as_json: bool) -> None:
+def _print(table: "StiffnessTable | ShaftStiffness", label: str, as_json: bool, full: bool) -> None:
     from ..report.shaft.stiffness import ShaftStiffness, print_shaft_stiffness, shaft_stiffness_to_dict
     from ..report.stiffness import stiffness_to_dict
     from ..report.stiffness_table import print_stiffness
@@ -173,9 +174,9 @@ def _print(table: "StiffnessTable | ShaftStiffness", label: str, as_json: bool) 
         found = {"converged": True, "failure": None, **numbers}
         typer.echo(json.dumps(found, allow_nan=False))
     elif isinstance(table, ShaftStiffness):
-        print_shaft_stiffness(table, label, console())
+        print_shaft_stiffness(table, label, console(), full)
     else:
-        print_stiffness(table, label, console())
+        print_stiffness(table, label, console(), full)
 
 
 def _print_failure(failure: str, label: str, ross: Path | None, as_json: bool) -> None:

@@ -7,19 +7,20 @@ from ...shafts.solution import DutyResult, ShaftSolution
 from ..backends.screen import (
     counted,
     headline,
-    pieces,
     print_failure,
     print_line,
     print_rule,
     print_table,
     print_warnings,
+    shown_pieces,
 )
 from ..display import digits
 from .facts import NAMES, bearing_columns, life_facts, set_facts, shaft_facts, shaft_warnings
 
 
 def print_summary(solution: ShaftSolution, scene_label: str, console: Console, full: bool = False) -> None:
-    """See `report.summary.print_summary`. **Arguments:** `full`: with the summary of every bearing below."""
+    """See `report.summary.print_summary`. **Arguments:** `full`: with all columns of the table, and the summary
+    of every bearing below."""
     if not bool(solution.converged):
         print_failure(scene_label, Status(int(solution.status)).text, solution.failure(), console)
         print_warnings(solution.warnings, console)
@@ -28,7 +29,7 @@ def print_summary(solution: ShaftSolution, scene_label: str, console: Console, f
     counts = f"{counted(solution.unknowns, 'unknown')} of the shaft, {counted(len(solution.bearings), 'bearing')}"
     state = f"{steps}, {counts}, largest scaled residual {float(solution.residual_norm):.1e}"
     headline(scene_label, "CONVERGED", "bold green", state, console)
-    _print_bearings(solution, console)
+    _print_bearings(solution, console, full)
     print_rule("Shaft", console)
     for name, text in shaft_facts(solution):
         print_line(name, text, console)
@@ -43,11 +44,11 @@ def print_summary(solution: ShaftSolution, scene_label: str, console: Console, f
                 print_bearing(one.solution, name, console, full)
 
 
-def _print_bearings(solution: ShaftSolution, console: Console) -> None:
+def _print_bearings(solution: ShaftSolution, console: Console, full: bool) -> None:
     print_rule("Bearings", console)
     columns = bearing_columns(solution)
     first = {NAMES: columns.pop(NAMES)}
-    for piece in pieces(first, columns, console.width):
+    for piece in shown_pieces(first, columns, console, full):
         print_table(piece, [0.0] * len(solution.bearings), 0, "", console, named=NAMES)
     print_line("", "Forces of the bearings on the shaft; azimuths from Y in the sense of rotation.", console, 0)
     for name, text in set_facts(solution):
