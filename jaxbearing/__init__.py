@@ -15,12 +15,14 @@ import os
 import sys
 from typing import TYPE_CHECKING, Any
 
+from ._forwarding import attributes_of, keep_old_modules
 from .numerics.garbage import rare_garbage_collection
 from .numerics.interrupts import end_command_at_interrupt, is_the_command
 from .numerics.quiet import silence_compiler
 
 end_command_at_interrupt()  # before anything large is imported
 silence_compiler()
+keep_old_modules()
 if is_the_command():
     # statuses say what went wrong: a program that calls Python to raise an error of its own could not be kept
     os.environ.setdefault("EQX_ON_ERROR", "nan")
@@ -52,12 +54,16 @@ def load_verbs() -> None:
 
 
 if TYPE_CHECKING:
+    from . import bearings as bearings
     from . import calibration as calibration
     from . import catalogue as catalogue
     from . import contacts as contacts
+    from . import ehl as ehl
     from . import gaps as gaps
     from . import life as life
     from . import lubricants as lubricants
+    from . import machines as machines
+    from . import makers as makers
     from . import mounting as mounting
     from . import plots as plots
     from . import shafts as shafts
@@ -195,22 +201,28 @@ _LAZY = {
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
 _MODULES = (
+    "bearings",
     "calibration",
     "catalogue",
     "contacts",
+    "ehl",
     "fitting",
     "gaps",
     "life",
     "lubricants",
+    "machines",
+    "makers",
     "mounting",
     "plots",
     "shafts",
     "sweeps",
     "thermal",
 )
-"""Modules that are public as such: calibration, standard bearings, the laws, the fit of an oil, shafts, sweeps,
-figures."""
+"""Modules that are public as such: families of bearings, calibration, standard bearings, the laws, the fit of an oil,
+shafts, makers' formulas, machines, sweeps, figures."""
 _AT_ONCE = ("jit_solver", "simulate", "simulate_batch", "solve", "sweep")
+
+_forwarded = attributes_of(__name__, {name: place[1:] for name, place in _LAZY.items()})
 
 __all__ = [*_AT_ONCE, *_LAZY, *_MODULES]  # pyright: ignore[reportUnsupportedDunderAll]
 
@@ -221,9 +233,7 @@ def __getattr__(name: str) -> Any:
     if name in _AT_ONCE:
         load_verbs()
         return globals()[name]
-    if name in _LAZY:
-        return getattr(importlib.import_module(_LAZY[name], __name__), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return _forwarded(name)
 
 
 def __dir__() -> list[str]:

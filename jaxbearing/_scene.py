@@ -2,7 +2,7 @@
 
 import abc
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, ClassVar, TypeVar
 
 import equinox as eqx
@@ -16,13 +16,14 @@ from ._derived import derived as derived
 from ._derived import derived_part as derived_part
 from ._shown import Shown
 from .numerics.arguments import did_you_mean
-from .numerics.checks import bounded
+from .numerics.checks import InputChecks, bounded, check_inputs, gate, nan_unless
 from .numerics.checks import label as label
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float
 from .numerics.status import SolveError, Status
 
 Scene = TypeVar("Scene", bound="AbstractScene")
+Result = TypeVar("Result", bound="AbstractSolution")
 OF_A_BATCH = "this is a batch of solutions: take one lane of it first, jax.tree.map(lambda leaf: leaf[lane], solution)"
 
 
@@ -177,6 +178,31 @@ class AbstractSolution(Shown):
         if failed:
             numbers = jax.lax.stop_gradient(self)  # those that are differentiated have no digits to print
             raise SolveError(numbers.failure(), Status(int(np.max(np.asarray(self.status)))))
+
+
+def with_checked_inputs(scene: Scene, compute: Callable[[Scene], Result]) -> Result:
+    """Result of `compute` for a scene, with checks of its inputs. With an invalid input the operating point is NaN, so
+    that iterations end at their first step. Rules that `compute` found broken itself stay beside them."""
+    inputs = check_inputs(scene)
+    given = gate(scene, inputs.valid)
+    point = getattr(given, scene.operating_point)
+    solution = compute(dataclasses.replace(given, **{scene.operating_point: nan_unless(point, inputs.valid)}))
+    return dataclasses.replace(
+        solution,
+        status=jnp.where(inputs.valid, solution.status, int(Status.INVALID_INPUT)),
+        operation=point,
+        checks=Checks(dict(solution.range_checks), *_with_rules(solution.checks, inputs)),
+    )
+
+
+def _with_rules(
+    checks: Mapping[str, Bool[Array, ""]], inputs: InputChecks
+) -> tuple[Bool[Array, " rule"], tuple[str, ...]]:
+    """The rules of the inputs, and those that the checks of a solution have already, which count if the inputs are
+    valid: they meet NaN otherwise."""
+    if not isinstance(checks, Checks):
+        return inputs.broken, inputs.rules
+    return jnp.concatenate([inputs.broken, checks.broken & inputs.valid]), (*inputs.rules, *checks.rules)
 
 
 class AbstractHistory(AbstractSolution):

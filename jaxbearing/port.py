@@ -16,6 +16,7 @@ import numpy as np
 from jax.core import Tracer
 from jaxtyping import Array, Float
 
+from ._scene import with_checked_inputs
 from ._types import Scalar
 from .bearings.bearing import AbstractBearing
 from .bearings.ring import held_ring
@@ -29,7 +30,7 @@ from .numerics.precision import as_float, require_x64
 from .numerics.quiet import quiet_first_time
 from .numerics.status import Status
 from .programs.differentiated import differentiable, solved
-from .solve import chosen_options, with_checked_inputs
+from .solve import chosen_options
 
 _POINTS, _TILTS = ("port", "ring"), ("exact", "linear")
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, overload
 
+from ._forwarding import attributes_of
 from ._scene import AbstractHistory, AbstractScene
 from .numerics.arguments import require_choice
 from .numerics.compiling import require_outside
@@ -298,3 +299,6 @@ def simulate_batch(
     _require_moving(scene, "simulated_batch")
     require_choice("method", method, ("map", "vmap"))
     return scene.simulated_batch(duration, over, simulation=simulation, interval=interval, method=method)
+
+
+__getattr__ = attributes_of(__name__)

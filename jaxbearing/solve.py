@@ -13,27 +13,22 @@ Four programs compute the same solution. Which one runs depends on where `solve`
   differentiated or batched.
 """
 
-import dataclasses
 from collections.abc import Callable
 from contextlib import nullcontext
-from typing import TYPE_CHECKING, Any, TypeVar, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import equinox as eqx
 import jax
-import jax.numpy as jnp
 import numpy as np
 from jax.core import Tracer
 
-from ._checks import Checks
-from ._scene import AbstractScene, AbstractSolution, Scene
+from ._scene import AbstractScene, AbstractSolution, with_checked_inputs
 from .bearings.bearing_life import with_life
-from .numerics.checks import check_inputs, gate, nan_unless
 from .numerics.compiling import inside_a_program, is_tracing
 from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .numerics.quiet import compiling_quietly, quiet_first_time
-from .numerics.status import Status
 from .programs import KeptProgram
 from .programs.differentiated import at_roots, differentiable, solved, with_roots
 
@@ -48,8 +43,6 @@ if TYPE_CHECKING:
     from .machines import TwoDisk, TwoDiskSolution
     from .shafts import ShaftSolution, ShaftSystem
 
-Result = TypeVar("Result", bound=AbstractSolution)
-
 
 def require_solvable(scene: object) -> None:
     """**Raises:** `TypeError` if `scene` is not a scene, or if its kind has no steady state."""
@@ -62,21 +55,6 @@ def require_solvable(scene: object) -> None:
 def _solve_any(scene: AbstractScene, options: NewtonOptions) -> AbstractSolution:
     """All computations from a scene to its solution."""
     return with_checked_inputs(scene, lambda lane: with_life(lane, lane.steady_solution(options)))
-
-
-def with_checked_inputs(scene: Scene, compute: Callable[[Scene], Result]) -> Result:
-    """Result of `compute` for a scene, with checks of its inputs. With an invalid input the operating point is NaN, so
-    that iterations end at their first step."""
-    inputs = check_inputs(scene)
-    given = gate(scene, inputs.valid)
-    point = getattr(given, scene.operating_point)
-    solution = compute(dataclasses.replace(given, **{scene.operating_point: nan_unless(point, inputs.valid)}))
-    return dataclasses.replace(
-        solution,
-        status=jnp.where(inputs.valid, solution.status, int(Status.INVALID_INPUT)),
-        operation=point,
-        checks=Checks(dict(solution.checks), inputs.broken, inputs.rules),
-    )
 
 
 _solve = eqx.filter_jit(_solve_any)

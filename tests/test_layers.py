@@ -13,6 +13,7 @@ FITTING = ROOT / "fitting"
 # A module may import from layers of a lower rank, and from its own.
 RANK = {
     "_types": 0,
+    "_forwarding": 0,
     "_checks": 2,
     "_derived": 2,
     "_scene": 2,

@@ -76,4 +76,7 @@ class FitResult(eqx.Module):
     loose_speed: Float[Array, ""] | None = eqx.field(
         metadata=label("rad/s", "speed at which the inner ring comes loose on the shaft at these temperatures")
     )
+    loose_speed_outer: Float[Array, ""] | None = eqx.field(
+        metadata=label("rad/s", "speed of outer ring and housing together at which they part at these temperatures")
+    )
     hoop_stress: Float[Array, ""] = eqx.field(metadata=label("Pa", "stress around the bore of the inner ring"))

@@ -137,6 +137,7 @@ def running_scene(scene: Bearing) -> tuple[Bearing, FitResult | None, dict[str, 
         pressure_inner=None if on_shaft is None else on_shaft.pressure,
         pressure_outer=None if in_housing is None else in_housing.pressure,
         loose_speed=None if on_shaft is None else on_shaft.loose_speed,
+        loose_speed_outer=None if in_housing is None else in_housing.loose_speed,
         hoop_stress=rings.hoop_stress[-1],
     )
     unseated = dataclasses.replace(scene, fits=None, temperatures=None)

@@ -8,7 +8,6 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax.core import Tracer
 from jaxtyping import Array, Float
 
 from .._scene import label, number, optional_number
@@ -16,7 +15,7 @@ from .._types import Scalar, Values
 from ..materials import Material
 from ..mounting.bending import Foundation, RingSection, rectangular_section
 from ..mounting.bent_ring import BentRing, RimLoads, Supports
-from ..numerics.checks import Checked, array_module, demand
+from ..numerics.checks import Checked, array_module, demand, numbers_or_none
 from ..numerics.precision import as_float
 from ..numerics.ranges import RANGES
 from ..numerics.refusals import refusals_of, refuse_all
@@ -248,10 +247,11 @@ class AbstractRoundness(_Lists):
     def __check_init__(self):
         if self.lobe_order is None and self.table_angle is None:
             raise ValueError(f"{self.part}: expected lobes or a table, found nothing")
-        if self.lobe_order is not None and not isinstance(self.lobe_order, Tracer):
-            orders = np.asarray(self.lobe_order)
-            if np.any(orders != np.round(orders)):
-                raise ValueError(f"{self.part}.lobe_order must be whole numbers, got {orders.tolist()}")
+        orders = numbers_or_none(self.lobe_order)
+        if orders is not None:
+            xp, rule = array_module(*orders), f"{self.part}.lobe_order must be whole numbers"
+            whole = xp.all(orders[0] == xp.round(orders[0]))
+            demand(rule, whole, lambda: f"{rule}, got {np.asarray(orders[0]).tolist()}")
 
     def deviation(self, azimuth: Float[Array, " place"]) -> Float[Array, " place"]:
         """By how much the raceway's radius is larger at the azimuths, rad; m."""

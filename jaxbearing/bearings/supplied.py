@@ -10,7 +10,8 @@ from jaxtyping import Array, Float
 
 from .._scene import label
 from ..contacts.oil_supply import Starvation, given_by
-from ..numerics.checks import known
+from ..numerics.checks import demand, numbers_or_none
+from ..numerics.refusals import refusals_of
 
 if TYPE_CHECKING:
     from .bearing import AbstractBearing
@@ -78,11 +79,12 @@ def _of_races(races: tuple[int, ...], load: Float[Array, " contact"], values: Fl
     return found
 
 
-def supply_problems(scene: AbstractBearing) -> Iterator[str]:
+def supply_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
     """Yields a sentence for everything that a scene lacks for its supply."""
-    supply = None if scene.contact is None else scene.contact.supply
-    if supply is not None and supply.from_flow is not None and known(scene.operation.oil_flow) == (0.0,):
-        yield "operation.oil_flow: contact.supply.from_flow needs a volume flow > 0"
+    supply, flow = None if scene.contact is None else scene.contact.supply, scene.operation.oil_flow
+    if supply is not None and supply.from_flow is not None and numbers_or_none(flow) is not None:
+        said = "operation.oil_flow: contact.supply.from_flow needs a volume flow > 0"
+        yield from refusals_of(demand, said, flow != 0.0, lambda: said)
 
 
 def supply_notes(scene: AbstractBearing) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from .messages import NOT_CONVERGED, bad_input, refuse
-from .options import JsonOption, SceneArgument, SetOption, labelled
+from .options import ColumnsOption, JsonOption, SceneArgument, SetOption, labelled
 from .output_files import deliver
 from .terminal import console
 
@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     from ..makers import Comparison
 
 
-def compare(scene: SceneArgument, changes: SetOption = None, as_json: JsonOption = False) -> None:
+def compare(
+    scene: SceneArgument, changes: SetOption = None, as_json: JsonOption = False, full: ColumnsOption = False
+) -> None:
     """Friction by the formulas of makers (SKF, Palmgren with the constants of INA and Timken, Timken) beside the losses
     of a bearing: totals, parts, ranges that are left. What the formulas need beside the scene is said in its table
     [catalogue], e.g. --set catalogue.designation=6205-2RSH. No result depends on it."""
@@ -46,16 +48,16 @@ def compare(scene: SceneArgument, changes: SetOption = None, as_json: JsonOption
             _print_failure(solution, label, as_json)
             raise typer.Exit(NOT_CONVERGED)
         found = compared(model, solution, catalogue)
-        deliver(lambda: _print(found, label, as_json), ())
+        deliver(lambda: _print(found, label, as_json, full), ())
 
 
-def _print(found: "Comparison", label: str, as_json: bool) -> None:
+def _print(found: "Comparison", label: str, as_json: bool, full: bool) -> None:
     from ..report.makers_table import comparison_to_dict, print_comparison
 
     if as_json:
         typer.echo(json.dumps(comparison_to_dict(found), allow_nan=False))
     else:
-        print_comparison(found, label, console())
+        print_comparison(found, label, console(), full)
 
 
 def _print_failure(solution: object, label: str, as_json: bool) -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from .completion import kinds as completed_kinds
 from .messages import bad_input
 from .terminal import console
 
@@ -17,7 +18,10 @@ _PATHS = 30
 
 
 def fields(
-    kind: Annotated[str | None, typer.Argument(metavar="[KIND]", help="Kind of scene, such as ball_bearing.")] = None,
+    kind: Annotated[
+        str | None,
+        typer.Argument(metavar="[KIND]", help="Kind of scene, such as ball_bearing.", autocompletion=completed_kinds),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print machine-readable JSON only.")] = False,
 ) -> None:
     """Every field of a kind of scene file: default, what it takes, what it is. Without a kind: the kinds."""

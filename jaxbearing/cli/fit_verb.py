@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from .completion import scene_names
 from .messages import BAD_INPUT, NOT_CONVERGED, bad_input, refuse, say
 from .options import SCENE_HELP, JsonOption, LossOption, SetOption, labelled
 from .output_files import PICTURES, ForceOption, Output, check_files, deliver
@@ -42,7 +43,12 @@ Data = Annotated[
 ]
 Scene = Annotated[
     str,
-    typer.Option("--scene", metavar="SCENE", help=f"The two-disk machine, its oil and its contact laws. {SCENE_HELP}"),
+    typer.Option(
+        "--scene",
+        metavar="SCENE",
+        help=f"The two-disk machine, its oil and its contact laws. {SCENE_HELP}",
+        autocompletion=scene_names,
+    ),
 ]
 Model = Annotated[
     str | None,

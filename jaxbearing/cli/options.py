@@ -4,11 +4,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from .completion import assignments, scene_names
+
 if TYPE_CHECKING:
     from ..scenes.units import Dimension
 
 SCENE_HELP = "A scene file (TOML), or the name of a built-in scene."
-SceneArgument = Annotated[str, typer.Argument(metavar="SCENE", help=SCENE_HELP)]
+SceneArgument = Annotated[str, typer.Argument(metavar="SCENE", help=SCENE_HELP, autocompletion=scene_names)]
 SetOption = Annotated[
     list[str] | None,
     typer.Option(
@@ -16,7 +18,11 @@ SetOption = Annotated[
         metavar="PATH=VALUE",
         help="Change a field of the scene, e.g. --set operation.inner_speed='12000 rpm'; the value none takes an "
         "optional table or field out. May be repeated.",
+        autocompletion=assignments,
     ),
+]
+ColumnsOption = Annotated[
+    bool, typer.Option("--full", help="Every column of a table, in several tables where the terminal is too narrow.")
 ]
 LossOption = Annotated[
     str, typer.Option("--loss", help="linear (least squares), or soft_l1 or cauchy: outliers count less.")

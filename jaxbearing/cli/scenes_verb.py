@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from .completion import scene_names
 from .messages import bad_input, refuse
 from .options import SetOption, labelled
 from .output_files import ForceOption, check_kept, unwritten
@@ -21,6 +22,7 @@ def scenes(
         typer.Option(
             "--copy",
             metavar="SCENE",
+            autocompletion=scene_names,
             help="Write a built-in scene, as it stands in the package, as a file. With --set: a built-in scene or a "
             "scene file with these changes, every number to the last digit, without the comments.",
         ),

@@ -35,7 +35,7 @@ FullOption = Annotated[
     typer.Option(
         "--full",
         help="All of a bearing on the screen: assumptions, each loaded element, spin, heat, seats, oil supply, "
-        "frequencies.",
+        "frequencies; every column of a table.",
     ),
 ]
 

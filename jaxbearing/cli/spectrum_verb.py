@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from .completion import assignments
 from .messages import NOT_CONVERGED, bad_input, refuse
-from .options import JsonOption, SceneArgument, SetOption, labelled
+from .options import ColumnsOption, JsonOption, SceneArgument, SetOption, labelled
 from .output_files import deliver
 from .terminal import console
 
@@ -23,12 +24,17 @@ OverOption = Annotated[
         "--over",
         metavar="NAME=START:STOP:COUNT[:log]",
         help="A field and its values, e.g. geometry.diametral_clearance='0 um:30 um:7': the life at each of them.",
+        autocompletion=assignments,
     ),
 ]
 
 
 def spectrum(
-    scene: SceneArgument, changes: SetOption = None, over: OverOption = None, as_json: JsonOption = False
+    scene: SceneArgument,
+    changes: SetOption = None,
+    over: OverOption = None,
+    as_json: JsonOption = False,
+    full: ColumnsOption = False,
 ) -> None:
     """Life under the load spectrum of a scene file: its [[state]] tables, each with a name, a share of the time and
     changes of the scene, solved with one program. The damages of all states are added (Palmgren and Miner). Prints
@@ -67,7 +73,7 @@ def spectrum(
         seconds = time.monotonic() - begin
         if varied is None:
             typed = {one.name: one.changes for one in cases[0]}
-            deliver(lambda: _print(found[0], typed, label, seconds, as_json))
+            deliver(lambda: _print(found[0], typed, label, seconds, as_json, full))
         else:
             deliver(lambda: _print_over(*varied, found, label, seconds, as_json))
     _end_if_failed(found, label, as_json)
@@ -101,13 +107,15 @@ def _end_if_failed(found: "list[Spectrum]", label: str, as_json: bool) -> None:
     raise typer.Exit(NOT_CONVERGED)
 
 
-def _print(found: "Spectrum", changes: dict[str, dict[str, str]], label: str, seconds: float, as_json: bool) -> None:
+def _print(
+    found: "Spectrum", changes: dict[str, dict[str, str]], label: str, seconds: float, as_json: bool, full: bool
+) -> None:
     from ..spectrum.tables import print_spectrum, spectrum_to_dict
 
     if as_json:
         typer.echo(json.dumps(spectrum_to_dict(found, changes), allow_nan=False))
     else:
-        print_spectrum(found, changes, label, seconds, console())
+        print_spectrum(found, changes, label, seconds, console(), full)
 
 
 def _print_over(

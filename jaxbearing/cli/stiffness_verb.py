@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .messages import NOT_CONVERGED, bad_input, refuse
-from .options import JsonOption, SceneArgument, SetOption, labelled, option_quantity
+from .options import ColumnsOption, JsonOption, SceneArgument, SetOption, labelled, option_quantity
 from .output_files import ForceOption, Output, check_files, deliver
 from .terminal import console
 
@@ -65,6 +65,7 @@ def stiffness(
     ross_version: RossVersion = 3,
     load_direction: LoadDirection = "-90 deg",
     force: ForceOption = False,
+    full: ColumnsOption = False,
 ) -> None:
     """Stiffness against shaft speed, at the loads of the scene; of a shaft that of each set and bearing. On request it
     is written as a bearing, or a rotor, for ROSS."""
@@ -97,7 +98,7 @@ def stiffness(
             other = {3: "; ROSS 2: --ross-version 2", 2: ""}[ross_version]
             wrote = "" if as_json else f"wrote {ross}: read it with ross.{read}.load (ROSS {ross_version}{other})"
             output = Output(ross, lambda path: _write(table, path, scene, model, changes, angle, ross_version), wrote)
-            deliver(lambda: _print(table, label, as_json), (output,))
+            deliver(lambda: _print(table, label, as_json, full), (output,))
     if failure:
         _print_failure(failure, label, ross, as_json)
         raise typer.Exit(NOT_CONVERGED)
@@ -178,7 +179,7 @@ def _write(
     write_ross(table, file, label, load_direction=angle, tag=tag, version=version)
 
 
-def _print(table: "StiffnessTable | ShaftStiffness", label: str, as_json: bool) -> None:
+def _print(table: "StiffnessTable | ShaftStiffness", label: str, as_json: bool, full: bool) -> None:
     from ..report.shaft.stiffness import ShaftStiffness, print_shaft_stiffness, shaft_stiffness_to_dict
     from ..report.stiffness import stiffness_to_dict
     from ..report.stiffness_table import print_stiffness
@@ -188,9 +189,9 @@ def _print(table: "StiffnessTable | ShaftStiffness", label: str, as_json: bool) 
         found = {"converged": True, "failure": None, **numbers}
         typer.echo(json.dumps(found, allow_nan=False))
     elif isinstance(table, ShaftStiffness):
-        print_shaft_stiffness(table, label, console())
+        print_shaft_stiffness(table, label, console(), full)
     else:
-        print_stiffness(table, label, console())
+        print_stiffness(table, label, console(), full)
 
 
 def _print_failure(failure: str, label: str, ross: Path | None, as_json: bool) -> None:

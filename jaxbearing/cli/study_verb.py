@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from .completion import scene_names
 from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import SCENE_HELP, JsonOption, SetOption, labelled
 from .output_files import PICTURES, Output, check_files, deliver
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from ..studies.claims import Claim
     from ..studies.power_loss import PowerLossStudy
 
-SceneArgument = Annotated[str, typer.Argument(metavar="[SCENE]", help=SCENE_HELP)]
+SceneArgument = Annotated[str, typer.Argument(metavar="[SCENE]", help=SCENE_HELP, autocompletion=scene_names)]
 OutOption = Annotated[
     Path | None, typer.Option("--out", metavar="FILE.nc", help="Write all results, one NetCDF group a figure.")
 ]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from .completion import assignments
 from .interrupt import if_interrupted
 from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled
@@ -40,6 +41,7 @@ OverOption = Annotated[
         metavar="NAME=START:STOP:COUNT[:log]",
         help="A field and its values, e.g. operation.inner_speed='2000 rpm:20000 rpm:10'; several make a grid. For "
         "samples NAME=START:STOP[:log].",
+        autocompletion=assignments,
     ),
 ]
 ListOption = Annotated[

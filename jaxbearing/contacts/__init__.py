@@ -1,5 +1,6 @@
 """One lubricated contact: Hertz and Palmgren, film thickness, thermal factors, traction, rolling resistance."""
 
+from .._forwarding import attributes_of
 from .compliance import AbstractTangentialCompliance as AbstractTangentialCompliance
 from .compliance import GivenCompliance as GivenCompliance
 from .compliance import HalfSpaceCompliance as HalfSpaceCompliance
@@ -76,3 +77,5 @@ from .viscous import GecimWiner as GecimWiner
 from .viscous import ReeEyring as ReeEyring
 from .viscous import viscous_function as viscous_function
 from .viscous import viscous_function_for as viscous_function_for
+
+__getattr__ = attributes_of(__name__)

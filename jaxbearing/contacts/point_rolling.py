@@ -66,6 +66,19 @@ class SourceRollingResistance(AbstractPointRollingResistance):
         return inlet.load * arm * smooth_sign(inlet.speed, SPEED_FLOOR)
 
 
+def point_rolling_moment(
+    contact: PointContact, load: Values, entrainment_speed: Values, viscosity: Values, pressure_viscosity: Values
+) -> Float[Array, "..."]:
+    """The moment of `SourceRollingResistance`, N m, under a name that goes with the next release.
+
+    **Arguments:** `contact`, the two bodies; `load`, N, >= 0; `entrainment_speed`, (u1 + u2)/2, m/s, signed;
+    `viscosity`, Pa s, and `pressure_viscosity`, 1/Pa, >= 0, of the oil in the inlet.
+    """
+    # the law has no use for the film
+    inlet = RollingInlet(load, entrainment_speed, viscosity, pressure_viscosity, jnp.nan)
+    return SourceRollingResistance().moment(contact, inlet)
+
+
 class BibouletHoupertPointRollingResistance(AbstractPointRollingResistance):
     r"""Biboulet and Houpert's point contact: $M = R_xP$, $P = 2fCE'R_x^2$.
 

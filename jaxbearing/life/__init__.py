@@ -28,6 +28,7 @@ from .reference import ball_damage_rate as ball_damage_rate
 from .reference import edge_factors as edge_factors
 from .reference import roller_contact_capacities as roller_contact_capacities
 from .reference import roller_damage_rate as roller_damage_rate
+from .result import Life as Life
 from .static import ball_static_capacity as ball_static_capacity
 from .static import contact_safety as contact_safety
 from .static import roller_static_capacity as roller_static_capacity

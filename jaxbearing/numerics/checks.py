@@ -183,6 +183,11 @@ def demand(rule: str, fine: object, message: Callable[[], str]) -> None:
         raise ValueError(message())
 
 
+def is_recording() -> bool:
+    """True inside of `check_inputs`."""
+    return _RECORD.get() is not None
+
+
 class InputChecks(NamedTuple):
     """Checks of traced inputs: `rules` in words, `broken` for each of them, `valid` if none is broken."""
 

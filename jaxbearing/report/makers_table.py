@@ -11,7 +11,7 @@ from rich.table import Table
 
 from ..makers import Comparison, Law, Physical
 from .backends.json import finite
-from .backends.screen import headline, pieces, print_line, print_rule, print_warnings
+from .backends.screen import headline, print_line, print_rule, print_warnings, shown_pieces
 from .display import digits
 from .page_content import Listing
 
@@ -31,8 +31,9 @@ NOTE = (
 )
 
 
-def print_comparison(found: Comparison, label: str, console: Console) -> None:
-    """Totals and parts of the formulas beside the physical ones, then what was assumed, left or missing."""
+def print_comparison(found: Comparison, label: str, console: Console, full: bool = False) -> None:
+    """Totals and parts of the formulas beside the physical ones, then what was assumed, left or missing; in full all
+    columns."""
     covered = [one for one in found.laws if one.total is not None]
     headline(label, "CONVERGED", "bold green", _duty(found), console)
     print_rule("Moments in N mm, power in W, ratio of the totals to the physical one", console)
@@ -40,7 +41,7 @@ def print_comparison(found: Comparison, label: str, console: Console) -> None:
     texts = {heading: [row[i] for row in rows] for i, heading in enumerate(HEADINGS)}
     names = {"": texts.pop("")}
     shown = {name: column for name, column in texts.items() if name not in PARTS or set(column) != {"-"}}
-    for piece in pieces(names, shown, console.width):
+    for piece in shown_pieces(names, shown, console, full):
         table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
         for name in piece:
             table.add_column(name, justify="right" if name else "left", no_wrap=True)

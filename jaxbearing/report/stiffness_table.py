@@ -5,13 +5,13 @@ from collections.abc import Iterable
 from rich.console import Console
 
 from ..bearings.solution import stiffness_units
-from .backends.screen import column, counted, headline, pieces, print_line, print_table, print_warnings
+from .backends.screen import column, counted, headline, print_line, print_table, print_warnings, shown_pieces
 from .display import display_unit
 from .stiffness import StiffnessTable
 
 
-def print_stiffness(table: StiffnessTable, scene_label: str, console: Console) -> None:
-    """The diagonal of the stiffness against speed."""
+def print_stiffness(table: StiffnessTable, scene_label: str, console: Console, full: bool = False) -> None:
+    """The diagonal of the stiffness against speed; in full all columns."""
     state = f"{counted(len(table.speed), 'speed')} solved; entries off the diagonal: --json"
     headline(scene_label, "CONVERGED", "bold green", state, console)
     units = stiffness_units()
@@ -21,7 +21,7 @@ def print_stiffness(table: StiffnessTable, scene_label: str, console: Console) -
         if name in table.modelled
     }
     first = {f"speed\n{display_unit('rad/s')}": column(table.speed, "rad/s")}
-    for piece in pieces(first, columns, console.width):
+    for piece in shown_pieces(first, columns, console, full):
         print_table(piece, [0.0] * len(table.speed), 0, "", console)
     for name, text in _meanings(table):
         print_line(name, text, console)

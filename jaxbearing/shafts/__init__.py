@@ -18,4 +18,9 @@ from .shaft import Gravity as Gravity
 from .shaft import Section as Section
 from .shaft import Shaft as Shaft
 from .solution import BearingOnShaft as BearingOnShaft
+from .solution import DutyResult as DutyResult
+from .solution import SetResult as SetResult
+from .solution import ShaftNodes as ShaftNodes
 from .solution import ShaftSolution as ShaftSolution
+from .solution import SystemLifeResult as SystemLifeResult
+from .solution import TorqueBalance as TorqueBalance

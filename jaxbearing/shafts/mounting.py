@@ -216,8 +216,9 @@ class MatchedSet(Checked):
         """1 for each bearing whose axis points along +X, else -1."""
         return tuple(SENSES[sign] for sign in self.picture)
 
-    def positions(self) -> Float[Array, " bearing"]:
+    def positions(self) -> Float[Array | np.ndarray, " bearing"]:
         """Positions of the rows, m."""
-        gaps = jnp.broadcast_to(jnp.asarray(self.distance), (self.count - 1,))
-        from_first = jnp.concatenate([jnp.zeros(1), jnp.cumsum(gaps)])
+        xp = array_module(self.distance, self.position)
+        gaps = xp.broadcast_to(self.distance, (self.count - 1,))
+        from_first = xp.concatenate([xp.zeros(1), xp.cumsum(gaps)])
         return self.position + from_first - 0.5 * from_first[-1]

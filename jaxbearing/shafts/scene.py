@@ -1,5 +1,6 @@
 """The shaft on its bearings as a scene."""
 
+import dataclasses
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
@@ -12,9 +13,9 @@ from .._types import Scalar
 from ..bearings.bearing import AbstractBearing
 from ..bearings.parts import names_another_bearing
 from ..life.duty import SUM_TOLERANCE
-from ..numerics.checks import Checked, known
+from ..numerics.checks import Checked, demand, is_recording, numbers_or_none
 from ..numerics.newton import NewtonOptions
-from ..numerics.refusals import refuse_all
+from ..numerics.refusals import refusals_of, refuse_all
 from .forces import AbstractForce
 from .heat import ShaftThermal, thermal_problems
 from .mounting import LinearBearing, MatchedSet, MountedBearing, Support, _numbers
@@ -82,7 +83,8 @@ class ShaftSystem(AbstractScene):
     - `thermal`: joins the thermal networks of the bearings along shaft and housing; `None`: each has its own.
 
     **Raises:** `ValueError` for names that are given twice, for no bearing, for positions beyond the ends of the shaft,
-    for outer rings that bend and that nothing holds, and for shares that do not add up to 1.
+    for outer rings that bend and that nothing holds, for shares that do not add up to 1, and for a state whose scene
+    would be refused; `AttributeError` for a state that changes what is not there.
     """
 
     kind: ClassVar[str] = "shaft"
@@ -102,7 +104,7 @@ class ShaftSystem(AbstractScene):
     def __check_init__(self):
         refuse_all(self._problems())
 
-    def _problems(self) -> Iterator[str]:
+    def _problems(self) -> Iterator[str | ValueError]:
         places = self.places
         if not places:
             yield "bearing: found none, expected at least one bearing or set"
@@ -125,24 +127,43 @@ class ShaftSystem(AbstractScene):
                 yield f"housing must have the shape ({count}, {count}), got {np.shape(self.housing)}"
             if any(place.support is not None for place in places):
                 yield "support: expected none beside housing, which holds all outer rings"
-        shares = known(*(state.share for state in self.states))
-        if self.states and shares is not None and abs(sum(shares) - 1.0) > SUM_TOLERANCE:
-            yield f"state.share must add up to 1 over the states, got {sum(shares):.7g}"
         for path in sorted({path for state in self.states for path in state.changes if names_another_bearing(path)}):
             yield f"state: found '{path}', expected changes that leave each bearing the same"
+        yield from self._of_states()
 
-    def _beyond(self) -> Iterator[str]:
-        """Problems of positions that lie beyond the ends of a shaft with sections."""
-        length = known(*(section.length for section in self.shaft.sections))
-        if not length:
+    def _of_states(self) -> Iterator[str | ValueError]:
+        """Problems of the states: of their shares, and of the scene that each of them makes. Traced numbers of these
+        scenes are judged where they are solved (`steady`)."""
+        shares = numbers_or_none(*(state.share for state in self.states))
+        if not self.states or shares is None:
             return
-        end = sum(length)
+        rule, total = "state.share must add up to 1 over the states", sum(shares)
+        message = lambda: f"{rule}, got {float(total):.7g}"
+        yield from refusals_of(demand, rule, abs(total - 1.0) <= SUM_TOLERANCE, message)
+        if is_recording():
+            return
+        base = dataclasses.replace(self, states=())
+        for place, state in enumerate(self.states):
+            for error in refusals_of(base.replace, state.changes):
+                yield f"state '{state.name or place + 1}': {error}"
+
+    def _beyond(self) -> Iterator[str | ValueError]:
+        """Problems of positions that lie beyond the ends of a shaft with sections."""
+        lengths = numbers_or_none(*(section.length for section in self.shaft.sections))
+        if not lengths:
+            return
+        end = sum(lengths)
         held = [(self._path_of(place), place.position) for place in self.places]
-        held += [(f"force.{force.name}.position: ", force.position) for force in self.forces]
-        for said, position in held:
-            at = known(position)
-            if at is not None and not -1e-9 <= at[0] <= end + 1e-9:
-                yield f"{said}{at[0] * 1e3:g} mm lies beyond the shaft ({end * 1e3:g} mm)"
+        held += [((f"force.{force.name}.position", ""), force.position) for force in self.forces]
+        for (path, which), position in held:
+            if numbers_or_none(position) is None:
+                continue
+            message = lambda path=path, which=which, position=position: (
+                f"{path}: {which}{float(position) * 1e3:g} mm lies beyond the shaft ({float(end) * 1e3:g} mm)"
+            )
+            # distances of 1 nm are round-off of the sums
+            inside = (position >= -1e-9) & (position <= end + 1e-9)
+            yield from refusals_of(demand, f"{path} must lie within the length of the shaft", inside, message)
 
     def _shapes(self) -> Iterator[str]:
         """Problems of outer rings that bend: something must hold each of them in its place, and loads from outside must
@@ -170,11 +191,10 @@ class ShaftSystem(AbstractScene):
         """Path of the table of a bearing, or of its set."""
         return f"bearing.{place.name}" if place.set_index is None else f"set.{self.sets[place.set_index].name}"
 
-    def _path_of(self, place: Place) -> str:
-        """Beginning of a message about the position of a bearing."""
-        if place.set_index is None:
-            return f"bearing.{place.name}.position: "
-        return f"set.{self.sets[place.set_index].name}.position: {place.name} at "
+    def _path_of(self, place: Place) -> tuple[str, str]:
+        """Path of the position of a bearing, and which bearing of a set it is, in words."""
+        which = "" if place.set_index is None else f"{place.name} at "
+        return f"{self._table_of(place)}.position", which
 
     @property
     def places(self) -> tuple[Place, ...]:

@@ -1,14 +1,14 @@
 """Steady state of a shaft on bearings: from the scene to the equations, and from their root to the results."""
 
 import dataclasses
-from collections.abc import Mapping
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from .._checks import about
+from .._checks import Checks, about
+from .._scene import with_checked_inputs
 from ..bearings.bearing import AbstractBearing
 from ..bearings.bearing_life import with_life
 from ..bearings.solution import RING_FREEDOMS, FailureCause, RingDisplacement, Solution
@@ -84,7 +84,9 @@ def _duty(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
     (structure,) = structures
     stacked = jax.tree.map(lambda *leaves: jnp.stack([jnp.asarray(leaf) for leaf in leaves]), *states)
     leaves = jax.tree.leaves(stacked)
-    found = jax.lax.map(lambda own: _solve(jax.tree.unflatten(structure, own), options), leaves)
+    # the scene of each state has checks of its own
+    solve = lambda own: with_checked_inputs(jax.tree.unflatten(structure, own), lambda lane: _solve(lane, options))
+    found = jax.lax.map(solve, leaves)
     shares = jnp.stack([jnp.asarray(state.share, dtype=float) for state in system.states])
     names = tuple(state.name or str(number + 1) for number, state in enumerate(system.states))
     first = jax.tree.map(lambda leaf: leaf[0], found)
@@ -97,9 +99,10 @@ def _duty(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
     return dataclasses.replace(first, status=status, duty=duty, checks=_any_state(found.checks), failure_causes=causes)
 
 
-def _any_state(checks: Mapping[str, Bool[Array, ""]]) -> dict[str, Bool[Array, ""]]:
-    """Checks that apply in a state."""
-    return {text: jnp.any(flag) for text, flag in checks.items()}
+def _any_state(checks: Checks) -> Checks:
+    """Checks that apply in a state. **Arguments:** those of all states, along the first axis."""
+    ranges = {text: jnp.any(flag) for text, flag in checks.ranges.items()}
+    return Checks(ranges, jnp.any(checks.broken, axis=0), tuple(f"{rule} in every state" for rule in checks.rules))
 
 
 def _duty_lives(

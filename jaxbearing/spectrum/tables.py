@@ -12,7 +12,7 @@ from rich.table import Table
 from ..bearings.solution import Solution
 from ..numerics.status import Status
 from ..report.backends.json import finite, plain
-from ..report.backends.screen import counted, headline, pieces, print_line, print_rule, print_warnings
+from ..report.backends.screen import counted, headline, print_line, print_rule, print_warnings, shown_pieces
 from ..report.bearing.life_facts import lives_in_words, percent
 from ..report.display import digits, with_unit
 from ..report.json_report import solution_to_dict
@@ -24,11 +24,16 @@ TITLE = "Load spectrum"
 
 
 def print_spectrum(
-    found: Spectrum, changes: Mapping[str, Mapping[str, str]], label: str, seconds: float, console: Console
+    found: Spectrum,
+    changes: Mapping[str, Mapping[str, str]],
+    label: str,
+    seconds: float,
+    console: Console,
+    full: bool = False,
 ) -> None:
     """The table by state, then the life; without it where a state failed.
 
-    **Arguments:** `changes`: of each state, as they were typed.
+    **Arguments:** `changes`: of each state, as they were typed; `full`: with all columns of the table.
     """
     failures = found.failures
     failed = f"{len(failures)} {'STATE' if len(failures) == 1 else 'STATES'} FAILED"
@@ -40,7 +45,7 @@ def print_spectrum(
     headings, rows = spectrum_rows(found)
     columns = {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
     first = {"state": columns.pop("state")}
-    for piece in pieces(first, columns, console.width):
+    for piece in shown_pieces(first, columns, console, full):
         table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
         for heading in piece:
             table.add_column(heading, justify="left" if heading == "state" else "right", no_wrap=True)

@@ -14,7 +14,7 @@ from .._scene import AbstractScene
 from .._types import Scalar
 from ..bearings.solution import Solution
 from ..lanes import LaneProgram, default_method
-from ..life.duty import spectrum_life
+from ..life.duty import SUM_TOLERANCE, spectrum_life
 from ..life.result import Life
 from ..numerics.compiling import inside_a_program, is_tracing
 from ..numerics.garbage import rare_garbage_collection
@@ -51,7 +51,8 @@ def solve_spectrum(
 
     States of one structure are solved with one program, as the cases of a sweep are; a change of the structure, such as
     another film law, takes a program of its own. It may be called inside `jax.jit` and `jax.grad`; derivatives go
-    through all solves, with respect to numbers of the scene, changes and shares.
+    through all solves, with respect to numbers of the scene, changes and shares. Where traced shares do not add up to 1
+    the life is NaN.
 
     **Arguments:**
     - `scene`: a bearing with a rating; or a scene file, whose `[[state]]` tables are the states if `states` is left
@@ -120,7 +121,9 @@ def solve_cases(
 def _spectrum(names: tuple[str, ...], shares: Array, solutions: tuple[Solution, ...]) -> Spectrum:
     speeds = jnp.stack([_speed(one) for one in solutions])
     lives = [_life(one) for one in solutions]
-    return Spectrum(names, shares, solutions, spectrum_life(lives, shares, speeds))
+    # shares that are traced are judged here
+    fine = jnp.all((shares > 0) & (shares <= 1)) & (jnp.abs(jnp.sum(shares) - 1.0) <= SUM_TOLERANCE)
+    return Spectrum(names, shares, solutions, spectrum_life(lives, jnp.where(fine, shares, jnp.nan), speeds))
 
 
 def _life(solution: Solution) -> Life:

@@ -1,7 +1,7 @@
 """The cases of a sweep: a grid, a list, or random samples of fields; SI numbers."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -64,6 +64,11 @@ class Cases:
         ends = ([v[0] for v in self.values], [v[-1] for v in self.values])
         ends += ([v.min() for v in self.values], [v.max() for v in self.values])
         return [dict(zip(self.paths, map(float, values), strict=True)) for values in ends]
+
+    def spread(self, count: int) -> Iterator[dict[str, float]]:
+        """Up to so many cases, from the first to the last."""
+        for place in np.unique(np.linspace(0, len(self) - 1, count).astype(int)):
+            yield {path: float(values[0]) for path, values in self.part(place, place + 1).items()}
 
 
 def _columns(over: Mapping[str, object]) -> tuple[tuple[str, ...], tuple[np.ndarray, ...]]:

@@ -100,12 +100,10 @@ class Plan:
 
     def program(self, devices: int | None = None) -> LaneProgram:
         """Solver of the lanes; compiled at its first call."""
-        start = self.recipe.inputs(self.cases.part(0, 1))[0]
-        example = jax.tree.map(lambda leaf: np.asarray(leaf)[0], start)
         return LaneProgram(
             self.recipe.make,
             self.recipe.base,
-            example,
+            self.recipe.example(self.cases.paths),
             method=self.method,
             lanes=self.lanes,
             devices=devices,

@@ -1,6 +1,7 @@
 """From the values of a case to its scene: set in the scene, or read like a scene file."""
 
 import dataclasses
+import itertools
 from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
@@ -12,6 +13,8 @@ from .._scene import AbstractScene
 from ..numerics.precision import as_float
 from .cases import Cases
 
+TRIED = 64
+"""Cases that are tried, beside the corners, for one that has a scene."""
 Inputs = tuple[Any, list[str]]
 """Inputs of a lane's program, lanes in front, and the reason why a case has no scene ("": it has one)."""
 
@@ -36,6 +39,10 @@ class Recipe(Protocol):
 
     def inputs(self, values: dict[str, np.ndarray]) -> Inputs:
         """Arguments of `make`, of many cases."""
+        ...
+
+    def example(self, paths: tuple[str, ...]) -> object:
+        """Arguments of `make`, of a case that has a scene. **Arguments:** `paths`: of the fields."""
         ...
 
     def scene(self, values: dict[str, float]) -> AbstractScene:
@@ -65,6 +72,9 @@ class Direct:
     @staticmethod
     def make(base: AbstractScene, inputs: Mapping[str, object]) -> AbstractScene:
         return base.replace(inputs)
+
+    def example(self, paths: tuple[str, ...]) -> object:
+        return {path: as_float(self.base.part_at(path)) for path in paths}
 
     def scene(self, values: dict[str, float]) -> AbstractScene:
         return self.base.replace(values)
@@ -108,6 +118,10 @@ class Read:
     def make(base: None, inputs: AbstractScene) -> AbstractScene:
         return inputs
 
+    def example(self, paths: tuple[str, ...]) -> object:
+        del paths
+        return self.example_scene
+
     def scene(self, values: dict[str, float]) -> AbstractScene:
         scene = jax.tree.map(as_float, self.read(values))
         if jax.tree.structure(scene) != jax.tree.structure(self.example_scene):
@@ -139,7 +153,7 @@ def in_scene(scene: AbstractScene, cases: Cases) -> Direct:
     for path in cases.paths:
         _require_number(scene, path)
     scene = jax.tree.map(as_float, scene)
-    base, *_ = _possible(scene.replace, cases.corners())
+    base = _possible(scene.replace, cases)
     # an operating point has no dimensions to fit together: its bounds are enough
     checked = not all(path.startswith("operation.") for path in cases.paths)
     if not checked:
@@ -149,22 +163,18 @@ def in_scene(scene: AbstractScene, cases: Cases) -> Direct:
     return Direct(base, checked)
 
 
-def _possible(
-    make: Callable[[dict[str, float]], AbstractScene], corners: list[dict[str, float]]
-) -> list[AbstractScene]:
-    """Scenes of those corners that have one: values may fit together in some cases only.
+def _possible(make: Callable[[dict[str, float]], AbstractScene], cases: Cases) -> AbstractScene:
+    """Scene of a case that has one: values may fit together in some cases only.
 
-    **Raises:** `ValueError` of the first corner where none has.
+    **Raises:** `ValueError` of the first case where neither a corner nor one of `TRIED` cases has a scene.
     """
-    scenes, refused = [], []
-    for values in corners:
+    refused: list[ValueError] = []
+    for values in itertools.chain(cases.corners(), cases.spread(TRIED)):
         try:
-            scenes.append(jax.tree.map(as_float, make(values)))
+            return jax.tree.map(as_float, make(values))
         except ValueError as error:
             refused.append(error)
-    if not scenes:
-        raise refused[0]
-    return scenes
+    raise refused[0]
 
 
 def _require_number(scene: AbstractScene, path: str) -> None:
@@ -202,7 +212,7 @@ def from_reader(read: Reader, cases: Cases) -> Direct | Read:
     **Raises:** `ValueError` for a field that changes the structure of the scene, and where no corner is a scene.
     """
     corners = cases.corners()
-    first, *_ = _possible(read, corners)
+    first = _possible(read, cases)
     for path, values in zip(cases.paths, cases.values, strict=True):
         for value in (values[0], values[-1], values.min(), values.max()):
             for other in _quietly(read, corners[0] | {path: float(value)}):

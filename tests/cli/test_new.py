@@ -158,7 +158,17 @@ def test_oil_that_only_the_rating_of_a_ball_bearing_takes():
 
 @pytest.mark.parametrize(
     ("words", "found"),
-    [("jaxbearing new nu221", "nu2210"), ("jaxbearing new 620", "6205"), ("jaxbearing sp", "spectrum")],
+    [
+        ("jaxbearing new nu221", "nu2210"),
+        ("jaxbearing new 620", "6205"),
+        ("jaxbearing sp", "spectrum"),
+        ("jaxbearing solve gear", "gear_shaft"),
+        ("jaxbearing scenes --copy spin", "spindle_pair"),
+        ("jaxbearing fields ball", "ball_bearing"),
+        ("jaxbearing solve gear_shaft --set bearing.rear.pos", "bearing.rear.position="),
+        ("jaxbearing solve deep_groove_6205 --set geo", "geometry."),
+        ("jaxbearing sweep turbine_ball --over operation.inner", "operation.inner_speed="),
+    ],
 )
 def test_completion_of_the_shell(words, found, jaxbearing_command, monkeypatch):
     monkeypatch.setenv("_JAXBEARING_COMPLETE", "complete_bash")

@@ -7,10 +7,13 @@ import importlib
 import re
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import pytest
 
+import jaxbearing as jb
+from jaxbearing import _forwarding
 from jaxbearing.scenes.fields import is_known, tables_at
 from jaxbearing.scenes.reader import KINDS, builtin_names, schema_of_kind
 
@@ -23,6 +26,7 @@ sys.path.insert(0, str(DOCS / "generate"))
 import api_pages  # noqa: E402
 import command_line  # noqa: E402
 import links  # noqa: E402
+import name_pages  # noqa: E402
 import result_pages  # noqa: E402
 import scene_pages  # noqa: E402
 
@@ -47,6 +51,31 @@ def anchors(page):
         own = re.search(r"\{ ?#([\w-]+) ?\}", heading)
         found.add(own[1] if own else re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", heading).strip().lower()))
     return found
+
+
+def test_every_public_name_is_there_and_on_its_page():
+    """The page that is kept is the one that the packages make (`python docs/generate/name_pages.py`). A name that is
+    taken from it gets an entry in `jaxbearing/_forwarding.py`, and the changelog says where it is now."""
+    assert name_pages.FILE.read_text(encoding="utf-8") == name_pages.page()
+    for module, names in name_pages.public_names().items():
+        for name in names:
+            assert getattr(importlib.import_module(module), name) is not None, (module, name)
+    assert callable(jb.thermal.warm_up)  # not the module where it is
+
+
+def test_names_that_moved_still_work_and_warn():
+    """For one release: those of modules, and modules."""
+    old_names = [*_forwarding.NAMES, "bearings.roller_profile.RollerProfile", "scenes.oils.load_oil"]
+    old_names += ["bearings.ball_geometry.BallGeometry", "thermal.warm_up.warm_up"]
+    for old in old_names:
+        module, _, name = f"jaxbearing.{old}".rpartition(".")
+        with pytest.warns(DeprecationWarning, match=rf"{old} has moved to jaxbearing\."):
+            assert callable(getattr(importlib.import_module(module), name))
+        with pytest.raises(AttributeError, match="nothing_of_this_name"), warnings.catch_warnings(action="ignore"):
+            getattr(importlib.import_module(module), "nothing_of_this_name")  # noqa: B009
+    for old, new in _forwarding.MODULES.items():
+        importlib.import_module(f"jaxbearing.{new}")
+        assert importlib.import_module(f"jaxbearing.{old}").__doc__ == f"It has moved to `jaxbearing.{new}`."
 
 
 def test_start_page_leads_to_every_page():

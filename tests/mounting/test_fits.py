@@ -5,9 +5,11 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from jaxbearing.bearings.mounted import running_scene
 from jaxbearing.materials import Material
 from jaxbearing.mounting import Annulus, Fit, Fits
 from jaxbearing.mounting.rectified import rectified_normal
+from jaxbearing.scenes.reader import load_scene
 
 STEEL = Material(208e9, 0.3, 7830.0, 12.5e-6)
 M50 = Material(203e9, 0.29, 7870.0, 12.3e-6)
@@ -117,6 +119,20 @@ def test_speed_at_which_the_ring_comes_loose(shaft, interference, expected):
     assert float(at(fit.loose_speed / RPM).interference) == pytest.approx(0.0, abs=1e-18)
     assert float(at(0.999 * fit.loose_speed / RPM).pressure) > 0.0
     assert float(at(1.001 * fit.loose_speed / RPM).pressure) == 0.0
+
+
+def test_speed_at_which_the_outer_ring_comes_loose():
+    """Outer ring and housing turn together (planets, wheel hubs): a light housing grows more than the ring in it."""
+    seat = lambda rpm: Fit(Annulus(M50, 0.04, 0.05, speed=rpm * RPM), Annulus(M50, 0.05, 0.09, speed=rpm * RPM), 30e-6)
+    loose = float(seat(0.0).state().loose_speed) / RPM
+    assert np.isfinite(loose)
+    assert float(seat(loose).state().interference) == pytest.approx(0.0, abs=1e-18)
+    fits = {"fits.housing_tolerance": "none", "fits.housing_interference": "30 um", "thermal": "none"}
+    scene = load_scene("deep_groove_6205_mounted", fits)
+    turning = lambda speed: running_scene(scene.at_operation(outer_speed=speed))[1]
+    speed = float(turning(0.0).loose_speed_outer)
+    assert float(turning(0.999 * speed).pressure_outer) > 0.0
+    assert float(turning(1.001 * speed).pressure_outer) == 0.0
 
 
 def test_loose_at_rest_and_never_loose():

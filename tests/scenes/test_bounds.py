@@ -45,6 +45,11 @@ def scene(name):
         return numbers(
             load_scene("turbine_roller_dynamic", {f"simulation.rotating_load.{k}": v for k, v in more.items()})
         )
+    if name == "lobes":
+        lobes = {"lobe_order": "[2, 3]", "lobe_height": "['2 um', '1 um']", "lobe_angle": "['0 deg', '20 deg']"}
+        return numbers(load_scene("reference_roller", {f"outer_roundness.{k}": v for k, v in lobes.items()}))
+    if name == "supplied":
+        return numbers(load_scene("turbine_ball", {"contact.supply.from_flow": "0.5"}))
     if name == "capped couple":
         return numbers(load_scene("turbine_ball", {"kinematics.gyroscopic": "capped"}))
     return numbers(load_scene(name))
@@ -102,6 +107,31 @@ def test_every_number_has_a_bound(name):
     together = {"simulation.speed.factors"}
     # reduced moduli and the like are given by the package, not by a user
     assert set(paths(scene(name))) - named - together == set()
+
+
+BETWEEN = [
+    *("gear_shaft", "lobes", "supplied"),
+    *("deep_groove_6205_mounted", "turbine_roller_dynamic", "tapered_example"),
+]
+
+
+@pytest.mark.parametrize("name", BETWEEN)
+def test_rules_between_numbers_hold_for_traced_numbers_too(name):
+    """Each number of a scene is moved far away: what the eager copy refuses is flagged where it is traced, and nothing
+    else is."""
+    broken, given, refusals = traced_checks(name)[1], scene(name), 0
+    for place, (path, old) in enumerate(paths(given).items()):
+        for factor, offset in ((-1.0, 0.0), (0.0, 0.0), (0.03, 0.0), (30.0, 0.0), (0.0, 0.37)):
+            moved = np.array(old, copy=True)
+            moved.flat[-1] = factor * moved.flat[-1] + offset
+            in_file = given.path_in_file(path)
+            number = moved if moved.ndim else float(moved)
+            refused = refuses(ValueError, lambda: given.replace({in_file: number}))  # noqa: B023  (called at once)
+            leaves = jax.tree.leaves(given)
+            leaves[place] = moved
+            assert refused != bool(broken(leaves)[1]), (path, moved)
+            refusals += refused
+    assert refusals > 5
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -11,6 +11,7 @@ from shaft_cases import DEEP_GROOVE, NU, RPM, P, gear_shaft, pair, rollers, stee
 import jaxbearing as jb
 from jaxbearing.bearings.rating import Rating
 from jaxbearing.bearings.ring import shift_matrix
+from jaxbearing.numerics.status import Status
 from jaxbearing.shafts import (
     Gravity,
     LinearBearing,
@@ -20,6 +21,7 @@ from jaxbearing.shafts import (
     Preload,
     Section,
     Shaft,
+    ShaftState,
     ShaftSystem,
     Support,
 )
@@ -345,3 +347,40 @@ def test_random_shafts():
     print("steps", start.mean(), start.max(), newton.mean(), newton.max(), "failed", np.flatnonzero(status))
     assert np.sum(status == jb.Status.CONVERGED) == count
     assert np.max(residual) < 1e-8
+
+
+def test_traced_positions_beyond_the_shaft_are_invalid():
+    """The rules between two parts of a scene, which eager copies raise, are flagged in the lanes that break them."""
+    lanes = {"bearing.B.position": [0.18, 0.25, 0.18], "force.load.position": [0.1, 0.1, -0.01]}
+    solve = jax.jit(lambda lane: jb.solve(linear_shaft().replace(lane), throw=False))
+    found = jax.vmap(solve)({path: jnp.asarray(places) for path, places in lanes.items()})
+    assert found.status.tolist() == [Status.CONVERGED] + 2 * [Status.INVALID_INPUT]
+    assert np.isfinite(found.shaft.displacement[0]).all()
+    assert np.isnan(found.shaft.displacement[1:]).all()
+    for lane, path in enumerate(lanes, 1):
+        failed = jax.tree.map(lambda leaf, lane=lane: leaf[lane], found)
+        assert failed.failure() == f"invalid_input: {path} must lie within the length of the shaft"
+        with pytest.raises(ValueError, match=rf"{path}: .* mm lies beyond the shaft \(200 mm\)"):
+            linear_shaft().replace({path: lanes[path][lane]})
+
+
+def test_states_are_judged_as_the_scenes_that_they_make():
+    """By themselves where their numbers are known, each in its own solve where they are traced."""
+    system = linear_shaft()
+    beyond, apart = {"bearing.B.position": 0.25}, "state '2': bearing.B.position: 250 mm lies beyond the shaft"
+    for changes, message in ((beyond, apart), ({"force.load.radius": -1.0}, "state '2': force.radius must be >= 0")):
+        with pytest.raises(ValueError, match=message):
+            dataclasses.replace(system, states=(ShaftState(0.5), ShaftState(0.5, changes)))
+    with pytest.raises(AttributeError, match=r"'force\.none'"):
+        dataclasses.replace(system, states=(ShaftState(1.0, {"force.none.torque": 1.0}),))
+
+    @jax.jit
+    def solve(share, place):
+        states = (ShaftState(0.5), ShaftState(share, {"bearing.B.position": place}))
+        return jb.solve(dataclasses.replace(system, states=states), throw=False)
+
+    assert int(solve(0.5, 0.17).status) == Status.CONVERGED
+    found = solve(0.5, 0.25)
+    assert found.duty.states.status.tolist() == [Status.CONVERGED, Status.INVALID_INPUT]
+    assert found.failure() == "invalid_input: bearing.B.position must lie within the length of the shaft in every state"
+    assert solve(0.6, 0.17).failure() == "invalid_input: state.share must add up to 1 over the states"

@@ -137,6 +137,22 @@ def test_failed_cases_are_flagged_and_say_why(scene, tmp_path):
     assert all("not_converged after" in text for text in failed["failure"].values.tolist())
 
 
+def test_cases_without_a_scene_may_stand_anywhere(scene):
+    """Rollers of 50 mm, and of less than nothing, do not fit: the order of the cases has no say, and the one program is
+    made from a case that has a scene, be it none of the corners."""
+    path = "geometry.roller_diameter"
+    orders = ([50e-3, 13e-3, 6e-3], [6e-3, 13e-3, 50e-3], [50e-3, 6e-3, -1e-3], [-1e-3, 50e-3, 6e-3, 40e-3])
+    for values in orders:
+        for over in ({path: values}, listed({path: values})):
+            plan = plan_of(scene, over)
+            assert plan.recipe.example((path,))[path] in (6e-3, 13e-3)
+            reasons = plan.recipe.inputs(plan.cases.part(0, len(values)))[1]
+            assert [bool(reason) for reason in reasons] == [value not in (6e-3, 13e-3) for value in values]
+            plan.program()
+    with pytest.raises(ValueError, match="do not fit on a pitch circle"):
+        plan_of(scene, {path: [50e-3, 60e-3, 55e-3]})
+
+
 def test_a_run_that_ends_in_the_middle_goes_on(scene, whole, tmp_path):
     target = tmp_path / "sweep.nc"
     stopped_after(plan_of(scene), target, 2)

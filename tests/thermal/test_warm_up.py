@@ -11,7 +11,7 @@ from jaxbearing.numerics.integrator import IntegratorOptions
 from jaxbearing.numerics.status import Status
 from jaxbearing.thermal.network import NodeHeat, OilFlow, network_of
 from jaxbearing.thermal.solve import solve_network
-from jaxbearing.thermal.warm_up import warm_up
+from jaxbearing.thermal.warming_up import warm_up
 
 DAY = 86400.0
 

@@ -12,7 +12,7 @@ from ...numerics.newton import NewtonOptions
 from ...programs import KeptProgram
 from ...thermal.network import Network, NodeHeat
 from ...thermal.result import NodeTemperatures, named
-from ...thermal.warm_up import Balance, Reached, integrate
+from ...thermal.warming_up import Balance, Reached, integrate
 from ..bearing import AbstractBearing
 from ..heat import bearing_network, heat_capacities, inlet_temperature, thermal_of
 from ..solution import Solution

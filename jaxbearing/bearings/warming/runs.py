@@ -17,7 +17,7 @@ from ...numerics.interrupts import Deferral, deferred_interrupts
 from ...numerics.precision import as_float
 from ...numerics.status import SolveError, Status
 from ...numerics.structure import static_number
-from ...thermal.warm_up import AHEAD, ENERGY, Reached, run_status
+from ...thermal.warming_up import AHEAD, ENERGY, Reached, run_status
 from ..bearing import AbstractBearing
 from ..checks import input_excess
 from ..heat import heat_capacities, thermal_of, unknown_capacities

@@ -59,7 +59,7 @@ class WarmUpSimulation(Checked):
 
     @property
     def options(self) -> IntegratorOptions:
-        from ...thermal.warm_up import usual_options  # imports diffrax, which scenes do without
+        from ...thermal.warming_up import usual_options  # imports diffrax, which scenes do without
 
         usual = usual_options()
         return IntegratorOptions(

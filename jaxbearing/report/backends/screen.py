@@ -123,6 +123,19 @@ def pieces(
     yield piece
 
 
+def shown_pieces(
+    first: dict[str, list[str]], columns: dict[str, list[str]], console: Console, full: bool
+) -> Iterator[dict[str, list[str]]]:
+    """The table that fits the width of the console; in full all columns, in several tables. Behind a table that lacks
+    columns a line names these."""
+    each = list(pieces(first, columns, console.width))
+    yield from each if full else each[:1]
+    left = [title.replace("\n", " ") for piece in each[1:] for title in piece if title not in first]
+    if left and not full:
+        text = f"More columns: --full, or a wider terminal ({', '.join(left)})"
+        console.print(Padding(Text(text, style="dim"), (0, 2)))
+
+
 def column(values: np.ndarray, unit: str) -> list[str]:
     """The numbers of a column, with as many decimals as its largest needs for four digits."""
     shown = [displayed(float(value), unit) for value in values]

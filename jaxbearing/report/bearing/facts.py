@@ -53,7 +53,7 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         yield "Rolling by race", f"{parts} ({rolling.law})"
     yield from _mixed_facts(solution)
     if solution.fit is not None:
-        yield from fit_facts(solution.fit)
+        yield from fit_facts(solution.fit, float(solution.operation.outer_speed))
     if solution.thermal is not None:
         yield from thermal_facts(solution.thermal)
     inner, ring = solution.inner_ring, solution.outer_ring

@@ -1,8 +1,9 @@
 """Facts about the seats of a mounted bearing, in words."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
+from jaxtyping import Array
 
 from ...bearings.growth import FitResult
 from ..display import digits, with_unit
@@ -10,8 +11,10 @@ from ..display import digits, with_unit
 _SEATS = {"inner": "inner ring on the shaft", "outer": "outer ring in the housing"}
 
 
-def fit_facts(fit: FitResult) -> Iterator[tuple[str, str]]:
-    """Name and text: the play from the drawing to the running bearing, and each seat."""
+def fit_facts(fit: FitResult, outer_speed: float) -> Iterator[tuple[str, str]]:
+    """Name and text: the play from the drawing to the running bearing, and each seat.
+
+    **Arguments:** `outer_speed`: of the outer ring and its housing, rad/s; of a housing at rest no speed is said."""
     um = lambda value, sign="": f"{1e6 * float(np.asarray(value)):{sign}.1f}"
     parts = {"fits": fit.by_fits, "temperatures": fit.by_temperatures, "speed": fit.by_speed}
     said = ", ".join(f"{name} {um(value, '+')}" for name, value in parts.items())
@@ -20,12 +23,12 @@ def fit_facts(fit: FitResult) -> Iterator[tuple[str, str]]:
         yield "Clearance", f"{um(fit.drawn)} -> {um(fit.clearance)} um: {said}{angle}"
     elif fit.axial_shift is not None:
         yield "First contact", f"moves the inner ring axially by {um(fit.axial_shift, '+')} um: {said}"
-    seats = list(_seats(fit))
+    seats = list(_seats(fit, {"inner": fit.loose_speed, "outer": fit.loose_speed_outer if outer_speed else None}))
     if seats:
         yield "Seats", ", ".join(seats)
 
 
-def _seats(fit: FitResult) -> Iterator[str]:
+def _seats(fit: FitResult, loose_from: Mapping[str, Array | None]) -> Iterator[str]:
     for ring, words in _SEATS.items():
         interference, pressure = getattr(fit, f"interference_{ring}"), getattr(fit, f"pressure_{ring}")
         if interference is None:
@@ -35,7 +38,7 @@ def _seats(fit: FitResult) -> Iterator[str]:
             yield f"{words} loose by {-size:.1f} um"
             continue
         at = f"{words} tight by {size:.1f} um at {digits(1e-6 * float(pressure), 3)} MPa"
-        speed = fit.loose_speed if ring == "inner" else None
+        speed = loose_from[ring]
         if speed is not None and np.isfinite(float(speed)):
             at += f", loose from {with_unit(float(speed), 'rad/s', 3)}"
         yield at

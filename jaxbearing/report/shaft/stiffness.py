@@ -16,7 +16,16 @@ from ...shafts.scene import ShaftSystem
 from ...shafts.solution import ShaftSolution
 from ...solve import jit_solver
 from ..backends.json import plain
-from ..backends.screen import column, counted, headline, pieces, print_line, print_rule, print_table, print_warnings
+from ..backends.screen import (
+    column,
+    counted,
+    headline,
+    print_line,
+    print_rule,
+    print_table,
+    print_warnings,
+    shown_pieces,
+)
 from ..display import digits, display_unit, with_unit
 from .facts import shaft_warnings
 
@@ -171,8 +180,8 @@ def shaft_stiffness_to_dict(table: ShaftStiffness) -> dict[str, Any]:
     return {name: plain(value) for name, value in table._asdict().items()}
 
 
-def print_shaft_stiffness(table: ShaftStiffness, label: str, console: Console) -> None:
-    """The diagonal of the stiffness of each set and bearing against speed."""
+def print_shaft_stiffness(table: ShaftStiffness, label: str, console: Console, full: bool = False) -> None:
+    """The diagonal of the stiffness of each set and bearing against speed; in full all columns."""
     state = f"{counted(len(table.speed), 'speed')} solved; entries off the diagonal: --json"
     headline(label, "CONVERGED", "bold green", state, console)
     units = stiffness_units()
@@ -184,7 +193,7 @@ def print_shaft_stiffness(table: ShaftStiffness, label: str, console: Console) -
                 f"{freedom}\n{display_unit(units[i][i])}": column(values[:, i, i], units[i][i])
                 for i, freedom in enumerate(table.freedom)
             }
-            for piece in pieces(first, columns, console.width):
+            for piece in shown_pieces(first, columns, console, full):
                 print_table(piece, [0.0] * len(table.speed), 0, "", console)
     if table.natural_frequencies is not None:
         print_rule("Natural frequencies of bending, without damping and gyroscopic effect", console)

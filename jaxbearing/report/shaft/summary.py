@@ -7,12 +7,12 @@ from ...shafts.solution import DutyResult, ShaftSolution
 from ..backends.screen import (
     counted,
     headline,
-    pieces,
     print_failure,
     print_line,
     print_rule,
     print_table,
     print_warnings,
+    shown_pieces,
 )
 from ..bearing.life_facts import lives_in_words
 from .facts import (
@@ -28,7 +28,8 @@ from .facts import (
 
 
 def print_summary(solution: ShaftSolution, scene_label: str, console: Console, full: bool = False) -> None:
-    """See `report.summary.print_summary`. **Arguments:** `full`: with the summary of every bearing below."""
+    """See `report.summary.print_summary`. **Arguments:** `full`: with all columns of the table, and the summary
+    of every bearing below."""
     if not bool(solution.converged):
         print_failure(scene_label, Status(int(solution.status)).text, solution.failure(), console)
         print_warnings(solution.warnings, console)
@@ -37,7 +38,7 @@ def print_summary(solution: ShaftSolution, scene_label: str, console: Console, f
     counts = f"{counted(solution.unknowns, 'unknown')} of the shaft, {counted(len(solution.bearings), 'bearing')}"
     state = f"{steps}, {counts}, largest scaled residual {float(solution.residual_norm):.1e}"
     headline(scene_label, "CONVERGED", "bold green", state, console)
-    _print_bearings(solution, console)
+    _print_bearings(solution, console, full)
     print_warnings(shaft_warnings(solution), console, full)
     print_rule("Shaft", console)
     for name, text in shaft_facts(solution):
@@ -52,23 +53,23 @@ def print_summary(solution: ShaftSolution, scene_label: str, console: Console, f
                 print_bearing(one.solution, name, console, full)
 
 
-def _print_bearings(solution: ShaftSolution, console: Console) -> None:
+def _print_bearings(solution: ShaftSolution, console: Console, full: bool) -> None:
     print_rule("Bearings", console)
     for name, text in overloads(solution):
         print_line(name, text, console)
-    _print_columns(bearing_columns(solution), console)
+    _print_columns(bearing_columns(solution), console, full)
     print_line("", "Forces of the bearings on the shaft; azimuths from Y in the sense of rotation.", console, 0)
     columns = life_columns(solution, wide=False)
     if columns:
-        _print_columns(columns, console)
+        _print_columns(columns, console, full)
     for name, text in (*life_facts(solution), *set_facts(solution)):
         print_line(name, text, console)
 
 
-def _print_columns(columns: dict[str, list[str]], console: Console) -> None:
+def _print_columns(columns: dict[str, list[str]], console: Console, full: bool) -> None:
     first = {NAMES: columns[NAMES]}
     rest = {heading: texts for heading, texts in columns.items() if heading != NAMES}
-    for piece in pieces(first, rest, console.width):
+    for piece in shown_pieces(first, rest, console, full):
         print_table(piece, [0.0] * len(first[NAMES]), 0, "", console, named=NAMES)
 
 

@@ -12,12 +12,12 @@ from ..backends.screen import (
     column,
     counted,
     headline,
-    pieces,
     print_failure,
     print_line,
     print_rule,
     print_table,
     print_warnings,
+    shown_pieces,
     width,
 )
 from ..display import ZERO_CELSIUS, axis_unit, digits
@@ -34,7 +34,7 @@ _SMALLEST_SHOWN = 1e-3
 
 
 def print_summary(solution: TwoDiskSolution, scene_label: str, console: Console, full: bool = False) -> None:
-    """See `report.summary.print_summary`. There is one form only."""
+    """See `report.summary.print_summary`. **Arguments:** `full`: with all columns of the table."""
     if not bool(solution.converged):
         status = Status(int(np.max(np.asarray(solution.status)))).text
         print_failure(scene_label, status, solution.failure(), console)
@@ -50,7 +50,7 @@ def print_summary(solution: TwoDiskSolution, scene_label: str, console: Console,
         name, values, unit = ("Hertz pressure", solution.pressure, "Pa")
     print_line(name, _listed(np.asarray(values), unit), console)
     print_rule("Traction curves", console)
-    _print_curves(solution, curves[:ROWS], console)
+    _print_curves(solution, curves[:ROWS], console, full)
     if len(curves) > ROWS:
         print_line("", f"and {counted(len(curves) - ROWS, 'curve')} more: see --json or --out", console)
     for name, text in derived_facts(solution):
@@ -58,7 +58,7 @@ def print_summary(solution: TwoDiskSolution, scene_label: str, console: Console,
     print_warnings(solution.warnings, console)
 
 
-def _print_curves(solution: TwoDiskSolution, curves: list[Curve], console: Console) -> None:
+def _print_curves(solution: TwoDiskSolution, curves: list[Curve], console: Console, full: bool) -> None:
     speeds = [curve.entrainment_speed for curve in curves]
     speed_unit, factor = axis_unit("m/s", max(speeds))
     first = {
@@ -71,7 +71,7 @@ def _print_curves(solution: TwoDiskSolution, curves: list[Curve], console: Conso
     while len(slides) > _FEWEST and width(first | state | _friction(solution, curves, slides)) > console.width:
         slides = _slides(np.asarray(solution.operation.slide_to_roll), len(slides) - 1)
     columns = state | _friction(solution, curves, slides)
-    for piece in pieces(first, columns, console.width):
+    for piece in shown_pieces(first, columns, console, full):
         print_table(piece, [0.0] * len(curves), 0, "", console)
     smallest = _percent(float(np.asarray(solution.operation.slide_to_roll)[curves[0].slowest]))
     shown = ["film h", "Deborah number D", *(["inlet rise"] if "inlet\nrise K" in state else [])]
