@@ -70,8 +70,9 @@ def reaction(
       middle of the rollers, of a bearing on seats as on the drawing; "ring": where `solution.ring` of a solve counts
       (the plane of the inner groove centres, the reference point of a tapered bearing).
     - `tilt`: how the inner grooves of a ball bearing move: with the "exact" rotation of the ring, or "linear", to first
-      order, as in the standards. The latter is 1e-4 to 1e-2 of the force off at 0.2 mrad, and 2 % at 4 mrad. Left out:
-      as a solve of the scene has it, exact where its operating point names a moment or a misalignment.
+      order, with the true lever. The latter is 1e-4 to 1e-2 of the force off at 0.2 mrad, and 2 % at 4 mrad. Left out:
+      as a solve of the scene has it, exact where its operating point names a moment or a misalignment, and by the
+      standard where `rating.tilt` is "iso".
     - `closure`: added to the axial displacement, m: of a bearing that is adjusted against another one. `ring` does not
       hold it.
     - `expansion`: growth of the inner raceway's radius less that of the outer one, m.
@@ -146,6 +147,8 @@ def _react_any(
     at: str,
     tilt: str | None,
 ) -> Solution:
+    if tilt is not None and scene.rating is not None and scene.rating.tilt == "iso":
+        scene = scene.replace({"rating.tilt": "exact"})
     numbers = (displacement, closure, expansion)
     finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(one)) for one in numbers]))
     if not scene.may_tilt:

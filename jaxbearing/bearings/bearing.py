@@ -251,11 +251,6 @@ class AbstractBearing(AbstractScene):
         return jnp.zeros(())
 
     @property
-    def rated_to_first_order(self) -> bool:
-        """True if the loads for the life are computed with a linearised tilt of the ring."""
-        return False
-
-    @property
     @abc.abstractmethod
     def ring_lever(self) -> Array:
         """Length by which the equations multiply the tilts of the ring, so that all its unknowns are lengths, m."""

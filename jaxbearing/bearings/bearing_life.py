@@ -46,11 +46,6 @@ from .solution import Solution
 FEWEST_LAMINAE = 30
 """Laminae that ISO 16281 asks for at least."""
 
-
-NO_LINEAR_LOADS = (
-    "rating.tilt = 'iso': the loads of the first-order motion of the ring were not found, and there is no life; "
-    "rating.tilt = 'exact' takes the loads of the solution"
-)
 STEEP_WARNING = Information(
     "contact angle above 45 degrees: the X and Y of radial ball bearings end there, and there is no L10; L10r holds "
     "for any contact angle"
@@ -97,8 +92,6 @@ def with_life(scene: AbstractScene, solution: AnySolution) -> AnySolution:
     steep = not scene.line_contacts and scene.geometry.contact_angle is not None
     if steep and life.catalogue_load is not None:
         checks[STEEP_WARNING] = scene.drawing_angle > LARGEST_ANGLE * (1.0 + 1e-12)
-    if scene.rated_to_first_order:
-        checks[NO_LINEAR_LOADS] = solution.converged & ~jnp.isfinite(life.damage_rate)
     notes = (*solution.notes, *ineffective_inputs(scene, life))
     return dataclasses.replace(solution, life=life, checks=checks, notes=notes)
 
@@ -113,9 +106,8 @@ def ineffective_inputs(scene: AbstractBearing, life: Life) -> list[Information]:
             f"rating.{name} has no effect: it is about rollers" for name, value in others.items() if value is not None
         ]
     else:
-        found = ["rating.grooves has no effect: it is about balls"] if rating.grooves != "catalogue" else []
-    if rating.tilt == "iso" and not scene.rated_to_first_order:
-        found.append("rating.tilt = 'iso' has no effect: it is about ball bearings with a moment or a misalignment")
+        about_balls = {"grooves": rating.grooves != "catalogue", "tilt": rating.tilt != "exact"}
+        found = [f"rating.{name} has no effect: it is about balls" for name, chosen in about_balls.items() if chosen]
     if rating.n_laminae is not None and rating.n_laminae < FEWEST_LAMINAE and scene.line_contacts:
         found.append(
             f"rating.n_laminae = {rating.n_laminae}: ISO 16281 asks for at least {FEWEST_LAMINAE}; with edge factors "
@@ -156,7 +148,7 @@ def bearing_life(scene: object, solution: Solution) -> Life:
     rate = rated.damage_rate
     loaded = rate > 0
     safe_rate = jnp.where(loaded, rate, 1.0)
-    # a rate that is NaN (loads that were not found) has no life, not an endless one
+    # a rate that is NaN (no loads) has no life, not an endless one
     reference = jnp.where(loaded, 1.0 / safe_rate, jnp.where(rate == 0, jnp.inf, jnp.nan))
     equivalent = jnp.where(loaded, rated.dynamic_capacity * safe_rate ** (1.0 / exponent), 0.0 * rate)
     hours = lambda revolutions: revolutions * HOURS / jnp.abs(speed)

@@ -48,10 +48,10 @@ class Rating(Checked):
     - `grooves`: of ball bearings, for which conformities C and C0 are computed: "catalogue", 0.52 of both races, which
       ratings of catalogues are made with, whatever the grooves; or "scene" (structure). ISO 281 gives no higher rating
       to closer grooves, and a closer one of the inner race alone adds 9 %.
-    - `tilt`: of ball bearings, the motion of a tilted inner ring behind the loads that the life is computed from:
-      "exact", that of the solution; or "iso", the first-order one of ISO 16281, which leaves out the motion of the
-      grooves towards the axis, to compare with software built on the standard. The loads of "iso" are solved for
-      without films and friction, and only the life uses them (structure).
+    - `tilt`: of ball bearings, the motion of a tilted inner ring: "exact"; or "iso", the equations of ISO 16281, to
+      compare with software built on the standard: to first order, with half the pitch diameter as the lever of tilt
+      and moment, and stiffnesses of contacts at the nominal angle. Displacements and loads are then the standard's too
+      (structure).
     - `reliability`: fraction of bearings that live longer, 0.90, 0.95, 0.96, 0.97, 0.98 or 0.99 (structure: another one
       recompiles).
     - `cleanliness`: name of a contamination class, or the ISO 4406 code of circulating oil, such as "-/17/14" or

@@ -38,15 +38,12 @@ approach."""
 def on_shaft(scene: AbstractBearing, speed: Array) -> AbstractBearing:
     """The scene with the speed of the shaft and without loads: its ring is held.
 
-    The loads that its life is computed from are of a ring that tilts to first order, as `rating.tilt` = "iso" asks for,
-    which therefore has no effect. A run in time is no concern of a shaft.
+    Its ring tilts to first order, with the lever that `rating.tilt` says. A run in time is no concern of a shaft.
     """
     axial = "axial" in scene.modelled_freedoms
     held = HeldDisplacement(axial=0.0 if axial else None, radial=0.0, lateral=0.0)
     changes: dict[str, Any] = {f"operation.{name}": None for name in (*_LOADS, *_TILTS)}
     changes |= {"operation.displacement": held, "operation.inner_speed": speed, "simulation": None}
-    if scene.rating is not None and scene.rating.tilt == "iso":
-        changes["rating.tilt"] = "exact"
     return scene.replace(changes)
 
 
@@ -305,7 +302,9 @@ def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ..
 
 def pressure_centre(scene: AbstractBearing) -> Float[Array, ""]:
     r"""The point where the contact normals of the unloaded bearing meet the axis, counted from the port along $e_x$,
-    m: $-\frac{d_m}2 \tan\alpha$, with the angle of the drawing, which of tapered bearings is that of the cup."""
+    m: $-\frac{d_m}2 \tan\alpha$, with the angle of the drawing. Of tapered bearings it is the normal of the cup that
+    goes through the middles of the rollers; the normal at the middle of the cup's line meets the axis farther out, by
+    2.4 % in the built-in `tapered_example`."""
     return -0.5 * jnp.asarray(scene.geometry.pitch_diameter) * jnp.tan(scene.one_way_angle)
 
 

@@ -84,23 +84,26 @@ def ball_row(scene: BallBearing, exact: bool, ring: InnerRing | None = None) -> 
     operation, geometry = scene.operation, scene.geometry
     azimuth = azimuths(geometry, geometry.n_balls, operation.symmetric and not shaped_parts(scene) and ring is None)
     if ring is None:
-        ring = inner_ring(scene, geometry.groove_circle_radius)
+        ring = inner_ring(scene, scene.ring_lever)
     apart = geometry.arcs.inner
-    turning = None if apart is None else apart / geometry.groove_circle_radius
+    turning = None if apart is None else apart / scene.ring_lever
     return row_of(azimuth, ring, turning, exact, geometry.n_balls // azimuth.size)
 
 
 def ball_grooves(scene: BallBearing, expansion: Float[Array, ""] | None = None) -> Grooves:
     geometry = scene.geometry
     modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
+    contacts = geometry.free_contacts(modulus)
+    if scene.tilts_by_standard:
+        contacts = geometry.contacts(*(jnp.cos(jnp.asarray(geometry.nominal_angle)),) * 2, modulus)
     return Grooves(
         offset=jnp.stack([geometry.inner_offset, geometry.outer_offset]),
-        stiffness=geometry.free_contacts(modulus).stiffness_constant(),
+        stiffness=contacts.stiffness_constant(),
         centre_distance=jnp.asarray(geometry.centre_distance),
         free_cosine=jnp.asarray(geometry.free_cosine),
         free_sine=jnp.asarray(geometry.free_sine),
         aligned=jnp.asarray(geometry.aligned),
-        lever=jnp.asarray(geometry.groove_circle_radius),
+        lever=jnp.asarray(scene.ring_lever),
         groove_arm=jnp.asarray(geometry.conformity_inner * geometry.ball_diameter),
         expansion=expansion,
         arcs=geometry.arcs,
@@ -111,10 +114,12 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
     """The bearing without friction on the raceways and without films.
 
     **Arguments:** `exact`: whether the grooves move with the exact rotation of the ring; not given: where the ring can
-    tilt; `ring`: another one than the scene's, all balls then.
+    tilt, but for a tilt by the standard; `ring`: another one than the scene's, all balls then.
     """
     geometry, operation = scene.geometry, scene.operation
-    row = ball_row(scene, operation.tilts if exact is None else exact, ring)
+    if exact is None:
+        exact = operation.tilts and not scene.tilts_by_standard
+    row = ball_row(scene, exact, ring)
     grooves = ball_grooves(scene, row.ring.expansion)
     bent = _bending_rings(scene, row.azimuth)
     form = out_of_round(scene.inner_roundness, scene.outer_roundness, row.azimuth)

@@ -342,8 +342,9 @@ class BallBearing(AbstractMovingBearing):
         return self.geometry.contacts(*cosines, reduced_modulus(self.materials.rings, self.materials.balls))
 
     @property
-    def rated_to_first_order(self) -> bool:
-        return self.rating is not None and self.operation.tilts and self.rating.tilt == "iso"
+    def tilts_by_standard(self) -> bool:
+        """True if the equations are those of ISO 16281 (`Rating.tilt`)."""
+        return self.rating is not None and self.rating.tilt == "iso"
 
     @property
     def slips(self) -> bool:
@@ -356,7 +357,9 @@ class BallBearing(AbstractMovingBearing):
 
     @property
     def ring_lever(self) -> Array:
-        """Lever by which the equations multiply the tilts of the ring, m."""
+        """Lever by which the equations multiply the tilts of the ring, m; see `Rating.tilt`."""
+        if self.tilts_by_standard:
+            return 0.5 * jnp.asarray(self.geometry.pitch_diameter)
         return self.geometry.groove_circle_radius
 
     @property
@@ -415,4 +418,9 @@ class BallBearing(AbstractMovingBearing):
         said += said_of_bending(self)
         if self.rating is not None:
             said += self.rating.groove_assumptions()
+        if self.tilts_by_standard:
+            said.append(
+                "rating.tilt = 'iso': displacements, loads and stiffness follow the equations of ISO 16281, to first "
+                "order in the tilt and with half the pitch diameter as its lever"
+            )
         return tuple(said)

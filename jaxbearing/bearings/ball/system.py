@@ -52,7 +52,7 @@ class Grooves(NamedTuple):
     """Axial displacement of the ring at which the planes of the grooves coincide, m: 0, or less than 0 where
     displacements count from first contact."""
     lever: Float[Array, ""]
-    """Radius R_i of the circle of inner groove centres, m."""
+    """Radius R_i of the circle of inner groove centres, m; with a tilt by the standard half the pitch diameter."""
     groove_arm: Float[Array, ""]
     """f_i D, radius of the inner groove: arm of the friction at the inner race about the circle of groove centres."""
 

@@ -13,7 +13,7 @@ from jaxbearing.bearings.operation import Operation
 from jaxbearing.bearings.parts import Materials
 from jaxbearing.bearings.profile import RollerProfile
 from jaxbearing.bearings.rating import Rating
-from jaxbearing.contacts import CrownedProfile, LogarithmicProfile
+from jaxbearing.contacts import CrownedProfile, LogarithmicProfile, SlicedLine, StraightLine
 from jaxbearing.contacts.minimum_film import LINE_SHARE
 from jaxbearing.materials import Material
 from jaxbearing.numerics.arrow import ArrowPoint, evaluate
@@ -50,6 +50,12 @@ def test_straight_aligned_rollers_are_the_plane_model():
     assert (plain.unknowns, cut.unknowns) == (1, 61)
 
 
+def test_laminae_only_where_a_profile_asks_for_them():
+    assert isinstance(build_tilting(roller(misalignment=1e-3)).line, StraightLine)
+    assert isinstance(build_tilting(roller(RollerProfile(), misalignment=1e-3)).line, SlicedLine)
+
+
+@pytest.mark.slow
 def test_straight_rollers_that_tilt_are_integrated_exactly():
     """14 straight rollers, some of which touch over a part of their length: `stiffness[1, 3]` of a solution with 40
     digits (30 laminae gave 73 991.77), and the tangent is the derivative of the force. The life has laminae."""
