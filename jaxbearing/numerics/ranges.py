@@ -19,6 +19,9 @@ class Interval(NamedTuple):
         return above & (value <= self.high if self.high_allowed else value < self.high)
 
 
+CLOSURES = "between -10 mm and 10 mm"
+"""Bound of closures: the search for an equilibrium of a shaft moves no ring farther (`shafts.search.FARTHEST`)."""
+
 RANGES = {
     "finite": Interval(-math.inf, math.inf),
     "> 0": Interval(0.0, math.inf),
@@ -34,7 +37,7 @@ RANGES = {
     "above 0.5 and at most 1": Interval(0.5, 1.0, high_allowed=True),
     ">= 0 and below 90 degrees": Interval(0.0, 0.5 * math.pi, low_allowed=True),
     "above 0 and below 90 degrees": Interval(0.0, 0.5 * math.pi),
-    "between -10 mm and 10 mm": Interval(-0.01, 0.01, True, True),
+    CLOSURES: Interval(-0.01, 0.01, True, True),
     "between 0.5 and 8": Interval(0.5, 8.0, True, True),
     "between 1.05 and 64": Interval(1.05, 64.0, True, True),
     "between 2 and 64": Interval(2.0, 64.0, True, True),

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import BeforeValidator
 from pydantic_core import PydanticCustomError
 
-from ..numerics.ranges import RANGES
+from ..numerics.ranges import CLOSURES, RANGES
 from .usual_units import USUAL
 from .words import describe, is_finite, short, shortened
 
@@ -54,7 +54,8 @@ class Dimension:
         bound = "" if bound == "finite" else bound
         if bound == "> 0" and self.offset_allowed:
             bound = "above absolute zero"
-        return f"{self.name}{bound and ' '}{bound} with a unit, e.g. '{self.example}'"
+        example = "5 um" if bound == CLOSURES else self.example
+        return f"{self.name}{bound and ' '}{bound} with a unit, e.g. '{example}'"
 
 
 LENGTH = Dimension("a length", "m", "12 mm")

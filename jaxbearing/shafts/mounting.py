@@ -18,13 +18,11 @@ from .._types import Scalar
 from ..bearings.bearing import AbstractBearing
 from ..numerics.checks import Checked, array_module, demand
 from ..numerics.precision import as_float
-from ..numerics.ranges import RANGES
+from ..numerics.ranges import CLOSURES, RANGES
 from ..numerics.structure import choice
 
 SENSES = {"+x": 1.0, "-x": -1.0, "<": 1.0, ">": -1.0}
 """Word or sign of an orientation -> sense of the bearing's axis along that of the shaft."""
-CLOSURES = "between -10 mm and 10 mm"
-"""Bound of closures: the search for an equilibrium of the shaft moves no ring farther (`search.FARTHEST`)."""
 
 
 def _numbers(value: object) -> Any:

@@ -126,7 +126,7 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
     density = jnp.asarray(scene.materials.balls.density)
     attitude, gyroscopic = scene.kinematics.attitude, scene.kinematics.gyroscopic
     slipping = attitude == "linear_slip" or geometry.has_arcs
-    return BallCore(
+    core = BallCore(
         kinematics=BallKinematics(
             jnp.asarray(operation.inner_speed),
             jnp.asarray(operation.outer_speed),
@@ -153,6 +153,7 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
         common_orbit=scene.kinematics.orbit == "common",
         spread=_spread(scene) if slipping else None,
     )
+    return core.with_floor()
 
 
 def _bending_rings(scene: BallBearing, azimuth: Float[Array, " ball"]) -> BentRings:

@@ -106,6 +106,9 @@ class BallCore(AbstractBallSystem):
     common_orbit: bool = eqx.field(static=True, default=False)
     spread: Float[Array, "2"] | None = None
     """Weights of `linear_slip`; `None` under race control."""
+    floor: Float[Array, ""] | None = None
+    """Added to the centrifugal force, N: `FORCE_FLOOR`, or less under small loads (`FLOOR_SHARE`); `None`: the
+    former."""
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -343,9 +346,13 @@ class BallCore(AbstractBallSystem):
     # -- physics --------------------------------------------------------------------------------------------------
 
     def outward_force(self, motion: BallMotion) -> Array:
-        """Centrifugal force with `FORCE_FLOOR`, or less under small loads (`FLOOR_SHARE`), N."""
-        floor = jnp.minimum(FORCE_FLOOR, FLOOR_SHARE * self.load_scale() / self.ball_count)
-        return self.centrifugal(motion.orbital_speed) + floor
+        """Centrifugal force with its `floor`, N."""
+        return self.centrifugal(motion.orbital_speed) + (FORCE_FLOOR if self.floor is None else self.floor)
+
+    def with_floor(self) -> "BallCore":
+        """These equations with the addition to the centrifugal force for the load on the ring."""
+        share = FLOOR_SHARE * self.load_scale() / self.ball_count
+        return dataclasses.replace(self, floor=jnp.minimum(FORCE_FLOOR, share))
 
     def at(self, point: ArrowPoint) -> BallState:
         return self.balls(point.elements, seen_by_elements(self, point))
