@@ -16,7 +16,8 @@ def print_summary(solution: "AbstractSolution", scene_label: str, console: Conso
     **Arguments:**
     - `scene_label`: name or file of the scene.
     - `console`: where to; it decides on colours, width and characters.
-    - `full`: whether a bearing's summary has all that there is, with a row for each loaded element.
+    - `full`: whether assumptions are listed, and a bearing's summary has all that there is, with a row for each loaded
+      element.
 
     **Raises:** `TypeError` for another kind of solution.
     """

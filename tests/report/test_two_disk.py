@@ -1,5 +1,6 @@
 """Traction curves on the screen, as JSON, as a picture and as a file."""
 
+import dataclasses
 import io
 import json
 
@@ -39,9 +40,9 @@ def loaded():
     return jb.solve(small(load=100.0, entrainment_speed=0.025))
 
 
-def text_of(result, width=100):
+def text_of(result, width=100, full=False):
     stream = io.StringIO()
-    print_summary(result, "a scene", Console(file=stream, width=width, highlight=False))
+    print_summary(result, "a scene", Console(file=stream, width=width, highlight=False), full)
     return stream.getvalue()
 
 
@@ -50,6 +51,14 @@ def failed(result, where=(0, 0, 0, 0)):
     status = jnp.asarray(result.status).at[where].set(int(Status.NOT_CONVERGED))
     result = eqx.tree_at(lambda s: s.status, result, status)
     return eqx.tree_at(lambda s: s.traction_coefficient, result, result.traction_coefficient.at[where].set(jnp.nan))
+
+
+def test_full_lists_what_was_assumed(loaded):
+    noted = dataclasses.replace(loaded, notes=("one thing is assumed", "another is"))
+    assert "assumed: 2 entries, which solve --full lists" in text_of(noted)
+    assert "one thing" not in text_of(noted)
+    for text in noted.notes:
+        assert f"assumed: {text}" in text_of(noted, full=True)
 
 
 def test_json(solution):

@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING
 
+import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..rated import RatedContacts, sizes_of_loads

@@ -7,7 +7,7 @@ import numpy as np
 from ...bearings.solution import Solution
 from ...life.basic import MINIMUM_LOADS
 from ...life.result import AtReliability, CatalogueLife
-from ..display import digits, with_unit
+from ..display import digits
 
 TITLES = ("Life", "Rating", "Load", "Static safety", "Least load", "Lubrication")
 """Titles of these facts."""
@@ -72,9 +72,9 @@ def life_headlines(life: AtReliability) -> Iterator[tuple[str, str]]:
 def catalogue_fact(life: CatalogueLife) -> tuple[str, str]:
     """Name and text of the life of loads that have no equilibrium."""
     of = lambda name: digits(float(np.asarray(getattr(life, name))))
-    loads = f"P {with_unit(float(life.catalogue_load), 'N')}, C {with_unit(float(life.dynamic_capacity), 'N')}"
+    load, capacity = (f"{digits(1e-3 * float(one))} kN" for one in (life.catalogue_load, life.dynamic_capacity))
     lasting = f"{of('L10h')} h ({of('L10')} million revolutions)"
-    return "Catalogue life", f"needs no equilibrium: ISO 281 L10 {lasting} at 90 % reliability, {loads}"
+    return "Catalogue life", f"needs no equilibrium: ISO 281 L10 {lasting} at 90 % reliability, P {load}, C {capacity}"
 
 
 def life_facts(solution: Solution) -> Iterator[tuple[str, str]]:

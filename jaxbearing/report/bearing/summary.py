@@ -66,7 +66,7 @@ def print_summary(solution: Solution, scene_label: str, console: Console, full: 
     if not bool(solution.converged):
         print_failure(scene_label, Status(int(solution.status)).text, solution.failure(), console)
         print_line("Operating point", operating_point(solution), console)
-        print_warnings(solution.warnings, console)
+        print_warnings(solution.warnings, console, full)
         return
     counts = f"{counted(int(solution.iterations), 'Newton step')}, {counted(solution.unknowns, 'unknown')}"
     state = f"{counts}, largest scaled residual {float(solution.residual_norm):.1e}"

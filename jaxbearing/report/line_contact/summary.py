@@ -11,7 +11,7 @@ from .operation import operating_text
 
 
 def print_summary(solution: LineContactSolution, scene_label: str, console: Console, full: bool = False) -> None:
-    """See `report.summary.print_summary`. There is one form only."""
+    """See `report.summary.print_summary`. In full only the list of assumptions is longer."""
     if not bool(solution.converged):
         print_failure(scene_label, Status(int(solution.status)).text, solution.failure(), console)
         return
@@ -46,4 +46,4 @@ def print_summary(solution: LineContactSolution, scene_label: str, console: Cons
     print_line("Central pressure", with_unit(float(solution.central_pressure), "Pa"), console)
     for name, text in derived_facts(solution):
         print_line(name, text, console)
-    print_warnings(solution.warnings, console)
+    print_warnings(solution.warnings, console, full)

@@ -32,7 +32,7 @@ def print_summary(solution: ShaftSolution, scene_label: str, console: Console, f
     of every bearing below."""
     if not bool(solution.converged):
         print_failure(scene_label, Status(int(solution.status)).text, solution.failure(), console)
-        print_warnings(solution.warnings, console)
+        print_warnings(solution.warnings, console, full)
         return
     steps = f"{int(solution.start_steps)} + {int(solution.newton_steps)} Newton steps"
     counts = f"{counted(solution.unknowns, 'unknown')} of the shaft, {counted(len(solution.bearings), 'bearing')}"

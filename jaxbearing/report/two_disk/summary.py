@@ -34,7 +34,7 @@ _SMALLEST_SHOWN = 1e-3
 
 
 def print_summary(solution: TwoDiskSolution, scene_label: str, console: Console, full: bool = False) -> None:
-    """See `report.summary.print_summary`. **Arguments:** `full`: with all columns of the table."""
+    """See `report.summary.print_summary`. **Arguments:** `full`: with all columns of the table and all assumptions."""
     if not bool(solution.converged):
         status = Status(int(np.max(np.asarray(solution.status)))).text
         print_failure(scene_label, status, solution.failure(), console)
@@ -55,7 +55,7 @@ def print_summary(solution: TwoDiskSolution, scene_label: str, console: Console,
         print_line("", f"and {counted(len(curves) - ROWS, 'curve')} more: see --json or --out", console)
     for name, text in derived_facts(solution):
         print_line(name, text, console)
-    print_warnings(solution.warnings, console)
+    print_warnings(solution.warnings, console, full)
 
 
 def _print_curves(solution: TwoDiskSolution, curves: list[Curve], console: Console, full: bool) -> None:
