@@ -24,6 +24,11 @@ from .numerics.status import SolveError, Status
 
 Scene = TypeVar("Scene", bound="AbstractScene")
 Result = TypeVar("Result", bound="AbstractSolution")
+SIMULATED = (
+    "a bearing with [thermal], a ball or cylindrical roller bearing with contact.traction (laws = 'best' has it), or a "
+    "line contact"
+)
+"""Scenes with a run in time, in words."""
 OF_A_BATCH = "this is a batch of solutions: take one lane of it first, jax.tree.map(lambda leaf: leaf[lane], solution)"
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from ._forwarding import attributes_of
-from ._scene import AbstractHistory, AbstractScene
+from ._scene import SIMULATED, AbstractHistory, AbstractScene
 from .numerics.arguments import require_choice
 from .numerics.compiling import require_outside
 from .numerics.garbage import rare_garbage_collection
@@ -216,10 +216,9 @@ def _require_moving(scene: object, method: str) -> None:
     """**Raises:** `TypeError` for what is no scene, or for a kind that does not move."""
     if isinstance(scene, AbstractScene) and getattr(type(scene), method) is not getattr(AbstractScene, method):
         return
-    taken = "any bearing with [thermal], a cylindrical roller bearing, a ball bearing or a line contact"
-    name = "simulate"
+    name, taken = "simulate", SIMULATED
     if method == "simulated_batch":
-        name, taken = ("simulate_batch", "a cylindrical roller bearing or a ball bearing")
+        name, taken = ("simulate_batch", "a ball or cylindrical roller bearing with contact.traction")
     raise TypeError(f"cannot simulate a {type(scene).__name__}; {name} takes: {taken}")
 
 

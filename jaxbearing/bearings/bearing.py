@@ -22,7 +22,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array
 
-from .._scene import AbstractHistory, AbstractScene
+from .._scene import SIMULATED, AbstractHistory, AbstractScene
 from .._types import Values
 from ..contacts import LineContact, PointContact
 from ..materials import ROLLER_PRESSURE
@@ -46,8 +46,6 @@ from .row import AbstractRow
 from .solution import RING_FREEDOMS, TILTS, LaminaLoads, Solution
 from .warm import settled, solve_warm
 
-TAKEN = "simulate takes: any bearing with [thermal], a cylindrical roller bearing, a ball bearing, a line contact"
-"""Second half of error messages: it lists the scenes that `simulate` accepts."""
 Bearing = TypeVar("Bearing", bound="AbstractBearing")
 
 
@@ -88,7 +86,7 @@ class AbstractBearing(AbstractScene):
         """Simulates the temperatures over time, for which the scene needs a thermal network. A family whose rolling
         elements can be simulated overrides this method, and simulates them if the scene has no network."""
         if self.thermal is None:
-            raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; {TAKEN}")
+            raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; simulate takes: {SIMULATED}")
         from .warming.runs import simulate_warm_up
 
         return simulate_warm_up(self, duration, **settings)
@@ -96,7 +94,7 @@ class AbstractBearing(AbstractScene):
     def check_restart(self, restart: object, duration: float | None = None) -> None:
         """**Raises:** `TypeError` or `ValueError` if a run of this scene cannot go on from that state."""
         if self.thermal is None:
-            raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; {TAKEN}")
+            raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; simulate takes: {SIMULATED}")
         from .warming.runs import check_restart
 
         check_restart(self, restart)

@@ -16,7 +16,7 @@ from fitting.predictive import Predictive
 
 from ..report.backends.json import finite
 from ..report.backends.screen import counted, headline, print_failure, print_line, print_rule, print_warnings
-from ..report.display import digits, displayed, with_unit
+from ..report.display import digits, displayed, span, with_unit
 from ..report.labels import label_unit
 from ..sweeps.fields import label_of
 from .next_point import Candidate
@@ -91,9 +91,9 @@ def _fields(found: Calibration) -> Table:
         if one.standard_error is None or one.lower is None or one.upper is None:
             table.add_row(field.path, with_unit(one.value, unit), "", f"held: {one.reason}", start)
             continue
-        ends = f"{digits(displayed(one.lower, unit))} to {with_unit(one.upper, unit)}"
-        error = digits(displayed(one.value + one.standard_error, unit) - displayed(one.value, unit), 2)
-        table.add_row(field.path, with_unit(one.value, unit), error, ends, start)
+        in_unit = lambda value, size=one.value, unit=unit: displayed(value, unit, size)
+        error = digits(in_unit(one.value + one.standard_error) - in_unit(one.value), 2)
+        table.add_row(field.path, with_unit(one.value, unit), error, span(one.lower, one.upper, unit), start)
     return table
 
 
@@ -121,7 +121,7 @@ def _together(found: Calibration) -> Iterable[str]:
 
 def _predictions(predicted: Mapping[str, Predicted]) -> Table:
     table = _table("", "value", "interval", "interval by the priors alone")
-    ends = lambda one: f"{digits(displayed(one.lower, one.unit))} to {with_unit(one.upper, one.unit)}"
+    ends = lambda one: span(one.lower, one.upper, one.unit)
     for name, one in predicted.items():
         table.add_row(name, with_unit(one.value, one.unit), ends(one), "" if one.before is None else ends(one.before))
     return table
@@ -150,7 +150,7 @@ def _posterior(found: Calibration, posterior: Posterior) -> Table:
     units = {field.path: field.unit for field in found.fields}
     for path, one in posterior.parameters.items():
         unit = units[path]
-        ends = f"{digits(displayed(one.lower, unit))} to {with_unit(one.upper, unit)}"
+        ends = span(one.lower, one.upper, unit)
         table.add_row(path, with_unit(one.median, unit), ends, f"{one.r_hat:.4f}", f"{one.effective:.0f}")
     return table
 

@@ -26,13 +26,14 @@ def fields(
 ) -> None:
     """Every field of a kind of scene file: default, what it takes, what it is. Without a kind: the kinds."""
     with bad_input():
-        from ..scenes.errors import SceneError, nearest, one_of
-        from ..scenes.kinds import kind_named
+        from ..scenes.errors import SceneError, one_of
+        from ..scenes.kinds import kind_named, kind_refused
         from ..scenes.reader import KINDS
 
         kind = kind_named(kind)
         if kind is not None and kind not in KINDS:
-            raise SceneError("fields", "", f"'{kind}'", f"a kind of scene: {one_of(KINDS)}", nearest(kind, KINDS))
+            found, near = kind_refused(kind, KINDS)
+            raise SceneError("fields", "", found, f"a kind of scene: {one_of(KINDS)}", near)
     if kind is None:
         typer.echo(json.dumps(KINDS) if as_json else "\n".join(KINDS))
         return

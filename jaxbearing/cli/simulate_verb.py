@@ -83,6 +83,8 @@ def simulate(
     them, power; of a bearing with [thermal], its temperatures from cold; of a line contact, the film while its speed
     changes. Ctrl-C ends the run and keeps what was computed."""
     with bad_input():
+        from .._scene import SIMULATED
+        from ..bearings.bearing import AbstractBearing
         from ..ehl import EHLLineContact
         from ..scenes.errors import SceneError
         from ..scenes.overrides import split_assignments
@@ -94,12 +96,10 @@ def simulate(
         every = None if interval is None else option_quantity("--interval", interval, TIME, "> 0")
         if length is None and getattr(getattr(model, "simulation", None), "duration", None) is None:
             raise SceneError("--duration", "", "nothing", "a time with a unit, e.g. '50 ms'")
-        film, warms = isinstance(model, EHLLineContact), getattr(model, "thermal", None) is not None
+        film = isinstance(model, EHLLineContact)
+        warms = isinstance(model, AbstractBearing) and model.thermal is not None
         if not film and not warms and not (getattr(model, "slips", False) and model.runs_in_programs):
-            refuse(
-                f"SCENE: found '{scene}'; expected a bearing with [thermal], a cylindrical roller bearing with "
-                "contact.traction, or a line contact"
-            )
+            refuse(f"SCENE: found '{scene}', a {model.kind.replace('_', ' ')} without these; expected {SIMULATED}")
         if film and every is not None:
             refuse(
                 f"--interval: found '{interval}' for a line contact; expected none: every step is kept "

@@ -22,6 +22,9 @@ _ENGINEERS: dict[str, tuple[str, float]] = {
 }
 """SI unit of a result -> (unit on the screen, factor from SI). Other units are shown unchanged."""
 
+MILLIMETRE = 1e-3
+"""Length from which on lengths are shown in mm, m."""
+
 _SCALES = {
     "N": ((1e3, "kN", 1e-3), (0.0, "N", 1.0)),
     "m": ((1e-3, "mm", 1e3), (1e-7, "µm", 1e6), (0.0, "nm", 1e9)),
@@ -41,14 +44,24 @@ a nucleus."""
 _BLOCKS = " ▏▎▍▌▋▊▉█"
 
 
-def display_unit(unit: str) -> str:
-    """The unit in which a result of this SI unit is shown."""
-    return _ENGINEERS.get(unit, (unit, 1.0))[0]
+def _shown(unit: str, largest: float) -> tuple[str, float]:
+    """Unit on the screen and factor from SI."""
+    if unit == "m" and math.isfinite(largest) and abs(largest) >= MILLIMETRE:
+        return "mm", 1e3
+    return _ENGINEERS.get(unit, (unit, 1.0))
 
 
-def displayed(value: float, unit: str) -> float:
-    """A result in the unit in which it is shown."""
-    return value * _ENGINEERS.get(unit, (unit, 1.0))[1]
+def display_unit(unit: str, largest: float = 0.0) -> str:
+    """The unit in which a result of this SI unit is shown.
+
+    **Arguments:** `largest`: of the numbers that have the unit together, in SI: lengths from 1 mm on are shown in mm.
+    """
+    return _shown(unit, largest)[0]
+
+
+def displayed(value: float, unit: str, largest: float = 0.0) -> float:
+    """A result in the unit in which it is shown. **Arguments:** `largest`: as that of `display_unit`."""
+    return value * _shown(unit, largest)[1]
 
 
 def axis_unit(unit: str, largest: float) -> tuple[str, float]:
@@ -79,12 +92,13 @@ def tick(value: float) -> str:
     return f"{value:.10g}" if abs(value) < 1e4 else f"{value:,.10g}".replace(",", "\N{THIN SPACE}")
 
 
-def number(value: float, unit: str, significant: int = 4) -> str:
+def number(value: float, unit: str, significant: int = 4, largest: float = 0.0) -> str:
     """The digits of a result in the unit of the screen; the name of the unit is not among them. `value` is in the SI
-    unit `unit`. Beside a unit no number has an exponent, and what is zero to round-off is 0."""
-    shown = displayed(value, unit)
+    unit `unit`, `largest` as that of `display_unit`. Beside a unit no number has an exponent, and what is zero to
+    round-off is 0."""
+    shown = displayed(value, unit, largest)
     text = digits(shown, significant)
-    if "e" not in text or not display_unit(unit):
+    if "e" not in text or not display_unit(unit, largest):
         return text
     if abs(shown) < _NIL:
         return "0"
@@ -92,8 +106,16 @@ def number(value: float, unit: str, significant: int = 4) -> str:
 
 
 def with_unit(value: float, unit: str, significant: int = 4) -> str:
-    """A result in the unit of the screen, such as "33.57 um". `value` is in the SI unit `unit`."""
-    return f"{number(value, unit, significant)} {display_unit(unit)}".rstrip()
+    """A result in the unit of the screen, such as "33.57 um" or "150.0 mm". `value` is in the SI unit `unit`."""
+    return f"{number(value, unit, significant, value)} {display_unit(unit, value)}".rstrip()
+
+
+def span(low: float, high: float, unit: str) -> str:
+    """An interval in the unit of the screen, such as "5.000 to 20.00 um". `low` and `high` are in the SI unit."""
+    largest = max(abs(low), abs(high))
+    return f"{digits(displayed(low, unit, largest))} to {digits(displayed(high, unit, largest))} " + display_unit(
+        unit, largest
+    )
 
 
 def bar(fraction: float, width: int, ascii_only: bool = False) -> str:

@@ -19,7 +19,7 @@ from .display import ZERO_CELSIUS, display_unit, displayed
 
 _NAMES = 40
 """Columns of the names."""
-_SIZES = {"m": ((1e-3, "mm", 1e3), (0.0, "um", 1e6)), "Pa": ((1e8, "GPa", 1e-9), (1e5, "MPa", 1e-6), (0.0, "Pa", 1.0))}
+_SIZES = {"Pa": ((1e8, "GPa", 1e-9), (1e5, "MPa", 1e-6), (0.0, "Pa", 1.0))}
 """SI unit -> from which size on, which unit is shown, and the factor."""
 
 
@@ -99,4 +99,4 @@ def _text(value: Any, said: Mapping[str, Any]) -> str:
     unit, factor = next(((name, by) for least, name, by in sizes if abs(number) >= least), ("", 0.0))
     if unit:
         return f"{number * factor:.6g} {unit}"
-    return f"{displayed(number, si):.6g} {display_unit(si)}".rstrip()
+    return f"{displayed(number, si, number):.6g} {display_unit(si, number)}".rstrip()

@@ -97,4 +97,5 @@ def _column(dataset: xr.Dataset, name: str, path: str) -> Column:
     cases = dataset["failure"]
     values = dataset[name].broadcast_like(cases).transpose(*cases.dims).values.ravel()
     unit = label_unit(str(dataset[name].attrs["units"]))
-    return Column(path, display_unit(unit), displayed(1.0, unit) * values)
+    largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
+    return Column(path, display_unit(unit, largest), displayed(1.0, unit, largest) * values)

@@ -43,8 +43,9 @@ def result_rows(solution: AbstractSolution, left_out: Collection[str] = ()) -> l
 def row_of(path: str, value: np.ndarray, metadata: Mapping[str, str]) -> Row:
     unit = metadata["unit"]
     whole = np.issubdtype(value.dtype, np.integer)
-    shown = str(int(value)) if whole else number(float(value), unit)
-    return Row(path, shown, display_unit(unit), metadata["description"])
+    size = float(value)
+    shown = str(int(value)) if whole else number(size, unit, largest=size)
+    return Row(path, shown, display_unit(unit, size), metadata["description"])
 
 
 def element_columns(solution: AbstractSolution) -> list[Column]:

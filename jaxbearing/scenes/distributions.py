@@ -16,6 +16,7 @@ from ..distribution import SHAPES, Distribution
 from ..report.display import with_unit
 from .errors import SceneError, nearest, one_of
 from .fields import dimension_of, is_known, parts_of, tables_at, type_at
+from .quantity_texts import quantity_text
 from .units import Dimension, dimension_of_unit, number, quantity
 from .words import describe
 
@@ -165,7 +166,7 @@ def no_number(kind: object) -> str:
 
 def text_of(value: float, dimension: Dimension | None) -> float | str:
     """A value in SI as a file has it: a number where the field has no unit."""
-    return float(value) if dimension is None else f"{float(value)!r} {dimension.si}"
+    return float(value) if dimension is None else quantity_text(float(value), dimension)
 
 
 def said_of(path: str, distribution: Distribution, model: type[BaseModel]) -> str:

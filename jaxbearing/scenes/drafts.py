@@ -32,7 +32,7 @@ class Draft:
     def __init__(self, model: type[Table], raw: Mapping[str, Any], refused: Collection[str] = (), nested: bool = False):
         self._model, self._raw, self._nested = model, raw, nested
         absent = [name for name in model.model_fields if name not in raw]
-        near = [_meant(str(name), model) for name in raw if name not in model.model_fields]
+        near = [_meant(str(name), model, absent) for name in raw if name not in model.model_fields]
         self._refused = {*refused, *(absent if "" in near else near)}
 
     def __getattr__(self, name: str) -> Any:
@@ -76,12 +76,12 @@ class Draft:
                 yield from value.problems(f"{inside}{name}.")
 
 
-def _meant(name: str, model: type[Table]) -> str:
-    """The field that an unknown name may be meant for: a table that has a field of this name, or the nearest name; ""
-    where there is none."""
+def _meant(name: str, model: type[Table], absent: Collection[str]) -> str:
+    """The field that an unknown name may be meant for: a table that has a field of this name, or the nearest absent
+    name; "" where there is none."""
     tables = ((field, plain_table_at(model, field)) for field in model.model_fields)
     inside = next((field for field, table in tables if table is not None and name in table.model_fields), None)
-    return nearest(name, model.model_fields) if inside is None else inside
+    return nearest(name, absent) if inside is None else inside
 
 
 @functools.cache
@@ -138,7 +138,7 @@ def draft(
         if not refused:
             return table, []
     except ValidationError as error:
-        found = from_validation(error, model, file).problems
+        found = from_validation(error, model, file, raw).problems
         problems = [one for one in found if one.path.partition(".")[0] not in refused]
     said = {(one.path, one.expected) for one in problems}
     for path, words in Draft(model, raw, refused, nested=True).problems():

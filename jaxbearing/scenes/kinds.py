@@ -1,8 +1,12 @@
 """Kinds of scenes by the names that people give them."""
 
+from collections.abc import Collection
 from typing import Any
 
 from pydantic import BeforeValidator
+
+from .errors import nearest
+from .words import describe
 
 ALIASES: dict[str, str] = {
     **dict.fromkeys(
@@ -28,6 +32,31 @@ def kind_named(given: object) -> Any:
         return given
     plain = "_".join(given.lower().replace("-", " ").replace("_", " ").split())
     return ALIASES.get(plain, plain if plain in ALIASES.values() else given)
+
+
+_OTHERS = (
+    "needle",
+    "spherical",
+    "self_align",
+    "toroidal",
+    "carb",
+    "thrust",
+    "crossed",
+    "plain",
+    "journal",
+    "sleeve",
+    "foil",
+)
+"""Words in the names of bearings that are not modelled."""
+
+
+def kind_refused(given: object, kinds: Collection[str]) -> tuple[str, str]:
+    """Words for an unknown kind of scene, and the nearest kind. A bearing that is not modelled has none, however near
+    its name is to that of another one."""
+    plain = given.lower().replace("-", "_").replace(" ", "_") if isinstance(given, str) else ""
+    if any(word in plain for word in _OTHERS):
+        return f"{describe(given)}, which is not modelled", ""
+    return describe(given), nearest(plain, kinds) if plain else ""
 
 
 KIND = BeforeValidator(kind_named)

@@ -15,6 +15,7 @@ from ..numerics.refusals import Refusals
 from .engineers_words import usual_word
 from .errors import SceneError, nearest, one_of
 from .fields import is_optional, names_at, parts_of, path_of, required_names, type_at
+from .kinds import kind_refused
 from .words import describe, shortened
 
 LAW_ERROR = "law_name"
@@ -24,20 +25,64 @@ _MUST_BE = re.compile(r"be (?P<expected>.*?)(?:, got [^:]*(?:: (?P<reason>.*))?)
 _FOUND_EXPECTED = re.compile(r"(?:found (?P<found>.*?), )?expected (?P<expected>.*)")
 
 
-def from_validation(error: ValidationError, model: type[BaseModel], file: str) -> SceneError:
+def from_validation(
+    error: ValidationError, model: type[BaseModel], file: str, raw: Mapping[str, object] | None = None
+) -> SceneError:
     """The error for all problems that pydantic found.
 
     Unknown names come first and missing fields last. A missing field is left out if another problem suggests it as the
-    name that was meant.
+    name that was meant, or if it follows from the name that is meant.
 
-    **Arguments:** `error`: of pydantic; `model`: schema of the scene; `file`: its name for messages.
+    **Arguments:** `error`: of pydantic; `model`: schema of the scene; `file`: its name for messages; `raw`: the tables.
     """
     details = sorted(_causes(error.errors(include_url=False)), key=_rank)
-    problems = [in_words(file, *_path_and_words(one, model)) for one in details]
-    meant = {".".join([*one.path.split(".")[:-1], one.suggestion]) for one in problems if one.suggestion}
+    absent = [detail["loc"] for detail in details if detail["type"] == "missing"]
+    problems = []
+    for detail in details:
+        path, words = _path_and_words(detail, model)
+        if detail["type"] == "extra_forbidden":
+            suggestion = _absent_meant(detail["loc"], model, absent, raw or {})
+            words = {**words, "suggestion": suggestion or words.get("suggestion", "")}
+        problems.append(in_words(file, path, words))
+    meant = {meant_by(one) for one in problems if one.suggestion}
     missing = [detail["type"] == "missing" for detail in details]
-    kept = [one for one, absent in zip(problems, missing, strict=True) if not (absent and one.path in meant)]
+    left_out = lambda path: (
+        path in meant or any(path.startswith(f"{one.rpartition('.')[0]}.") for one in meant if _rules(one))
+    )
+    kept = [one for one, gone in zip(problems, missing, strict=True) if not (gone and left_out(one.path))]
     return SceneError.of_all(kept)
+
+
+def _rules(path: str) -> bool:
+    """True for a field that says which others its table needs."""
+    return path.rpartition(".")[2] in ("name", "grade", "file", "law")
+
+
+def meant_by(problem: SceneError) -> str:
+    """Dotted path of the field that is suggested in the place of an unknown one."""
+    return ".".join([*problem.path.split(".")[:-1], problem.suggestion])
+
+
+def _absent_meant(
+    location: Sequence[int | str],
+    model: type[BaseModel],
+    absent: Sequence[Sequence[int | str]],
+    raw: Mapping[str, object],
+) -> str:
+    """The field that an unknown name may be meant for: the nearest one that its table lacks, or the only one that it
+    lacks and needs; "" if there is none."""
+    name, inside = str(location[-1]), tuple(location[:-1])
+    table: object = raw
+    for key in filter(None, path_of(inside).split(".")):
+        table = table.get(key) if isinstance(table, Mapping) else None
+    given = table if isinstance(table, Mapping) else {}
+    valid = [field for field in names_at(model, inside).names if field not in given]
+    needed = [str(one[-1]) for one in absent if tuple(one[:-1]) == inside]
+    unknown = [field for field in given if field not in names_at(model, inside).names]
+    if _inside(name, model, valid):
+        return ""
+    only = needed[0] if len(needed) == len(unknown) == 1 else ""
+    return usual_word(name, valid) or only or nearest(name, needed) or nearest(name, valid)
 
 
 def in_words(file: str, path: str, words: Mapping[str, str]) -> SceneError:
@@ -110,12 +155,15 @@ def _path_and_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str,
         valid = re.findall(r"'([^']*)'", context["expected"])
         given = detail["input"]
         near = nearest(given, valid) if isinstance(given, str) else ""
+        found = describe(given)
+        if location[-1] == "kind":
+            found, near = kind_refused(given, valid)
         expected = one_of(valid)
         further = next((one for one in parts_of(type_at(model, location)) if isinstance(one, str)), "")
         expected += f", {further}" if further else ""
         if is_optional(model, location):
             expected += f", or leave it out (--set {path}=none)"
-        return path, {"found": describe(given), "expected": expected, "suggestion": near}
+        return path, {"found": found, "expected": expected, "suggestion": near}
     if kind in ("model_type", "model_attributes_type", "dict_type"):
         return path, {"found": describe(detail["input"]), "expected": "a table"}
     if kind == "string_type":

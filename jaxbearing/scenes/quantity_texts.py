@@ -9,7 +9,7 @@ from . import units
 from .usual_units import USUAL
 
 _READABLE = {
-    units.LENGTH: ("mm", "um", "nm", "m"),
+    units.LENGTH: ("mm", "um", "m", "nm"),
     units.ANGLE: ("deg", "mrad", "rad"),
     units.SPEED: ("rpm", "rad/s"),
     units.SURFACE_SPEED: ("m/s", "mm/s", "um/s"),
@@ -50,9 +50,9 @@ def text_in(unit: str, value: float, dimension: units.Dimension) -> str:
 
 
 def _length(text: str) -> int:
-    """Digits of the number; it should not begin with 0."""
+    """Digits of the number; it should not begin with 0, and not be 10 000 or more."""
     number = text.partition(" ")[0].lstrip("-")
-    return len(number.replace(".", "")) + (2 if number.startswith("0.") else 0)
+    return len(number.replace(".", "")) + (2 if number.startswith("0.") else 3 if float(number) >= 1e4 else 0)
 
 
 def _texts(value: float, dimension: units.Dimension) -> Iterator[str]:

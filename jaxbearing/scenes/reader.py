@@ -16,7 +16,7 @@ from .data_files import builtin_names, builtin_summary, builtin_text
 from .distributions import means_of, said_of
 from .drafts import Unreadable, draft
 from .errors import MeanUsedWarning, PresetUsedWarning, SceneError, StatesUnusedWarning, nearest, one_of
-from .kinds import kind_named
+from .kinds import kind_named, kind_refused
 from .oil.catalogue import with_catalogue
 from .oil.files import Origin, origins, prior_ranges
 from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value, preset
@@ -26,7 +26,7 @@ from .problems import from_class
 from .shaft.members import at, each_bearing, put
 from .table import Table
 from .toml_files import parse_toml, read_text
-from .words import describe, shortened
+from .words import shortened
 
 if TYPE_CHECKING:
     from ..bearings.ball.scene import BallBearing
@@ -289,9 +289,13 @@ def _build(
         pass
     except ValueError as error:
         said = [one.path for one in problems]
+        # an unknown name may be meant for what its table lacks
+        unsure = {one.path.rpartition(".")[0] for one in problems if one.found.startswith("the unknown name")}
         # the classes repeat some checks of the tables: a problem that is already known is not reported twice
-        found = from_class(error, raw, origin).problems
-        problems += [one for one in found if not any(one.path and _related(one.path, path) for path in said)]
+        for one in from_class(error, raw, origin).problems:
+            known = any(one.path and _related(one.path, path) for path in said)
+            if not known and not (one.found == "nothing" and one.path.rpartition(".")[0] in unsure):
+                problems.append(one)
     else:
         if not problems:
             return scene
@@ -413,5 +417,5 @@ def _known_kind(kind: Any, mapping: Mapping[str, object], origin: str) -> str:
     kind = kind_named(kind)
     if kind in KINDS:
         return kind
-    near = nearest(kind, KINDS) if isinstance(kind, str) else ""
-    raise SceneError(origin, "kind", describe(kind), one_of(KINDS), near)
+    found, near = kind_refused(kind, KINDS)
+    raise SceneError(origin, "kind", found, one_of(KINDS), near)

@@ -12,7 +12,7 @@ from rich.table import Table
 from ..life.duty import IN_HOURS
 from ..report.backends.screen import counted, headline, print_rule, print_warnings
 from ..report.bearing.life_facts import percent
-from ..report.display import digits, display_unit, number
+from ..report.display import digits, display_unit, number, with_unit
 from .result import Spectrum
 from .tables import spectrum_to_dict
 
@@ -44,7 +44,7 @@ def print_over(
         table.add_row(*row)
     console.print(Padding(table, (0, 1)))
     said = [
-        f"{number(value, unit)} {display_unit(unit)}, {name}: {text}"
+        f"{with_unit(value, unit)}, {name}: {text}"
         for value, one in zip(values, found, strict=True)
         for name, text in one.failures.items()
     ]
@@ -57,7 +57,8 @@ _GOVERNS = "governed by"
 def over_columns(path: str, unit: str, values: Sequence[float], found: Sequence[Spectrum]) -> dict[str, list[str]]:
     """Heading, with the unit on a second line -> texts, one a value; lives that no value has are left out."""
     own = path.rpartition(".")[2].replace("_", " ")
-    columns = {f"{own}\n{display_unit(unit)}": [number(value, unit) for value in values]}
+    largest = max(map(abs, values))
+    columns = {f"{own}\n{display_unit(unit, largest)}": [number(value, unit, largest=largest) for value in values]}
     kinds = {"Lnmr": found[0].life.reliability, "L10r": 0.90, "L10m": 0.90, "L10": 0.90}
     for kind, reliability in kinds.items():
         texts = ["-" if one.failures else _text(getattr(one.life, IN_HOURS[kind])) for one in found]

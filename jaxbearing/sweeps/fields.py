@@ -17,6 +17,7 @@ from ..scenes.fields import dimension_of, is_known, type_at
 from ..scenes.inputs import owner_of
 from ..scenes.overrides import REMOVE, parse_value
 from ..scenes.problems import in_words, unknown_name
+from ..scenes.quantity_texts import quantity_text
 from ..scenes.reader import read_base, scene_from_tables, scene_model, warn_of_means, warn_of_preset
 from ..scenes.units import Dimension
 from ..scenes.words import describe
@@ -38,7 +39,7 @@ class Field:
 
     def text(self, value: float) -> str:
         """A value in SI as it would be typed."""
-        return repr(float(value)) if self.dimension is None else f"{float(value)!r} {self.dimension.si}"
+        return repr(float(value)) if self.dimension is None else quantity_text(float(value), self.dimension)
 
     def read(self, text: str, where: str) -> float:
         """SI value of a text, within the bounds of the field. **Raises:** `SceneError`."""

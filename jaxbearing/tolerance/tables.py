@@ -1,6 +1,6 @@
 """Scatter of results on the screen, as JSON and as a data set."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from ..distribution import Distribution
 from ..loss_interval import not_counted
 from ..report.backends.json import finite
 from ..report.backends.screen import counted, headline, print_line, print_rule, print_warnings
-from ..report.display import digits, displayed, with_unit
+from ..report.display import digits, displayed, span, with_unit
 from ..report.labels import label_unit, udunits
 from .outcome import Sampled, Spread, Tolerances
 
@@ -59,7 +59,7 @@ def short(name: str) -> str:
 def _field(one: Distribution, unit: str, origin: str) -> str:
     text = "" if one.median is None else f"median {with_unit(one.median, unit)}, mean "
     text += f"{with_unit(one.mean, unit)}, deviation {with_unit(one.deviation, unit)}, {one.shape}, "
-    text += f"{digits(displayed(one.lowest, unit))} to {with_unit(one.highest, unit)}"
+    text += span(one.lowest, one.highest, unit)
     return f"{text} ({origin})" if origin else text
 
 
@@ -70,22 +70,25 @@ def _results(found: Tolerances) -> Table:
         table.add_column(title, justify="right", overflow="fold")
     for name, one in found.results.items():
         unit = one.unit
-        worst = _range(one.worst_low, one.worst_high, unit)
+        shown = lambda value, unit=unit, size=one.mean: displayed(value, unit, size)
+        worst = _range(one.worst_low, one.worst_high, shown)
         mean, deviation = (with_unit(value, unit) for value in (one.mean, one.deviation))
-        table.add_row(short(name), mean, deviation, _range(one.low, one.high, unit), worst)
+        table.add_row(short(name), mean, deviation, _range(one.low, one.high, shown), worst)
         if one.sampled is not None:
-            table.add_row("  Monte Carlo", *_sampled(one.sampled, unit), "")
+            table.add_row("  Monte Carlo", *_sampled(one.sampled, unit, shown), "")
     return table
 
 
-def _range(low: float, high: float, unit: str) -> str:
-    return f"{digits(displayed(low, unit))} to {digits(displayed(high, unit))}"
+def _range(low: float, high: float, shown: Callable[[float], float]) -> str:
+    """**Arguments:** `shown`: the number in the unit of the row's mean."""
+    return f"{digits(shown(low))} to {digits(shown(high))}"
 
 
-def _sampled(one: Sampled, unit: str) -> Iterator[str]:
-    for value, error in ((one.mean, one.mean_error), (one.deviation, one.deviation_error)):
-        yield f"{digits(displayed(value, unit))} ± {digits(displayed(error, unit), 2)}"
-    yield _range(one.low, one.high, unit)
+def _sampled(one: Sampled, unit: str, shown: Callable[[float], float]) -> Iterator[str]:
+    yield f"{digits(shown(one.mean))} ± {digits(shown(one.mean_error), 2)}"
+    size = one.deviation
+    yield f"{digits(displayed(size, unit, size))} ± {digits(displayed(one.deviation_error, unit, size), 2)}"
+    yield _range(one.low, one.high, shown)
 
 
 def _shares(spread: Spread) -> str:

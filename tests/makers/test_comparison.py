@@ -313,7 +313,8 @@ def test_the_table_is_no_part_of_a_scene():
     catalogue = load_catalogue("deep_groove_6205", changes)
     assert catalogue.designation == "6205-2RSH"
     assert float(catalogue.oil_level) == 5e-3
-    assert load_catalogue("deep_groove_6205") is None
+    assert load_catalogue("deep_groove_6205").designation == "6205"
+    assert load_catalogue("turbine_ball") is None
     assert load_catalogue("two_disk_etm") is None
 
 

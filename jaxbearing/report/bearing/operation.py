@@ -73,4 +73,4 @@ def _with_unit(value: float, unit: str, significant: int = 6) -> str:
         return f"{value - ZERO_CELSIUS:.{significant}g} degC"
     if unit == "N":
         return f"{value * 1e-3:.{significant}g} kN"
-    return f"{displayed(value, unit):.{significant}g} {display_unit(unit)}"
+    return f"{displayed(value, unit, value):.{significant}g} {display_unit(unit, value)}"

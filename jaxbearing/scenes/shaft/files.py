@@ -15,7 +15,7 @@ from pydantic import BaseModel
 from ..data_files import builtin_names
 from ..errors import SceneError, nearest, one_of
 from ..fields import plain_table_at
-from ..kinds import kind_named
+from ..kinds import kind_named, kind_refused
 from ..table import Table
 from ..words import describe
 from .members import MEMBERS, at, changed, numbered, put
@@ -257,5 +257,5 @@ def kind_of(entry: Mapping[str, object], path: str, label: str) -> str:
         near = next((key for key in entry if key != SCENE and nearest(str(key), (SCENE, "kind"))), "")
         found = f"the unknown name {near!r}" if near else "nothing"
         raise SceneError(label, f"{path}.{SCENE}", found, expected, nearest(near, (SCENE, "kind")) if near else "")
-    near = nearest(kind, known) if isinstance(kind, str) else ""
-    raise SceneError(label, f"{path}.kind", describe(given), one_of(known), near)
+    found, near = kind_refused(given, known)
+    raise SceneError(label, f"{path}.kind", found, one_of(known), near)

@@ -113,4 +113,5 @@ def _value(value: SupportsFloat, unit: str) -> str:
         return str(value)
     if unit == "m":
         return length_text(value)
-    return f"{displayed(float(value), unit):.5g} {display_unit(unit)}".rstrip()
+    size = float(value)
+    return f"{displayed(size, unit, size):.5g} {display_unit(unit, size)}".rstrip()
