@@ -462,11 +462,8 @@ def test_a_couple_that_is_left_out_is_named_with_its_size():
     carried = jb.solve(scene.replace(fast | {"kinematics.gyroscopic": SharedCouple()}))
     assert carried.elements.gyroscopic_limit is None
     assert "gyroscopic" not in not_modelled(carried)
-    friction = float(
-        jnp.sum(
-            carried.elements.gyroscopic_couple / geometry.ball_diameter * jnp.cos(carried.elements.contact_angle_inner)
-        )
-    )
+    cosine = jnp.cos(carried.elements.contact_angle_inner)
+    friction = float(jnp.sum(carried.elements.gyroscopic_couple / geometry.ball_diameter * cosine))
     np.testing.assert_allclose(axial(carried), thrust - friction, rtol=1e-9)
 
 
