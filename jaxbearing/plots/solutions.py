@@ -9,10 +9,12 @@ from ..bearings.solution import Solution
 from ..machines import TwoDiskSolution
 from ..report.backends.matplotlib.legends import clear_legend
 from ..report.backends.matplotlib.panels import draw
+from ..report.bearing.operation import load_angle
 from ..report.bearing.panels import ROUND, load_panel, loss_panel, round_panel
 from ..report.bearing.run.plots import draw_orbit
 from ..report.colours import INK
 from ..report.registry import check_converged
+from ..report.round_off import without_round_off
 from ..report.two_disk.curves import curves_of
 from ..report.two_disk.panels import traction_panel
 from ..report.two_disk.plots import draw_curves
@@ -31,7 +33,7 @@ def load_distribution(solution: Solution, *, axes: "matplotlib.axes.Axes | None"
 
     **Raises:** `ValueError` for a batch, or a solution that did not converge.
     """
-    _check(solution)
+    solution = _checked(solution)
     own, axes = axes is None, prepare(axes, polar=True)
     draw(axes, load_panel(solution))
     axes.legend(fontsize=8.5, frameon=False, loc="upper left", bbox_to_anchor=(1.08, 1.0))
@@ -57,7 +59,7 @@ def sliding(solution: Solution, *, axes: "matplotlib.axes.Axes | None" = None) -
 def power_loss(solution: Solution, *, axes: "matplotlib.axes.Axes | None" = None) -> "matplotlib.figure.Figure":
     """Power loss by location, largest first, with its share of the total. Arguments and errors as `load_distribution`,
     and `ValueError` where the scene models no loss."""
-    _check(solution)
+    solution = _checked(solution)
     losses = loss_panel(solution)
     if losses is None:
         raise ValueError("power_loss: the scene models no power loss")
@@ -101,7 +103,9 @@ def cage_orbit(history: History, *, axes: "matplotlib.axes.Axes | None" = None) 
     if not bool(history.completed):
         raise ValueError(f"cage_orbit: the run did not complete: {history.failure()}")
     own, axes = axes is None, prepare(axes)
-    draw_orbit(axes, cage)
+    shown = without_round_off(history)
+    assert shown.instants.cage is not None
+    draw_orbit(axes, shown.instants.cage, load_angle(history.operation) is not None)
     caption = "Path of the cage's centre; grey: start, red: end."
     x, y, radius = _guide(history)
     if radius > 0.0:
@@ -135,7 +139,7 @@ def _guide(history: History) -> tuple[float, float, float]:
 def _round(
     solution: Solution, name: str, caption: str, axes: "matplotlib.axes.Axes | None"
 ) -> "matplotlib.figure.Figure":
-    _check(solution)
+    solution = _checked(solution)
     panel = round_panel(solution, name)
     if panel is None:
         raise ValueError(f"{ROUND[name][0].lower()}: the scene does not model it")
@@ -146,7 +150,9 @@ def _round(
     return figure
 
 
-def _check(solution: Solution) -> None:
+def _checked(solution: Solution) -> Solution:
+    """The solution as it is drawn. **Raises:** `ValueError` for a batch, or a solution that did not converge."""
     if np.ndim(solution.status) != 0:
         raise ValueError("found a batch of solutions, expected one: take one lane of it")
     check_converged(solution)
+    return without_round_off(solution)

@@ -6,6 +6,7 @@ from ..ehl import EHLLineContact
 from ..ehl.history import SOLVER
 from ..numerics.status import SolveError
 from .registry import RUNS, output
+from .round_off import without_round_off
 
 if TYPE_CHECKING:
     import matplotlib.animation
@@ -54,7 +55,7 @@ def not_begun_to_dict(scene: Any, duration: float | None, error: SolveError) -> 
 
 def print_history(history: "AbstractHistory", label: str, console: "Console") -> None:
     """The run on the screen."""
-    output(history, "summary", _CALLED, RUNS)(history, label, console)
+    output(history, "summary", _CALLED, RUNS)(without_round_off(history), label, console)
 
 
 def history_to_dataset(history: "AbstractHistory") -> "xr.Dataset":
@@ -64,11 +65,11 @@ def history_to_dataset(history: "AbstractHistory") -> "xr.Dataset":
 
 def plot_history(history: "AbstractHistory", title: str) -> "matplotlib.figure.Figure":
     """A page of plots of a run."""
-    return output(history, "plots", _CALLED, RUNS)(history, title)
+    return output(history, "plots", _CALLED, RUNS)(without_round_off(history), title)
 
 
 def animate_history(
     history: "AbstractHistory", scene: "AbstractScene", title: str
 ) -> "matplotlib.animation.FuncAnimation":
     """A run as moving pictures, for `save_animation`. **Arguments:** `scene`: that of the run."""
-    return output(history, "animation", _CALLED, RUNS)(history, scene, title)
+    return output(history, "animation", _CALLED, RUNS)(without_round_off(history), scene, title)

@@ -14,6 +14,7 @@ from .json_report import solution_to_dict
 from .makers_table import comparison_listing
 from .page_content import Listing
 from .registry import check_converged, output
+from .round_off import without_round_off
 
 
 def html_report(
@@ -43,7 +44,7 @@ def html_report(
     """
     content = output(solution, "page_content", "report")
     check_converged(solution)
-    shown = content(scene, solution)
+    shown = content(scene, without_round_off(solution))
     if interval is not None:
         first, *others = shown.headlines
         shown = dataclasses.replace(

@@ -38,7 +38,7 @@ class Content:
     - `operation`: the operating point in words.
     - `headlines`: name, value of the few results at the top.
     - `facts`: name, text of further results in words, under `facts_title`.
-    - `not_modelled`: power losses that the scene leaves out, in words.
+    - `not_modelled`: what the scene leaves out, in words.
     - `convergence`: name, text on how the solve ended.
     - `checks`: text of each check of the laws' ranges, whether it was left.
     - `stiffness`: names of the rows and columns, texts of the rows with units; "-" where the model has none.

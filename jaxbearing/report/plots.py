@@ -9,6 +9,7 @@ import numpy as np
 
 from .files import write_whole
 from .registry import check_converged, output
+from .round_off import without_round_off
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -37,6 +38,7 @@ def plot_solution(
     if np.ndim(solution.converged) != 0:
         raise ValueError("plot_solution draws one solution, got a batch: take one lane of it")
     check_converged(solution)
+    solution = without_round_off(solution)
     return draw(solution, title) if scene is None or scene.kind != "shaft" else draw(solution, title, scene)
 
 

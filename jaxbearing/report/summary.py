@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 
 from .registry import output
+from .round_off import without_round_off
 
 if TYPE_CHECKING:
     from .._scene import AbstractSolution
@@ -21,4 +22,4 @@ def print_summary(solution: "AbstractSolution", scene_label: str, console: Conso
 
     **Raises:** `TypeError` for another kind of solution.
     """
-    output(solution, "summary", "summary")(solution, scene_label, console, full)
+    output(solution, "summary", "summary")(without_round_off(solution), scene_label, console, full)

@@ -14,6 +14,7 @@ from ..parts import azimuths
 from .arcs import Arcs
 from .core import BallCore, BallState
 from .equations import AbstractBallEquations
+from .gyroscopic import USUAL_FRICTION
 from .scene import BallBearing
 from .solution import BallResults, SolvedBalls
 from .state import BallsState
@@ -42,6 +43,8 @@ def ball_results(
     rolling = jnp.abs(kinematics.inner_speed - kinematics.outer_speed) / kinematics.ratio
     ratios = races.spin / jnp.sqrt(jnp.square(races.roll) + jnp.square(1e-12 * rolling) + 1e-24)
     more |= computed_results(BallResults, SolvedBalls(system, state, films))
+    if scene.kinematics.gyroscopic is None:
+        more["gyroscopic_limit"] = 0.5 * USUAL_FRICTION * kinematics.ball_diameter * jnp.sum(load, axis=0)
     more |= _second(arcs, load, angle, pressure, ratios)
     others: dict[str, Any] = {name: None if one is None else _every(scene, one) for name, one in more.items()}
     elements = BallResults(

@@ -15,6 +15,10 @@ NO_LOAD = 1e-9
 """Added to the sum of both loads, N: no couple where no contact carries anything."""
 
 
+USUAL_FRICTION = 0.05
+"""Coefficient of friction of a lubricated contact that slides."""
+
+
 class AbstractGyroscopic(Checked):
     r"""Friction forces $T_i, T_o$ on the ball that balance the couple $M_g = J\omega_R\omega_m\sin\beta$.
 
@@ -72,7 +76,7 @@ class CappedCouple(AbstractGyroscopic):
     """
 
     friction_coefficient: Scalar = bounded(
-        "> 0", unit="1", name="gyroscopic_friction", converter=as_float, default=0.05
+        "> 0", unit="1", name="gyroscopic_friction", converter=as_float, default=USUAL_FRICTION
     )
     sign: Scalar = eqx.field(converter=as_float, default=1.0)
 

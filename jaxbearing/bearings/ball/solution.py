@@ -88,6 +88,9 @@ class BallResults(eqx.Module):
     )
     spin_to_roll_inner: _Values = _result("1", "spin about the contact normal over roll, inner")
     spin_to_roll_outer: _Values = _result("1", "spin about the contact normal over roll, outer")
+    gyroscopic_limit: _Values | None = _optional(
+        "N m", "gyroscopic couple that friction (0.05 of the loads) could carry, where the scene leaves the couple out"
+    )
     transverse_spin: _Values | None = _optional(
         "rad/s", "spin about the tangent of the orbit, of the gyroscopic couple"
     )

@@ -17,9 +17,24 @@ from .thermal_facts import thermal_facts
 
 
 def not_modelled(solution: Solution) -> str:
-    """Losses that the scene does not model, in words."""
+    """What the scene does not model, in words: losses, and a gyroscopic couple that counts."""
     names = ", ".join(name.replace("_", " ") for name in solution.not_modelled)
-    return f"all power losses ({names})" if solution.power_loss.total is None else names
+    losses = f"all power losses ({names})" if solution.power_loss.total is None else names
+    return "; ".join(text for text in (losses, _left_out_couple(solution)) if text)
+
+
+def _left_out_couple(solution: Solution) -> str:
+    """The gyroscopic couple of balls that a scene leaves out, in words; "" where friction carries it easily."""
+    elements = on_heavier_flanks(solution.elements)
+    limit = getattr(elements, "gyroscopic_limit", None)
+    if limit is None:
+        return ""
+    couple, most = np.abs(np.asarray(elements.gyroscopic_couple)), float(np.sum(np.asarray(limit)))
+    share = float(np.sum(couple)) / most if most > 0.0 else 0.0
+    if not share > LEFT_OUT:
+        return ""
+    size = f"up to {with_unit(float(np.max(couple)), 'N m', 3)} a ball"
+    return f"gyroscopic couple ({size}, {digits(100.0 * share, 3)} % of what the contacts' friction can carry)"
 
 
 def overload(solution: Solution) -> str:
@@ -191,11 +206,11 @@ _KINDS = {
 }
 
 
+LEFT_OUT = 0.01
+"""Gyroscopic couple over what friction can carry, of all balls, from which on it is named where it is left out."""
 OVERLOAD = "Overload"
 """Name of the fact that contacts yield."""
 NO_LIFE = "none, because it yields; the formulas, which do not hold here, give"
-NOTHING = 1e-9
-"""Least force on the ring that is shown, over the largest one, N; moments with a lever of 1 m, N m."""
 _LOADS = {
     "axial": "axial load",
     "radial": "radial load",
@@ -213,11 +228,9 @@ def _ring(solution: Solution) -> Iterator[str]:
 
 
 def _held(solution: Solution) -> Iterator[str]:
-    """The loads that freedoms which are held need, but for those that are nothing beside the others."""
-    force = np.asarray(solution.force)
-    least = NOTHING * np.max(np.abs(force[:3]))
-    for name, unit, value in zip(RING_FREEDOMS, force_units(), force, strict=True):
-        if name in solution.held_freedom and abs(value) > least:
+    """The loads that freedoms which are held need, but for those that are 0."""
+    for name, unit, value in zip(RING_FREEDOMS, force_units(), np.asarray(solution.force), strict=True):
+        if name in solution.held_freedom and value != 0.0:
             about = _point_of_moments(solution) if name.startswith("tilt") else ""
             yield f"{_LOADS[name]} {with_unit(float(value), unit)}{about}"
 

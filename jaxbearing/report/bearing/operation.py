@@ -13,9 +13,6 @@ from ...bearings.solution import Solution
 from ...numerics.checks import Checked
 from ..display import ZERO_CELSIUS, display_unit, displayed
 
-ROUND_OFF = 1e-13
-"""Displacement that is shown as 0, m."""
-
 
 def unused_operation(solution: Solution) -> set[str]:
     """Names in the operating point that no modelled part depends on: a scene need not give them."""
@@ -44,7 +41,7 @@ def operating_point(solution: Solution) -> str:
         moved = np.nan if own is None else float(np.asarray(own))
         if part is operation.displacement and np.isfinite(moved) and not math.isclose(moved, value, rel_tol=1e-9):
             # on a shaft the displacement is a result
-            value, words = moved if abs(moved) > ROUND_OFF else 0.0, words.removeprefix("given ")
+            value, words = moved, words.removeprefix("given ")
         if field.name in hidden or (field.name in ("outer_speed", "load_position") and value == 0.0):
             continue
         said.append(f"{words} {_with_unit(value, field.metadata['unit'])}")

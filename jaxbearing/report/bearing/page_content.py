@@ -49,7 +49,7 @@ def page_content(scene: AbstractBearing, solution: Solution) -> Content:
         ],
         facts=[fact for fact in facts(solution) if fact[0] not in TITLES],
         life=[row for row in results if row.path.startswith("life.") and row.path not in repeated],
-        not_modelled=not_modelled(solution) if solution.not_modelled else "",
+        not_modelled=not_modelled(solution),
         charts=bearing_panels(solution, rigid_counterpart(scene, solution)),
         diagrams=bearing_diagrams(solution),
         convergence=list(_convergence(solution, total if losses else None)),

@@ -147,7 +147,7 @@ def _print_losses(solution: Solution, console: Console) -> None:
     fractions = [value / (largest or 1.0) for value in entries.values()]
     print_rule("Power", console)
     print_table(columns, fractions, _LOSS_BAR, "red", console)
-    if solution.not_modelled:
+    if not_modelled(solution):
         print_line("Not modelled:", not_modelled(solution), console)
 
 

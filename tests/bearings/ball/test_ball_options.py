@@ -26,6 +26,7 @@ from jaxbearing.contacts import (
 )
 from jaxbearing.lubricants import Barus, ConstantPressureViscosity, ExponentialRheology, Lubricant
 from jaxbearing.numerics.newton import newton_solve
+from jaxbearing.report.bearing.facts import not_modelled
 from jaxbearing.scenes.errors import SceneError
 
 RPM = 2.0 * np.pi / 60.0
@@ -436,6 +437,34 @@ def test_gyroscopic_couple_is_euler_s():
     np.testing.assert_allclose(row - without, expected, rtol=1e-9)
     whole = dataclasses.replace(system, couple_share=jnp.ones(()))
     np.testing.assert_allclose(whole.couple(motion), -inertia_moment[2], rtol=1e-12)
+
+
+def test_a_couple_that_is_left_out_is_named_with_its_size():
+    """Of balls at 50 000 rpm, and not of slow ones. Where friction carries it, at the inner race it pushes the balls in
+    the direction of the thrust, as Euler's equation says, so that the normal loads carry less of it."""
+    scene = jb.load_scene("angular_contact_218")
+    fast = {"operation.inner_speed": 50e3 * np.pi / 30.0}
+    geometry, thrust = scene.geometry, float(scene.operation.axial_load)
+    axial = lambda found: float(jnp.sum(found.elements.load_inner * jnp.sin(found.elements.contact_angle_inner)))
+    left_out = jb.solve(scene.replace(fast))
+    couple, balls = left_out.elements.gyroscopic_couple[0], left_out.elements
+    inertia = geometry.ball_diameter**5 * np.pi * float(scene.materials.balls.density) / 60.0
+    expected = inertia * balls.spin_speed * balls.orbital_speed * np.sin(balls.attitude_angle)
+    np.testing.assert_allclose(balls.gyroscopic_couple, expected, rtol=1e-9)
+    limit = 0.05 * geometry.ball_diameter / 2.0 * (balls.load_inner + balls.load_outer)
+    np.testing.assert_allclose(balls.gyroscopic_limit, limit, rtol=1e-12)
+    share = 100.0 * float(couple / limit[0])
+    assert share > 1.0
+    said = f"gyroscopic couple (up to {float(couple):.3g} N m a ball, {share:.3g} % of what"
+    assert said in not_modelled(left_out), not_modelled(left_out)
+    assert "gyroscopic" not in not_modelled(jb.solve(scene.replace({"operation.inner_speed": 10.0})))
+    np.testing.assert_allclose(axial(left_out), thrust, rtol=1e-9)
+    carried = jb.solve(scene.replace(fast | {"kinematics.gyroscopic": SharedCouple()}))
+    assert carried.elements.gyroscopic_limit is None
+    assert "gyroscopic" not in not_modelled(carried)
+    cosine = jnp.cos(carried.elements.contact_angle_inner)
+    friction = float(jnp.sum(carried.elements.gyroscopic_couple / geometry.ball_diameter * cosine))
+    np.testing.assert_allclose(axial(carried), thrust - friction, rtol=1e-9)
 
 
 @eqx.filter_jit

@@ -10,6 +10,7 @@ from ...backends.matplotlib.sheet import foot, grid_lines, head, title_of
 from ...colours import FAINT, INK, INNER, LOSS, OUTER
 from ...display import axis_unit, displayed
 from ...run_statistics import groove_energy
+from ..operation import load_angle
 from .json_report import by_side
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ def plot(history: History, title: str) -> "matplotlib.figure.Figure":
     grid = figure.add_gridspec(2, 4 if across else 3, **size, **gaps)
     cage = instants.cage
     if cage is not None:
-        draw_orbit(figure.add_subplot(grid[0, 0]), cage)
+        draw_orbit(figure.add_subplot(grid[0, 0]), cage, load_angle(history.operation) is not None)
     _speeds(figure.add_subplot(grid[0, 1]), time, instants, element)
     _power(figure.add_subplot(grid[0, 2]), time, instants)
     if instants.pocket_peaks is not None:
@@ -65,7 +66,8 @@ def _over_grooves(axes: "matplotlib.axes.Axes", angle: np.ndarray, energy: dict[
         clear_legend(axes)
 
 
-def draw_orbit(axes: "matplotlib.axes.Axes", cage: CageMotion) -> None:
+def draw_orbit(axes: "matplotlib.axes.Axes", cage: CageMotion, loaded: bool) -> None:
+    """**Arguments:** `loaded`: whether a load across the axis acts, whose arrow is drawn."""
     x, y = 1e6 * np.asarray(cage.x), 1e6 * np.asarray(cage.y)
     axes.plot(x, y, color=INNER, linewidth=0.8)
     axes.plot(x[0], y[0], "o", color=FAINT, markersize=4)
@@ -74,9 +76,10 @@ def draw_orbit(axes: "matplotlib.axes.Axes", cage: CageMotion) -> None:
     # as in the drawings: the load points down, and X lies a quarter turn behind it, to the left
     axes.invert_xaxis()
     axes.invert_yaxis()
-    style = {"arrowstyle": "-|>", "color": INK, "linewidth": 1.8}
-    place = {"xycoords": "axes fraction", "textcoords": "axes fraction", "ha": "center", "fontsize": 9, "color": INK}
-    axes.annotate("load", (0.07, 0.76), (0.07, 0.92), arrowprops=style, **place)
+    if loaded:
+        style = {"arrowstyle": "-|>", "color": INK, "linewidth": 1.8}
+        place = {"xycoords": "axes fraction", "textcoords": "axes fraction", "ha": "center", "fontsize": 9}
+        axes.annotate("load", (0.07, 0.76), (0.07, 0.92), arrowprops=style, color=INK, **place)
     axes.set_xlabel("X (across the load), µm", fontsize=9)
     axes.set_ylabel("Y (along the load), µm", fontsize=9)
     title_of(axes, "Cage centre: grey start, red end")

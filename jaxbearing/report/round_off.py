@@ -1,0 +1,101 @@
+"""The one rule about round-off, for all that people look at: screen, page, figures, notebooks.
+
+A number that is less than what a solve resolves of its quantity is shown as 0. Lengths, angles and ratios have an
+absolute resolution, since the scales of the equations fix it. Forces, powers, speeds and pressures have that of the
+largest one of their unit in the same result. Results in Python, JSON and NetCDF stay as they were found.
+"""
+
+import dataclasses
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple, TypeVar
+
+import jax.numpy as jnp
+import numpy as np
+
+from .labels import labelled
+
+Result = TypeVar("Result")
+
+
+class Resolution(NamedTuple):
+    """What is resolved of a quantity: `absolute`, in its SI unit, and `relative` to the largest one."""
+
+    absolute: float
+    relative: float = 0.0
+
+
+RESOLUTIONS = {
+    "m": Resolution(1e-12),
+    "rad": Resolution(1e-12),
+    "1": Resolution(1e-14),
+    "N": Resolution(1e-9, 1e-9),
+    "N m": Resolution(1e-12, 1e-9),
+    "W": Resolution(1e-12, 1e-9),
+    "m/s": Resolution(1e-12, 1e-9),
+    "rad/s": Resolution(1e-12, 1e-9),
+    "Pa": Resolution(1e-3, 1e-9),
+}
+"""By SI unit; numbers of other units are shown as they are. A length of 1 pm is a hundredth of an atom."""
+RELATIVE = 1e-9
+"""Of a force on a ring to the largest one, with a lever of 1 m; of an entry of a stiffness to those of its diagonal."""
+_FORCES = ("force", "on_shaft")
+_DIAGNOSTICS = ("residual_norm", "inner_residual")
+"""How well a solve has converged, which is round-off by its nature."""
+
+
+def without_round_off(result: Result) -> Result:
+    """A copy of a solution, or of a run in time, whose numbers below their resolution are 0."""
+    largest: dict[str, float] = {}
+    for part in _parts(result):
+        for _, value, metadata in labelled(part):
+            largest[metadata["unit"]] = max(_largest(np.asarray(value)), largest.get(metadata["unit"], 0.0))
+    floors = {unit: max(one.absolute, one.relative * largest.get(unit, 0.0)) for unit, one in RESOLUTIONS.items()}
+    return _cleaned(result, floors)
+
+
+def _largest(numbers: np.ndarray) -> float:
+    """Largest modulus of those that are finite."""
+    return float(np.max(np.abs(numbers), initial=0.0, where=np.isfinite(numbers)))
+
+
+def _parts(result: Any) -> Iterator[Any]:
+    """The result, and the results of the bearings and sets that it holds by their names."""
+    yield result
+    for field in dataclasses.fields(result):
+        inner = getattr(result, field.name)
+        if isinstance(inner, Mapping):
+            yield from (part for one in inner.values() if dataclasses.is_dataclass(one) for part in _parts(one))
+
+
+def _cleaned(part: Any, floors: Mapping[str, float]) -> Any:
+    """The part itself where nothing of it is round-off."""
+    changes: dict[str, Any] = {}
+    for field in dataclasses.fields(part):
+        value = getattr(part, field.name)
+        if dataclasses.is_dataclass(value) and not isinstance(value, type):
+            new = _cleaned(value, floors)
+        elif isinstance(value, Mapping):
+            new = {name: _cleaned(one, floors) if dataclasses.is_dataclass(one) else one for name, one in value.items()}
+            new = value if all(new[name] is one for name, one in value.items()) else new
+        elif field.name in _DIAGNOSTICS:
+            new = value
+        elif field.name in _FORCES:
+            new = _without(value, RELATIVE * _largest(np.asarray(value)[..., :3]))
+        elif field.name == "stiffness":
+            diagonal = np.sqrt(np.abs(np.diagonal(np.asarray(value), axis1=-2, axis2=-1)))
+            new = _without(value, RELATIVE * diagonal[..., :, None] * diagonal[..., None, :])
+        else:
+            new = _without(value, floors.get(field.metadata.get("unit", "")))
+        if new is not value:
+            changes[field.name] = new
+    return dataclasses.replace(part, **changes) if changes else part
+
+
+def _without(value: Any, floor: float | np.ndarray | None) -> Any:
+    if floor is None or value is None:
+        return value
+    numbers = np.asarray(value)
+    nothing = (np.abs(numbers) < floor) & (numbers != 0.0)
+    if not np.issubdtype(numbers.dtype, np.floating) or not np.any(nothing):
+        return value
+    return jnp.asarray(np.where(nothing, 0.0, numbers))
