@@ -26,6 +26,13 @@ if TYPE_CHECKING:
     from .solution import ShaftSolution
 
 
+MOST_BEARINGS = 500
+"""Bearings of a system: its equations are dense, and the time to compile its program grows by about a second a
+bearing."""
+MOST_STATES = 10_000
+"""States of a duty cycle: each of them is a scene of its own until the program has it, about 0.1 s."""
+
+
 class SystemLife(Checked):
     """Inputs of the life of all bearings together.
 
@@ -108,6 +115,10 @@ class ShaftSystem(AbstractScene):
         places = self.places
         if not places:
             yield "bearing: found none, expected at least one bearing or set"
+        for word, count, most in (("bearing", len(places), MOST_BEARINGS), ("state", len(self.states), MOST_STATES)):
+            if count > most:
+                yield f"{word}: found {count}, expected at most {most}"
+                return
         for part, names in (
             ("bearing", [place.name for place in places]),
             ("set", [one.name for one in self.sets]),

@@ -24,6 +24,7 @@ from jaxbearing.shafts import (
     ShaftState,
     ShaftSystem,
     Support,
+    scene,
 )
 from jaxbearing.shafts.batches import batches_of
 from jaxbearing.shafts.scene import Place
@@ -384,3 +385,32 @@ def test_states_are_judged_as_the_scenes_that_they_make():
     assert found.duty.states.status.tolist() == [Status.CONVERGED, Status.INVALID_INPUT]
     assert found.failure() == "invalid_input: bearing.B.position must lie within the length of the shaft in every state"
     assert solve(0.6, 0.17).failure() == "invalid_input: state.share must add up to 1 over the states"
+
+
+def test_more_bearings_or_states_than_can_be_solved_are_refused(monkeypatch):
+    """10 000 bearings, or 100 000 states, would compile for hours."""
+    system = linear_shaft()
+    monkeypatch.setattr(scene, "MOST_STATES", 2)
+    with pytest.raises(ValueError, match="state: found 3, expected at most 2"):
+        dataclasses.replace(system, states=[ShaftState(1.0 / 3.0)] * 3)
+    monkeypatch.setattr(scene, "MOST_BEARINGS", 1)
+    with pytest.raises(ValueError, match="bearing: found 2, expected at most 1"):
+        dataclasses.replace(system)
+
+
+def test_growth_between_two_fixed_bearings():
+    r"""A shaft that grows by $\epsilon L$ between bearings of axial stiffness k is pressed by
+    $F = \epsilon L/(2/k + L/(EA))$, with equal and opposite forces on both ends."""
+    stiffness, strain, distance, area = 1e8, 2e-4, 0.16, np.pi / 4.0 * 0.03**2
+    matrix = np.diag([stiffness, 1e8, 1e8, 1e4, 1e4])
+    system = ShaftSystem(
+        Shaft(0.0, [Section(0.2, 0.03)], steel(206e9), thermal_strain=strain),
+        bearings=[
+            MountedBearing("A", LinearBearing(matrix), 0.02),
+            MountedBearing("B", LinearBearing(matrix), 0.02 + distance, "-x"),
+        ],
+    )
+    solved = jb.solve(system)
+    expected = strain * distance / (2.0 / stiffness + distance / (206e9 * area))
+    found = [float(one.on_shaft[0]) for one in solved.bearings.values()]
+    np.testing.assert_allclose(found, [expected, -expected], rtol=1e-9)
