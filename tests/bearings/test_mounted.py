@@ -167,7 +167,7 @@ def test_parts_add_up(mounted):
 
 @pytest.mark.slow
 def test_solve_of_a_mounted_bearing_is_that_of_its_running_dimensions():
-    """Also the life by the loads of the first-order motion of the ring, which are solved for beside the others."""
+    """Also by the equations of ISO 16281."""
     scene = jb.load_scene("deep_groove_6205", SEATS | WARM | {"rating.tilt": "iso", "rating.dynamic_capacity": "14 kN"})
     solution = jb.solve(scene)
     running, fit, impossible = running_scene(scene)

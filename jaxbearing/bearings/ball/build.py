@@ -95,7 +95,8 @@ def ball_grooves(scene: BallBearing, expansion: Float[Array, ""] | None = None) 
     modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
     contacts = geometry.free_contacts(modulus)
     if scene.tilts_by_standard:
-        contacts = geometry.contacts(*(jnp.cos(jnp.asarray(geometry.nominal_angle)),) * 2, modulus)
+        cosine = jnp.cos(jnp.asarray(geometry.nominal_angle))
+        contacts = geometry.contacts(cosine, cosine, modulus)
     return Grooves(
         offset=jnp.stack([geometry.inner_offset, geometry.outer_offset]),
         stiffness=contacts.stiffness_constant(),
