@@ -215,10 +215,9 @@ def acting(
     grown = expansion + jax.vmap(lambda scene: scene.film_growth(load))(batch.scene)
     tilted = solutions(batch.dry, displacement, grown, options, when=when)
     even = solutions(batch.dry, displacement.at[:, 3:].set(0.0), grown, options, when=when)
-    across = jnp.asarray([1.0, 1.0, 1.0, 0.0, 0.0])
     return Acting(
         own.force + tilted.force - even.force,
-        own.stiffness + tilted.stiffness - even.stiffness * across,
+        own.stiffness + tilted.stiffness - even.stiffness.at[:, :, 3:].set(0.0),
         own,
         tilted,
         even,
@@ -235,14 +234,17 @@ def evenly_loaded(
 ) -> Solution:
     """Rollers that slide and carry the force of `acting` across the axis evenly along their length: their films, cage
     and losses are those of this load. Newton's iteration on the displacement, without steps where there is no tilt."""
-    solution = found.own
-    for _ in range(LOAD_STEPS):
+
+    def better(state: tuple[Array, Solution], _: None) -> tuple[tuple[Array, Solution], None]:
+        place, solution = state
         missing = (found.force - solution.force)[:, 1:3]
-        stiffness = solution.stiffness[:, 1:3, 1:3] + ANCHOR * jnp.eye(2)
+        stiffness = solution.stiffness[:, 1:3, 1:3] + ANCHOR * jnp.eye(2)[None]
         step = jax.vmap(solve_dense)(stiffness, missing)
-        displacement = displacement.at[:, 1:3].add(jnp.clip(step, -LOAD_STEP, LOAD_STEP))
-        solution = solutions(batch.scene, displacement, expansion, options, when=when)
-    return solution
+        place = place.at[:, 1:3].add(jnp.clip(step, -LOAD_STEP, LOAD_STEP))
+        return (place, solutions(batch.scene, place, expansion, options, when=when)), None
+
+    # a loop is compiled once, steps one after the other are compiled each
+    return jax.lax.scan(better, (displacement, found.own), None, length=LOAD_STEPS)[0][1]
 
 
 def with_carried_loads(scene: AbstractBearing, found: Acting, solution: Solution) -> Solution:
