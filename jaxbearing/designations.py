@@ -43,7 +43,8 @@ _SETS = r"D[BFTG](?:(?:EL|L|M|H)(?=P\d|\b))?|[TQ]BT|TFT|Q[BF]C"
 _FOR_SETS = r"[SD]?U(?:EL|[AOLMHX])|C[ABC]|G[ABCLNMH]"
 """Suffixes of sets of bearings, and of angular contact bearings that are ground for sets, with classes of clearance or
 preload."""
-_ANGLES = dict.fromkeys(("ACD", "ACE", "AC"), ("AC", 25.0)) | dict.fromkeys(("CD", "CE", "C"), ("C", 15.0))
+_ANGLES: dict[str, tuple[str, float]] = {}
+_ANGLES |= dict.fromkeys(("ACD", "ACE", "AC"), ("AC", 25.0)) | dict.fromkeys(("CD", "CE", "C"), ("C", 15.0))
 _ANGLES |= dict.fromkeys(("B", "BE", "BEP"), ("B", 40.0)) | {"A15": ("", 15.0), "A": ("", 30.0)}
 _ANGLES |= dict.fromkeys(("E", "A25", "A5", "AD"), ("", 25.0))
 """Suffix of an angular contact bearing -> letters of its series, contact angle, degrees. A is of NSK and SKF, A5 of

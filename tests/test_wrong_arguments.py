@@ -539,3 +539,34 @@ def test_built_in_scenes_inside_of_programs():
     for name in jb.builtin_names():
         loaded = jax.jit(lambda x, name=name: x * len(jax.tree.leaves(jb.load_scene(name))))(1.0)
         assert loaded > 0.0
+
+
+def test_truth_values_are_no_numbers():
+    scene = jb.load_scene("deep_groove_6205")
+    for value in (True, np.True_, jnp.array(True)):
+        for path in ("operation.radial_load", "geometry.pitch_diameter", "operation.outer_speed"):
+            with pytest.raises(ValueError, match=f"{path} must be one number, got"):
+                scene.replace({path: value})
+        with pytest.raises(ValueError, match="radial_load must be one number"):
+            jb.BallOperation(inner_speed=100.0, radial_load=value)
+    with pytest.raises(ValueError, match="must be one number"):
+        jax.jit(lambda load: scene.replace({"operation.radial_load": load > 0.0}).operation.radial_load)(1.0)
+
+
+def test_unknown_fields_in_python_suggest_the_nearest():
+    ball, shaft = jb.load_scene("deep_groove_6205"), jb.load_scene("gear_shaft")
+    for scene, path, meant in (
+        (ball, "operation.radial_laod", "operation.radial_load"),
+        (ball, "opration.radial_load", "operation"),
+        (shaft, "bearing.raer.position", "bearing.rear"),
+        (shaft, "bearing.rear.positon", "bearing.rear.position"),
+        (shaft, "bearing.rear.geometry.pitch_diametr", "bearing.rear.geometry.pitch_diameter"),
+        (shaft, "set.front.geometry.n_bals", "set.front.geometry.n_balls"),
+        (shaft, "force.pinion.torqe", "force.pinion.torque"),
+    ):
+        with pytest.raises(AttributeError, match=f"the scene has no '.*did you mean '{meant}'"):
+            scene.replace({path: 1.0})
+    with pytest.raises(TypeError, match="BallGeometry has no argument 'n_bals'; did you mean 'n_balls'"):
+        jb.BallGeometry(n_bals=9)
+    with pytest.raises(TypeError, match="BallBearing has no argument 'geometri'; did you mean 'geometry'"):
+        jb.BallBearing(geometri=1)

@@ -39,7 +39,7 @@ _OTHERS = (
     (r"5[1-4]\d\d\d|8\d\d\d\d|29\d\d\d", f"a thrust bearing{_NO_MODEL}"),
     (r"NNU?\d+|N[AK]I?\d+|RNA\d+|HK\d+|BK\d+", f"a needle or double row roller bearing{_NO_MODEL}"),
     (
-        r"(U(C|K|EL|ER|R|S)|S[AB]|SER|Y(AR|ET|EL|SA)|G(RAE|YE|E)?)[A-Z]*\d{3}",
+        r"(U(C|K|EL|ER|R|S)|S(A|B|ER)|Y(AR|ET|EL|SA)|G(RAE|YE|E)?)[A-Z]*\d{3}",
         "an insert bearing, whose inside is that of a deep groove ball bearing 62 or 63 with its number",
     ),
     (

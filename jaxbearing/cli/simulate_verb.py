@@ -84,7 +84,6 @@ def simulate(
     changes. Ctrl-C ends the run and keeps what was computed."""
     with bad_input():
         from .._scene import SIMULATED
-        from ..bearings.bearing import AbstractBearing
         from ..ehl import EHLLineContact
         from ..scenes.errors import SceneError
         from ..scenes.overrides import split_assignments
@@ -96,8 +95,7 @@ def simulate(
         every = None if interval is None else option_quantity("--interval", interval, TIME, "> 0")
         if length is None and getattr(getattr(model, "simulation", None), "duration", None) is None:
             raise SceneError("--duration", "", "nothing", "a time with a unit, e.g. '50 ms'")
-        film = isinstance(model, EHLLineContact)
-        warms = isinstance(model, AbstractBearing) and model.thermal is not None
+        film, warms = isinstance(model, EHLLineContact), _warms(model)
         if not film and not warms and not (getattr(model, "slips", False) and model.runs_in_programs):
             refuse(f"SCENE: found '{scene}', a {model.kind.replace('_', ' ')} without these; expected {SIMULATED}")
         if film and every is not None:
@@ -147,6 +145,13 @@ def simulate(
         if history.interrupted:
             tell(elsewhere=True)
         raise typer.Exit(INTERRUPTED if history.interrupted else NOT_CONVERGED)
+
+
+def _warms(model: object) -> bool:
+    """True for a bearing with a thermal network; that of a shaft has no run in time."""
+    from ..bearings.bearing import AbstractBearing
+
+    return isinstance(model, AbstractBearing) and model.thermal is not None
 
 
 def _check_motion(model: "AbstractMovingBearing", length: float, every: float | None) -> None:

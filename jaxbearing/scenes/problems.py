@@ -79,7 +79,7 @@ def _absent_meant(
     valid = [field for field in names_at(model, inside).names if field not in given]
     needed = [str(one[-1]) for one in absent if tuple(one[:-1]) == inside]
     unknown = [field for field in given if field not in names_at(model, inside).names]
-    if _inside(name, model, valid):
+    if not inside and _inside(name, model, names_at(model, ()).names):
         return ""
     only = needed[0] if len(needed) == len(unknown) == 1 else ""
     return usual_word(name, valid) or only or nearest(name, needed) or nearest(name, valid)

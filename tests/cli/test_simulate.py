@@ -124,6 +124,7 @@ REFUSED = {
     "no table": ((*BASE, "--duration", "1 ms", "--set", "simulation.speed_table.file=gone.csv"), "gone.csv"),
     "an animation of another kind": ((*BASE, "--duration", "1 ms", "--animation", "run.avi"), ".gif"),
     "a steady kind": (("simulate", "tapered_example", "--duration", "1 ms"), "cylindrical"),
+    "a shaft, with all that can": (("simulate", "spindle_pair", "--duration", "1 ms"), "a ball or cylindrical roller"),
     "an unknown solver": ((*BASE, "--duration", "1 ms", "--set", "simulation.solver=euler"), "tsit5"),
     "too many results": ((*BASE, "--duration", "1e9 s"), "--interval"),
     "a load from zero": (

@@ -12,7 +12,10 @@ import pytest
 from filled_results import MadeUpProgram, solution_of
 from html_pages import Page
 
+import jaxbearing as jb
 from jaxbearing.numerics.status import Status
+from jaxbearing.scenes.states import load_states
+from jaxbearing.spectrum.states import require_rated
 
 PAGE = Path(__file__).parents[2] / "docs" / "spectrum.md"
 (DUTY,) = re.findall(r"```toml\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.DOTALL)
@@ -143,6 +146,31 @@ REFUSED = {
     ),
     "no rating": (("duty.toml", "--set", "rating=none"), "rating"),
 }
+
+
+def test_states_are_of_one_bearing(jaxbearing_command, folder):
+    """Another number of balls, another diameter and another material are another bearing; the clearance is not. States
+    without a name have their number."""
+    head = DUTY.split("[[state]]")[0]
+    for change, words in {
+        "geometry.n_balls = 8": "geometry.n_balls",
+        'geometry.ball_diameter = "7 mm"': "geometry.ball_diameter",
+        'materials.balls = "Si3N4"': "materials.balls.youngs_modulus",
+    }.items():
+        text = f"{head}\n[[state]]\nshare = 0.5\n[[state]]\nshare = 0.5\n{change}\n"
+        (folder / "other.toml").write_text(text, encoding="utf-8")
+        for verb in ("spectrum", "report"):
+            refused = jaxbearing_command(verb, "other.toml")
+            assert refused.code == 2
+            assert f"{words}: found one value in state '1' and another in state '2'" in refused.err
+    text = text.replace(change, 'geometry.diametral_clearance = "20 um"')
+    (folder / "other.toml").write_text(text, encoding="utf-8")
+    assert [one.name for one in load_states("other.toml")] == ["1", "2"]
+    require_rated({one.name: one.scene for one in load_states("other.toml")})
+    with pytest.raises(ValueError, match="changes that leave each bearing the same"):
+        jb.load_scene("gear_shaft").replace(
+            {"states": (jb.shafts.ShaftState(share=1.0, changes={"bearing.rear.geometry.roller_diameter": 9e-3}),)}
+        )
 
 
 @pytest.mark.parametrize("case", REFUSED)

@@ -8,7 +8,10 @@ import pytest
 from rich.console import Console
 
 import jaxbearing as jb
+from jaxbearing.report.display import span, with_unit
 from jaxbearing.report.summary import print_summary
+from jaxbearing.scenes.quantity_texts import quantity_text
+from jaxbearing.scenes.units import LENGTH, parse
 
 
 @pytest.fixture(scope="module")
@@ -70,3 +73,20 @@ def test_a_failed_solve_shows_no_result(solved):
     failed = jb.solve(scene.at_operation(axial_load=1e9), throw=False)
     assert "NOT CONVERGED" in str(failed)
     assert "Highest pressure" not in str(failed)
+
+
+def test_lengths_from_a_millimetre_on_are_in_millimetres():
+    """On the screen and in files: 150 mm is no 150000 um, and no 0.15000000000000002 m."""
+    for value, text in {
+        0.15: "150.0 mm",
+        -0.0133: "-13.30 mm",
+        1e-3: "1.000 mm",
+        12e-6: "12.00 um",
+        0.0: "0 um",
+    }.items():
+        assert with_unit(value, "m") == text
+    assert span(0.15, 0.35, "m") == "150.0 to 350.0 mm"
+    assert span(5e-6, 2e-5, "m") == "5.000 to 20.00 um"
+    for value, text in {0.205: "0.205 m", 205 * 0.001: "205 mm", 0.2051: "205.1 mm", 1.2e-5: "12 um"}.items():
+        assert quantity_text(value, LENGTH) == text
+        assert parse(text, LENGTH) == value

@@ -1,11 +1,13 @@
 """All problems of a scene are said at once: two faults are refused together as each is by itself, and no more."""
 
 import itertools
+import tomllib
 
 import pytest
 
 import jaxbearing as jb
 from jaxbearing.scenes.errors import SceneError
+from jaxbearing.scenes.reader import builtin_text, scene_from_tables
 
 # one fault each, by the path that is refused
 ROLLER = {
@@ -171,3 +173,44 @@ def test_a_field_without_its_table_is_one_problem():
 def test_a_class_of_cleanliness_may_be_a_code():
     with pytest.raises(SceneError, match="the ISO 4406 code of circulating oil, such as '-/17/14'"):
         jb.load_scene("deep_groove_6205", {"rating.cleanliness": "normal"})
+
+
+def _misspelt(table, path, name):
+    return {
+        (name if path == (key,) else key): _misspelt(value, path[1:], name)
+        if path[:1] == (key,) and path[1:]
+        else value
+        for key, value in table.items()
+    }
+
+
+def test_one_misspelt_field_is_one_problem():
+    """The name as it stands, and none of what seems to lack since it was not read."""
+    cases = {
+        "deep_groove_6205_mounted": [
+            *((path, "qqq") for path in (("geometry",), ("oil",), ("thermal",), ("operation", "inner_speed"))),
+            (("geometry", "outside_diameter"), "diameter"),
+            (("geometry", "conformity_inner"), "inner"),
+            (("geometry", "pitch_diameter"), "pitch"),
+            (("operation", "moment"), "momnt"),
+        ],
+        "four_point_qj": [(("rating", "reliability"), "Reliability"), (("materials", "rings", "density"), "qqq")],
+    }
+    for name, misspelt in cases.items():
+        tables = tomllib.loads(builtin_text(name))
+        for path, wrong in misspelt:
+            with pytest.raises(SceneError, match=f"{wrong}: found the unknown name") as refused:
+                scene_from_tables(_misspelt(tables, path, wrong), name)
+            assert len(refused.value.problems) == 1, str(refused.value)
+
+
+def test_a_field_that_is_given_is_not_suggested():
+    """The suggestion is one of the fields that the table lacks."""
+    tables = tomllib.loads(builtin_text("deep_groove_6205_mounted"))
+    for path, wrong in {
+        "geometry.outside_diameter": "diameter",
+        "materials.balls": "bals",
+        "geometry.n_balls": "z",
+    }.items():
+        with pytest.raises(SceneError, match=f"Did you mean '{path.rpartition('.')[2]}'"):
+            scene_from_tables(_misspelt(tables, tuple(path.split(".")), wrong), "scene")

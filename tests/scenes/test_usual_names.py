@@ -1,8 +1,11 @@
 """Names that engineers type: materials, kinds of bearings, codes of cleanliness."""
 
+import itertools
+
 import pytest
 
 import jaxbearing as jb
+from jaxbearing import SceneError, load_scene
 from jaxbearing.bearings.rating import CLEANLINESS_CLASSES, cleanliness_named
 from jaxbearing.life.modification import CLEANLINESS
 from jaxbearing.materials import ALIASES, CATALOGUE, catalogue_material, material_named
@@ -94,3 +97,16 @@ def test_saved_by_the_names_of_the_catalogue(tmp_path):
     assert '"Si3N4"' in text
     assert '"online_filter_17"' in text
     assert jb.load_scene(tmp_path / "a.toml") == scene
+
+
+def test_kinds_that_are_not_modelled_suggest_none():
+    """However near the name is to that of a kind."""
+    changes = {"deep_groove_6205": "kind", "gear_shaft": "bearing.rear.kind"}
+    for (scene, path), given in itertools.product(
+        changes.items(), ("needle_bearing", "spherical roller bearing", "thrust")
+    ):
+        with pytest.raises(SceneError, match="which is not modelled") as error:
+            load_scene(scene, {path: given})
+        assert "Did you mean" not in str(error.value)
+    with pytest.raises(SceneError, match="Did you mean 'tapered_roller_bearing'"):
+        load_scene("deep_groove_6205", {"kind": "tapered_rollr_bearing"})
