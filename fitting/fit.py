@@ -8,7 +8,6 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array
 
-from jaxbearing.lubricants import ExponentialRheology
 from jaxbearing.lubricants.ranges import FITTED_PRESSURE
 from jaxbearing.machines import TwoDisk
 from jaxbearing.numerics.garbage import rare_garbage_collection
@@ -43,7 +42,9 @@ EXACT = 1e-6
 def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None = None) -> FitResult:
     """Shear modulus and characteristic stress of the scene's oil from measured traction curves.
 
-    The model is that of `jaxbearing.solve(scene)`. Start: stress and modulus from the shape of the curves
+    The model is that of `jaxbearing.solve(scene)` with the exponential law of the rheology. An oil with another law, as
+    standard oils have it, gives first values: those of the exponential law that touches its law in the middle of the
+    data (`start.exponential_about`). Start: stress and modulus from the shape of the curves
     (`start.estimated_start`), the best of a scan over the modulus, and random ones about them. Parameters that the data
     cannot tell are held at the scene's values and said so: by rule before (one pressure, one temperature, viscous
     only), by their uncertainty after. Several starts run at once; everything is compiled once for a number of points.
@@ -54,11 +55,6 @@ def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None =
     options.check()
     if scene.oil.rheology is None:
         raise ValueError("oil.rheology: found nothing, expected first values of shear modulus and stress")
-    if not isinstance(scene.oil.rheology, ExponentialRheology):
-        found = type(scene.oil.rheology).__name__
-        raise ValueError(
-            f"oil.rheology: found {found}, expected first values of the law 'exponential', which is fitted"
-        )
     scene, model = with_viscous_function(scene, options.model)
     search = Search(measurements, scene, options)
     free, reasons = search.free_by_rule()
@@ -71,7 +67,16 @@ def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None =
     estimate = found.estimate
     if not found.ended:
         estimate = estimate._replace(converged=jnp.zeros_like(estimate.converged))
-    return _result(search, found.problem, found.u, estimate, found.held, model)
+    touched = "" if search.scene is scene else _touched(search)
+    return _result(search, found.problem, found.u, estimate, found.held, model, touched)
+
+
+def _touched(search: Search) -> str:
+    pressure, temperature = 1e-9 * search.centre.pressure, 1.0 / search.centre.inverse_temperature
+    return (
+        "The first values are those of the exponential law that touches the law of the scene's oil in the middle of "
+        f"the data, at a mean pressure of {pressure:.3g} GPa and at {temperature:.4g} K."
+    )
 
 
 def fit_models(
@@ -82,7 +87,9 @@ def fit_models(
     return {model: fit(measurements, scene, options._replace(model=model)) for model in models}
 
 
-def _result(search: Search, problem: Problem, u: Array, estimate: Estimate, held: Held, model: str) -> FitResult:
+def _result(
+    search: Search, problem: Problem, u: Array, estimate: Estimate, held: Held, model: str, touched: str
+) -> FitResult:
     free, reasons, pinned = held
     coordinates = np.asarray(problem.natural(u))
     blind = search.insisted_blindly(held)
@@ -109,7 +116,8 @@ def _result(search: Search, problem: Problem, u: Array, estimate: Estimate, held
         why_none = "as many parameters as points that tell something"
     elif best <= exact:
         why_none = "the curves are met to rounding, and nothing tells their errors"
-    notes = [in_words(i, reason) for i, reason in sorted(judged.items()) if NAMES[i] not in search.options.fixed]
+    notes = [touched] if touched else []
+    notes += [in_words(i, reason) for i, reason in sorted(judged.items()) if NAMES[i] not in search.options.fixed]
     notes += [f"{SYMBOLS[i]} is at its bound and has no interval." for i in pinned]
     if why_none and fitted and best > exact:
         notes.append(f"No intervals: {why_none}.")
@@ -132,7 +140,8 @@ def _result(search: Search, problem: Problem, u: Array, estimate: Estimate, held
     if agree < len(losses):
         notes.append(f"{agree} of {len(losses)} starts ended at the best fit.")
     reason = ""
-    if not fitted:
+    undetermined = not fitted and bool(np.all(np.isfinite(predicted)))
+    if undetermined:
         said = "; ".join(in_words(i, why).rstrip(".") for i, why in sorted(judged.items()))
         reason = f"the {search.count} points cannot tell any parameter ({said})"
     elif not np.all(np.isfinite(predicted)):
@@ -142,6 +151,8 @@ def _result(search: Search, problem: Problem, u: Array, estimate: Estimate, held
     return FitResult(
         converged=bool(estimate.converged[index]) and not reason,
         reason=reason,
+        undetermined=undetermined,
+        first_values=touched,
         model=model,
         method=search.options.method,
         rms=float(np.sqrt(np.mean(np.square(difference)))),

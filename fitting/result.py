@@ -51,6 +51,8 @@ class FitResult(eqx.Module):
       standard deviations.
     - `scene`: the machine with this oil and viscous function; `options`: with which it was fitted.
     - `reason`: why there is no result, where there is none and it is not the optimiser's.
+    - `undetermined`: whether the data cannot tell any parameter: all keep their first values, and nothing was fitted.
+    - `first_values`: where they come from, if not from the scene's own exponential law.
     - `notes`: what the user must know, a sentence each: identifiability, lack of fit, bounds.
     """
 
@@ -80,8 +82,17 @@ class FitResult(eqx.Module):
     scene: TwoDisk
     options: FitOptions
     reason: str = ""
+    undetermined: bool = False
+    first_values: str = ""
+
+    @property
+    def status(self) -> str:
+        """How the fit ended: "converged", "undetermined" or "not_converged"."""
+        return "converged" if self.converged else "undetermined" if self.undetermined else "not_converged"
 
     def failure(self) -> str:
         """One sentence on a fit that did not converge."""
+        if self.undetermined:
+            return f"undetermined: {self.reason}"
         stopped = f"{self.method} stopped after {self.steps} steps at a loss of {self.loss:.4g}"
         return f"not converged: {self.reason or stopped}"

@@ -35,7 +35,7 @@ from .parameters import (
     values_of,
     with_natural,
 )
-from .start import estimated_start
+from .start import estimated_start, exponential_about
 from .traction import Problem, coefficients, slope_over_slide
 from .uncertainty import Spread, spread
 
@@ -100,18 +100,27 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
                 f"roll ratio of {100 * float(measurements.slide_to_roll[lost[0]]):.3g} %; expected conditions that the "
                 "scene's thermal law holds for"
             )
-        assert isinstance(scene.oil.rheology, ExponentialRheology)
-        self.rheology = scene.oil.rheology
         self.pressure = np.asarray(self.state.patch.mean_pressure)
         self.temperature = np.asarray(self.state.temperature)
         speed = measurements.entrainment_speed
         self.deborah = np.asarray(deborah_number(self.state.patch, speed, self.state.temperature, scene.oil))
         self.centre = Centre.of(self.pressure, self.temperature)
+        self.rheology, self.scene = self._first_values(scene)
         self.coefficient = np.asarray(measurements.traction_coefficient)
         self.bend = TUNING[options.loss] if options.loss != "linear" else 1.0
         self.curve = np.asarray(measurements.curve)
         self.deviation = options.errors.deviation(self.coefficient, self.curve)
         self.scale = 1.0
+
+    def _first_values(self, scene: TwoDisk) -> tuple[ExponentialRheology, TwoDisk]:
+        """The exponential law of the oil, or the one that touches its law in the middle of the data; and the scene with
+        it."""
+        rheology = scene.oil.rheology
+        if isinstance(rheology, ExponentialRheology):
+            return rheology, scene
+        assert rheology is not None
+        rheology = exponential_about(rheology, self.centre.pressure, 1.0 / self.centre.inverse_temperature)
+        return rheology, eqx.tree_at(lambda s: s.oil.rheology, scene, rheology)
 
     def fill(self, values: "npt.ArrayLike") -> Float[Array, " batch"]:
         """A value a point, filled up with copies of the last."""

@@ -1,11 +1,13 @@
-"""First values of stress and shear modulus from the shape of the curves, without an optimisation."""
+"""First values of stress and shear modulus: from another law of the oil, and from the shape of the curves, without an
+optimisation."""
 
 import dataclasses
 
+import jax
 import numpy as np
 
 from jaxbearing.contacts import elastic_slope
-from jaxbearing.lubricants import ExponentialRheology, Lubricant
+from jaxbearing.lubricants import AbstractRheology, ExponentialRheology, Lubricant
 from jaxbearing.machines import DiskState
 
 ELASTIC = 3.0
@@ -30,6 +32,27 @@ def mean_stress_estimate(stress: np.ndarray, newtonian: np.ndarray) -> np.ndarra
         value = np.exp(middle) * np.arcsinh(newtonian / np.exp(middle))
         low, high = np.where(value < stress, middle, low), np.where(value < stress, high, middle)
     return np.where(stress < newtonian, np.exp(0.5 * (low + high)), np.nan)
+
+
+def exponential_about(rheology: AbstractRheology, pressure: float, temperature: float) -> ExponentialRheology:
+    r"""The exponential law that touches another law at a pressure, Pa, and a temperature, K.
+
+    $\alpha = \partial\ln G/\partial p$, $\beta = \partial\ln G/\partial(1/T) = -T^2\,\partial\ln G/\partial T$ and
+    $\ln G_0 = \ln G - \alpha p$ with $T_0 = T$, and the same of the stress. Of a modulus that is proportional to
+    pressure, $\alpha = 1/p$ and $\beta = 0$.
+    """
+    numbers = {}
+    for name, law in (("shear_modulus", rheology.log_shear_modulus), ("stress", rheology.log_stress)):
+        value, (by_pressure, by_temperature) = jax.value_and_grad(law, argnums=(0, 1))(pressure, temperature)
+        numbers[name] = np.float64(np.exp(value - by_pressure * pressure))
+        numbers[f"{name}_pressure"] = np.float64(by_pressure)
+        numbers[f"{name}_temperature"] = np.float64(0.0 - temperature**2 * by_temperature)
+    return ExponentialRheology(
+        reference_temperature=np.float64(temperature),
+        viscous_function=rheology.viscous_function,
+        exponent=rheology.exponent,
+        **numbers,
+    )
 
 
 def estimated_start(

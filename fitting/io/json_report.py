@@ -27,9 +27,10 @@ def fit_to_dict(
     - `oil`: file that the oil was written to.
     - `comparison`: of several models, of which this is the best.
 
-    Where the fit did not converge its numbers are `None`: where an iteration stopped is not a result.
+    Where the fit did not converge its numbers are `None`: where an iteration stopped is not a result. Where the data
+    cannot tell any parameter, the numbers are those of the first values.
     """
-    good = result.converged
+    good = result.converged or result.undetermined
     shown = lambda value: plain(value) if good else None
     parameters = {
         name: {
@@ -44,8 +45,8 @@ def fit_to_dict(
     }
     curves = [curve._asdict() | {"rms": curve.rms if good else None} for curve in result.curves]
     results = {
-        "converged": good,
-        "status": "converged" if good else "not_converged",
+        "converged": result.converged,
+        "status": result.status,
         "rms": shown(result.rms),
         "parameters": parameters,
         "unidentifiable": list(result.unidentifiable),
@@ -65,7 +66,7 @@ def fit_to_dict(
         "fitted": list(result.fitted),
         "correlation": shown(result.correlation),
         "curves": plain(curves),
-        "notes": [*(result.notes if good else [result.failure()]), *notes],
+        "notes": [*([] if result.converged else [result.failure()]), *(result.notes if good else []), *notes],
         "oil": oil,
     }
     rows = [row._asdict() for row in comparison]

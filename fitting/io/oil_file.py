@@ -26,7 +26,7 @@ def write_oil(
     - `data`, `scene`: names of the curve file and of the scene.
     - `origins`: where the other laws come from, see `jaxbearing.scenes.reader.oil_origins`.
 
-    **Raises:** `ValueError` for a fit that did not converge; `OSError` where the place cannot be written.
+    **Raises:** `ValueError` for a fit that failed; `OSError` where the place cannot be written.
     """
     text = fitted_oil_text(result, Path(path).stem, data, scene, origins)
     write_whole(path, text)
@@ -37,16 +37,17 @@ def fitted_oil_text(
 ) -> str:
     """The text of the file. **Arguments:** `name`: of the oil; the others as for `write_oil`.
 
-    **Raises:** `ValueError` for a fit that did not converge.
+    **Raises:** `ValueError` for a fit that failed, unlike one whose data cannot tell any parameter.
     """
-    if not result.converged:
+    if not (result.converged or result.undetermined):
         raise ValueError(f"a fit that failed has no results: {result.failure()}")
     origins = {} if origins is None else origins
     known = {**origins, "rheology": Origin(_sources(result, data, scene), _note(result, data))}
     # a note on the rheology that was there does not speak for the fitted one
     replaced = origins["rheology"].note if "rheology" in origins else ""
     oil = dataclasses.replace(result.oil, notes=tuple(note for note in result.oil.notes if note != replaced))
-    described = f"rheology fitted to {data}, the other laws as in {scene}"
+    described = f"rheology fitted to {data}" if result.fitted else f"rheology not told by {data}"
+    described += f", the other laws as in {scene}"
     return oil_text(oil, name, described, _header(result, data, scene), known)
 
 
@@ -56,7 +57,9 @@ def _header(result: FitResult, data: str, scene: str) -> list[str]:
     where = ", ".join(f"{name} {text}" for name, text in conditions(result).items())
     agreeing, total = result.starts
     return [
-        "An oil whose rheology was fitted to measured traction curves.",
+        "An oil whose rheology was fitted to measured traction curves."
+        if result.fitted
+        else "An oil with the first values of a fit: the measured traction curves cannot tell its rheology.",
         f"Data: {data}, {counted(len(result.predicted), 'point')} in {counted(len(result.curves), 'curve')}; {where}.",
         f"Scene: {scene}; all laws but the rheology are those of its oil.",
         f"Model: viscous function {result.model}{exponent}; {result.method}, {result.options.loss} loss, {agreeing} of "
@@ -68,9 +71,12 @@ def _header(result: FitResult, data: str, scene: str) -> list[str]:
 
 
 def _sources(result: FitResult, data: str, scene: str) -> dict[str, str]:
-    fitted = {name: _source(name, found, result, data, scene) for name, found in result.parameters.items()}
+    # the law of the scene's oil, or the one that touches it
+    values = f"the tangent of the law of {scene}" if result.first_values else scene
+    fitted = {name: _source(name, found, result, data, values) for name, found in result.parameters.items()}
     form = dict.fromkeys(("viscous_function", "exponent"), "chosen for the fit")
-    return {**form, "reference_temperature": f"as in {scene}", **fitted}
+    reference = f"the middle of {data}" if result.first_values else f"as in {scene}"
+    return {**form, "reference_temperature": reference, **fitted}
 
 
 def _source(name: str, parameter: Parameter, result: FitResult, data: str, scene: str) -> str:

@@ -52,7 +52,7 @@ def plot_fit(result: FitResult, data: str, scene: str, notes: Sequence[str] = ()
 
     **Raises:** `ValueError` for a fit that did not converge.
     """
-    if not result.converged:
+    if not (result.converged or result.undetermined):
         raise ValueError(f"a fit that failed has no results: {result.failure()}")
     from jaxbearing.report.backends.matplotlib.page import Page
 

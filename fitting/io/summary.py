@@ -33,12 +33,15 @@ def print_fit(result: FitResult, data: str, scene: str, notes: Iterable[str], co
     - `data`, `scene`: names of the file and of the scene.
     - `notes`: of the file and the scene, said after those of the fit.
     """
-    if not result.converged:
-        print_failure(data, "not_converged", result.failure(), console)
+    if result.status == "not_converged":
+        print_failure(data, result.status, result.failure(), console)
         return
     points = counted(len(result.predicted), "point")
     state = f"{points} in {counted(len(result.curves), 'curve')}, rms of the differences {digits(result.rms, 3)}"
-    headline(data, "CONVERGED", "bold green", f"{state} in traction coefficient", console)
+    colour = "bold green" if result.converged else "bold yellow"
+    headline(data, result.status.upper(), colour, f"{state} in traction coefficient", console)
+    if not result.converged:
+        print_line("Why", result.reason, console)
     print_line("Scene", scene, console)
     print_line("Viscous function", result.model, console)
     steps = f"{result.method}, {result.options.loss} loss, {counted(result.steps, 'step')}"

@@ -1,7 +1,7 @@
 """Results of scenes at many operating points, and their derivatives by the fields that are calibrated: one kept program
 for all points of a structure."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import jax
@@ -78,12 +78,20 @@ class Evaluator:
     - `scene`: with what does not vary.
     - `paths`: of the fields that are calibrated and that this scene has.
     - `labels`: of the results, by their paths.
+    - `progress`: called with the number of operating points that were just solved.
     """
 
-    def __init__(self, scene: AbstractScene, paths: Sequence[str], labels: Mapping[str, Label], options: NewtonOptions):
+    def __init__(
+        self,
+        scene: AbstractScene,
+        paths: Sequence[str],
+        labels: Mapping[str, Label],
+        options: NewtonOptions,
+        progress: Callable[[int], None] | None = None,
+    ):
         self.base = jax.tree.map(as_float, scene)
         # JAX sorts the entries of a mapping
-        self.paths, self.labels, self.options = tuple(sorted(paths)), dict(labels), options
+        self.paths, self.labels, self.options, self.progress = tuple(sorted(paths)), dict(labels), options, progress
         self.wanted = tuple(labels)
 
     @rare_garbage_collection()
@@ -110,4 +118,6 @@ class Evaluator:
             results, own_slopes, converged = (np.asarray(part)[: len(own)] for part in parts)
             found[own] = np.where(converged[:, None], results, np.nan)
             slopes[own] = np.where(converged[:, None, None], own_slopes, np.nan)
+            if self.progress is not None:
+                self.progress(len(own))
         return found, slopes

@@ -1,45 +1,60 @@
 """Names and labels of the results of a scene, without a solve."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import jax
-from jaxtyping import Array, Bool
 
-from .._scene import AbstractScene
+from .._scene import AbstractScene, AbstractSolution
 from ..numerics.newton import NewtonOptions
 from ..numerics.precision import as_float
 from ..solve import solve
-from ..tolerance.results import Label, labels_of, names_in, paths_of
+from ..tolerance.results import Label, is_result, labels_of, names_in, not_modelled, paths_of
 
 
 def labels_in(
     scene: AbstractScene, names: Sequence[str], newton: NewtonOptions | None = None
 ) -> dict[str, tuple[str, Label]]:
-    """Path and label of results by their names. They are looked up while a solve is traced, which compiles nothing.
+    """Path and label of results by their names.
 
     **Raises:** `ValueError` for a name that is no result, and for a result that is not one number.
     """
     found: dict[str, tuple[str, Label]] = {}
 
-    def traced(scene: AbstractScene) -> Bool[Array, ""]:
-        solution = solve(scene, throw=False, options=newton)
+    def look(solution: AbstractSolution) -> None:
         for name in names:
             (path,) = names_in(solution, [name])
             found[name] = path, labels_of(solution, [path])[path]
-        return solution.converged
 
-    jax.eval_shape(traced, jax.tree.map(as_float, scene))
+    look_at(scene, look, newton)
     return found
 
 
 def result_names(scene: AbstractScene, newton: NewtonOptions | None = None) -> tuple[str, ...]:
     """Paths of all results of a scene."""
     found: list[str] = []
+    look_at(scene, lambda solution: found.extend(paths_of(solution)), newton)
+    return tuple(found)
 
-    def traced(scene: AbstractScene) -> Bool[Array, ""]:
-        solution = solve(scene, throw=False, options=newton)
-        found.extend(paths_of(solution))
-        return solution.converged
+
+def results_among(scene: AbstractScene, names: Sequence[str], newton: NewtonOptions | None = None) -> list[str]:
+    """Those of the names that are results, also of parts that the scene does not model."""
+    found: list[str] = []
+    if names:
+        look_at(scene, lambda solution: found.extend(name for name in names if is_result(solution, name)), newton)
+    return found
+
+
+def is_left_out(scene: AbstractScene, name: str, newton: NewtonOptions | None = None) -> bool:
+    """Whether a name is the path of a result that this scene does not model."""
+    found: list[bool] = []
+    look_at(scene, lambda solution: found.append(not_modelled(solution, name)), newton)
+    return any(found)
+
+
+def look_at(scene: AbstractScene, look: Callable[[AbstractSolution], None], newton: NewtonOptions | None) -> None:
+    """Shows a solution while its solve is traced, which compiles nothing."""
+
+    def traced(scene: AbstractScene) -> None:
+        look(solve(scene, throw=False, options=newton))
 
     jax.eval_shape(traced, jax.tree.map(as_float, scene))
-    return tuple(found)

@@ -152,16 +152,22 @@ def _field(
     own = _number_at(scene, path)
     assert own is not None
     start = own if prior is None else prior.nominal
+    if prior is not None and not prior.deviation > np.finfo(float).eps * abs(start):
+        raise ValueError(
+            f"prior: found the deviation {prior.deviation:g} for {path}, which is known then; expected a deviation > "
+            "0, or the value in the scene (--set) and no --free"
+        )
     owner = owner_of(scene, path.split("."))
     said = {} if owner is None else owner[0].__dataclass_fields__[owner[1]].metadata
     allowed = RANGES[said.get("bound", "finite")]
     ends = [allowed.low, allowed.high]
-    if prior is not None:
-        cut = (prior.low, prior.high) if prior.shape != "uniform" else (prior.lowest, prior.highest)
-        ends = [max(ends[0], -math.inf if cut[0] is None else cut[0]), min(ends[1], cut[1] or math.inf)]
-    for place, (given, choose) in enumerate(zip(bounds, (max, min), strict=True)):
-        if given is not None:
-            ends[place] = choose(ends[place], given)
+    cut = (None, None) if prior is None else (prior.low, prior.high)
+    if prior is not None and prior.shape == "uniform":
+        cut = prior.lowest, prior.highest
+    for limits in (cut, bounds):
+        for place, (limit, choose) in enumerate(zip(limits, (max, min), strict=True)):
+            if limit is not None:
+                ends[place] = choose(ends[place], limit)
     low, high = ends
     if not low < high:
         raise ValueError(f"bounds: found {low:g} to {high:g} for {path}; expected the lower one first")

@@ -44,12 +44,14 @@ def print_calibration(
     **Arguments:** `label`: names of scenes and files; `notes`: of these; `ranked`: candidates; `posterior`: samples, or
     `None`; `predicted`: results of other scenes; `again`: what the posterior predicts to be measured again.
     """
-    if not found.converged:
+    if found.status == "not_converged":
         print_failure(label, "not converged", found.failure(), console)
         return
     values = counted(len(found.measured), "value")
     state = f"{values}, {counted(len(found.fitted), 'field')} fitted, {found.options.loss} loss"
-    headline(label, "CONVERGED", "bold green", state, console)
+    headline(label, found.status.upper(), "bold green" if found.converged else "bold yellow", state, console)
+    if not found.converged:
+        print_line("why", found.reason, console)
     print_rule(f"Fields, {100.0 * found.options.level:g} % intervals", console)
     console.print(Padding(_fields(found), (0, 1)))
     print_rule("Measured and calculated", console)
@@ -89,7 +91,8 @@ def _fields(found: Calibration) -> Table:
         one, unit = found.parameters[field.path], field.unit
         start = with_unit(field.start, unit)
         if one.standard_error is None or one.lower is None or one.upper is None:
-            table.add_row(field.path, with_unit(one.value, unit), "", f"held: {one.reason}", start)
+            why = f"{'held' if one.fixed else 'no interval'}: {one.reason}"
+            table.add_row(field.path, with_unit(one.value, unit), "", why, start)
             continue
         in_unit = lambda value, size=one.value, unit=unit: displayed(value, unit, size)
         error = digits(in_unit(one.value + one.standard_error) - in_unit(one.value), 2)
@@ -169,7 +172,7 @@ def calibration_to_dict(
         parameters[field.path] |= {"unit": field.unit, "start": field.start}
     whole: dict[str, Any] = {
         "converged": found.converged,
-        "status": "converged" if found.converged else "not_converged",
+        "status": found.status,
         "failure": None if found.converged else found.failure(),
         "parameters": parameters,
         "fitted": list(found.fitted),

@@ -68,7 +68,8 @@ class Calibration:
     """Result of `jaxbearing.calibrate`.
 
     **Arguments:**
-    - `converged`; `reason`: why not.
+    - `converged`; `reason`: why not; `undetermined`: whether the measurements cannot tell any field, which all keep
+      their starts then.
     - `parameters`: by dotted path, SI: value, standard error, interval, and why a field is held.
     - `fields`: the free fields with their units, bounds and priors.
     - `fitted`: paths of those that were told.
@@ -113,6 +114,7 @@ class Calibration:
     scenes: tuple[AbstractScene, ...] = field(repr=False)
     search: Any = field(repr=False, default=None)
     settled: Any = field(repr=False, default=None)
+    undetermined: bool = False
 
     def __getitem__(self, path: str) -> Parameter:
         return self.parameters[path]
@@ -122,6 +124,11 @@ class Calibration:
         """Calibrated values by dotted path, for `scene.replace`."""
         return {path: one.value for path, one in self.parameters.items()}
 
+    @property
+    def status(self) -> str:
+        """How the calibration ended: "converged", "undetermined" or "not_converged"."""
+        return "converged" if self.converged else "undetermined" if self.undetermined else "not_converged"
+
     def failure(self) -> str:
         """One sentence on a calibration that did not converge."""
-        return f"not converged: {self.reason}"
+        return f"{self.status.replace('_', ' ')}: {self.reason}"

@@ -288,11 +288,9 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
 
     def undetermined(self, problem: Problem, u: np.ndarray, held: Held) -> tuple[int, str] | None:
         found = self.spread(problem, u, held.free)
-        if found.degrees < 0:
-            index = int(np.flatnonzero(held.free)[-1])
-            return index, "there are fewer measured values than free fields"
         _, jacobian = self.at(problem, u)
-        return why_undetermined(found, jacobian[problem.weight > 0], held.free, self.fields)
+        told = jacobian[problem.weight > 0]
+        return why_undetermined(found, told, held.free, self.fields, problem.natural(u))
 
     def value_in_words(self, index: int, coordinate: float) -> str:
         from ..report.display import with_unit

@@ -18,7 +18,7 @@ from ..sweeps.cases import listed
 from ..sweeps.fields import Field, SceneSource
 from ..sweeps.recipe import Direct
 from .data import Data
-from .labels import labels_in, result_names
+from .labels import is_left_out, labels_in, result_names, results_among
 
 EXPECTED = "a CSV file with columns such as 'operation.inner_speed [rpm]' and 'power_loss.total [W]'"
 DEVIATION, WEIGHT, HELD_BACK = ".deviation", ".weight", "held_back"
@@ -35,7 +35,7 @@ def read_data(
     result, `power_loss.total [W]`, is measured; an empty cell below it was not. `power_loss.total.deviation [W]` is its
     standard deviation, `power_loss.total.weight` a weight, which counts as the inverse square of one; 0 leaves the
     value out. A 1 in `held_back` keeps a point from being fitted: it is predicted. Columns without a dot in their name
-    are ignored.
+    that are neither fields nor results are ignored.
 
     **Raises:** `SceneError` that names file, line and column.
     """
@@ -49,7 +49,9 @@ def read_data(
     if twice is not None:
         raise SceneError(header, twice, "this column twice", "each column once")
     is_field = lambda name: is_known(source.model, name.split(".")) if all(name.split(".")) else False
-    ignored = [name for name in names if "." not in name and name != HELD_BACK and not is_field(name)]
+    plain = [name for name in names if name and "." not in name and name != HELD_BACK and not is_field(name)]
+    told = results_among(scene, plain, newton)
+    ignored = [name for name in names if not name or (name in plain and name not in told)]
     fields = {name: source.field(name, header) for name in names if name not in ignored and is_field(name)}
     results = [name for name in names if name not in ignored and name not in fields and name != HELD_BACK]
     measured = [name for name in results if not name.endswith((DEVIATION, WEIGHT))]
@@ -127,11 +129,16 @@ def _labels(
         for name in measured:
             try:
                 labels_in(scene, [name], newton)
-            except ValueError:
-                fields = [*source.model.model_fields]
-                near = nearest(name, [*result_names(scene, newton), *fields])
-                found = "neither a field of the scene nor one of its results that is one number"
-                raise SceneError(header, name, found, "one of the two", near) from None
+            except ValueError as error:
+                if is_left_out(scene, name, newton):
+                    found, expected = "a result that this scene does not model", "a result of a part that it has"
+                    raise SceneError(header, name, found, expected) from None
+                near = nearest(name, [*result_names(scene, newton), *source.model.model_fields])
+                found, _, expected = str(error).partition("; expected ")
+                found, expected = found.partition("', ")[2], expected.partition(";")[0]
+                if found.endswith("does not have"):
+                    found, expected = "neither a field of the scene nor one of its results", "one of the two"
+                raise SceneError(header, name, found or "places that it does not have", expected, near) from None
         raise
 
 
@@ -187,5 +194,7 @@ def _weigh(
     if name in deviations:
         raise SceneError(where, f"{name}{WEIGHT}", "a weight beside a deviation", "one of the two")
     values[name] = np.where(weight > 0.0, values[name], np.nan)
+    if not np.any(np.isfinite(values[name])):
+        raise SceneError(where, f"{name}{WEIGHT}", "no value with a weight above 0", "a weight > 0, or no such column")
     size = float(np.sqrt(np.nanmean(np.square(values[name])))) or 1.0
     deviations[name] = size / np.sqrt(np.where(weight > 0.0, weight, 1.0))

@@ -1,6 +1,6 @@
 """The verb `calibrate`: scenes and measurements in, fields with intervals out."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import jax
@@ -33,6 +33,8 @@ OUTLIER, FEWEST = 4.0, 10
 """Robust standard deviations beyond which a value is an outlier, and degrees of freedom below which none is."""
 BIAS = 0.5
 """Mean over root mean square of the differences of a quantity from which it is said to be met on one side."""
+ALL_USED = "as many fields as measured values that change with them"
+"""Why nothing tells the size of the errors."""
 SAME_LOSS = 1e-6
 """Relative difference of losses that count as the same minimum."""
 
@@ -48,6 +50,7 @@ def calibrate(
     folds: int = 0,
     options: Options | None = None,
     newton: NewtonOptions | None = None,
+    progress: Callable[[int], None] | None = None,
 ) -> Calibration:
     """Fields of scenes from measurements at many operating points, with intervals and with what they cannot tell.
 
@@ -67,6 +70,7 @@ def calibrate(
     - `bounds`: dotted path -> lower and upper bound, SI; either may be `None`.
     - `folds`: the points are parted into so many, and each is predicted from the others; 0: none.
     - `options`: of the calibration, `calibration.Options`; `newton`: of the solver.
+    - `progress`: called with the number of operating points that were just solved.
 
     **Raises:** `ValueError` for data, fields or options that do not fit together; `SolveError` where no operating point
     can be solved with the fields as they are; `AttributeError` for a field that is not there.
@@ -82,7 +86,7 @@ def calibrate(
         require_solvable(one)
     fields = free_fields(scenes, free, priors or {}, bounds or {})
     scenes = [_started(one, fields) for one in scenes]
-    search = _search(scenes, rigs, fields, options, NewtonOptions() if newton is None else newton)
+    search = _search(scenes, rigs, fields, options, NewtonOptions() if newton is None else newton, progress)
     found = settled(search, Held(np.ones(len(fields), dtype=bool), {}, {}))
     return _result(search, scenes, found, folds)
 
@@ -111,6 +115,7 @@ def _search(
     fields: Sequence[FreeField],
     options: Options,
     newton: NewtonOptions,
+    progress: Callable[[int], None] | None,
 ) -> Search:
     """The search with checked data: paths of conditions and of results as the scenes have them."""
     evaluators, resolved = [], []
@@ -124,9 +129,11 @@ def _search(
         if data.conditions:
             in_scene(scene, listed(data.conditions))
         labels, data = _resolved(scene, data, newton)
-        evaluators.append(Evaluator(scene, own, labels, newton))
+        evaluators.append(Evaluator(scene, own, labels, newton, progress))
         resolved.append(data)
     search = Search(evaluators, resolved, fields, options)
+    if not search.count:
+        raise ValueError("held_back: found every measured value; expected one or more that are fitted")
     _check_start(search)
     return search
 
@@ -172,7 +179,8 @@ def _result(search: Search, scenes: Sequence[AbstractScene], found: Settled, fol
     if spread.degrees >= FEWEST and np.any(standard[used]):
         outlier = used & (np.abs(standard) > OUTLIER * scale_of(standard[used]))
     fitted = [i for i in range(len(held.free)) if held.free[i]]
-    reason = _failure(search, held, ended, bool(estimate.converged[best]), predicted[used])
+    undetermined = not np.any(held.free) and not held.pinned and bool(np.all(np.isfinite(predicted[used])))
+    reason = _failure(search, held, ended, bool(estimate.converged[best]), predicted[used], undetermined)
     held_back = None if reason else held_back_of(search, found, spread, scale, folds)
     misfits = _misfits(search, predicted, used)
     notes = [] if reason else _notes(search, held, spread, outlier, misfits, (agree, len(estimate.loss)))
@@ -207,12 +215,15 @@ def _result(search: Search, scenes: Sequence[AbstractScene], found: Settled, fol
         scenes=tuple(scene.replace(own(scene)) for scene in scenes),
         search=search,
         settled=found,
+        undetermined=undetermined,
     )
 
 
-def _failure(search: Search, held: Held, ended: bool, converged: bool, predicted: np.ndarray) -> str:
+def _failure(
+    search: Search, held: Held, ended: bool, converged: bool, predicted: np.ndarray, undetermined: bool
+) -> str:
     """Why there is no result, or an empty text."""
-    if not np.any(held.free) and not held.pinned:
+    if undetermined:
         said = "; ".join(f"{search.fields[i].path}: {why}" for i, why in held.reasons.items())
         return f"the measurements cannot tell any field ({said})"
     if not np.all(np.isfinite(predicted)):
@@ -233,7 +244,7 @@ def _parameters(
         deviation = float(np.sqrt(spread.covariance[i, i]))
         half = spread.quantile * deviation
         if not held.free[i] or not np.isfinite(half):
-            reason = held.reasons.get(i, "as many fields as measured values")
+            reason = held.reasons.get(i, ALL_USED)
             found[field.path] = Parameter(value, None, None, None, not bool(held.free[i]), reason)
             continue
         low, high = (float(field.value(coordinates[i] + side * half)) for side in (-1.0, 1.0))
@@ -274,8 +285,8 @@ def _notes(
     kept = [fields[i].path for i in range(len(fields)) if not held.free[i]]
     if kept and np.any(held.free):
         notes.append(f"All intervals hold for these values of {', '.join(kept)}.")
-    if spread.degrees <= 0:
-        notes.append("No intervals: as many fields as measured values.")
+    if np.any(held.free) and not np.isfinite(spread.quantile):
+        notes.append(f"No intervals: {ALL_USED}.")
     notes += said_of(spread, held.free, fields)
     for one in misfits:
         if one.points >= FEWEST and abs(one.mean) > BIAS * one.rms:

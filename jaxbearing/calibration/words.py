@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fitting.uncertainty import SINGULAR, UNKNOWN, Spread, correlation
+from fitting.uncertainty import SINGULAR, UNKNOWN, Spread, correlation, informative
 
 from .parameters import FreeField
 
@@ -12,17 +12,24 @@ TOGETHER = 0.95
 """Correlation from which two fields are said to be told apart hardly."""
 PART = 0.1
 """Part of a field in a direction from which it is named there."""
+STARTS = 3.0
+"""An interval that reaches beyond so many times the start on both sides of zero says nothing of a field of either sign.
+"""
 FROM_PRIOR = 0.9
 """Standard error over that of the prior from which the measurements are said to tell nothing more."""
 
 
 def why_undetermined(
-    found: Spread, jacobian: np.ndarray, free: np.ndarray, fields: Sequence[FreeField]
+    found: Spread, jacobian: np.ndarray, free: np.ndarray, fields: Sequence[FreeField], coordinates: np.ndarray
 ) -> tuple[int, str] | None:
-    """The field to hold next, and why: no value moves with it, only a combination with others is told, or it is
-    uncertain by more than a factor of 3; `None` where all are told.
+    """The field to hold next, and why: no value moves with it, only a combination with others is told, or its interval
+    says nothing; `None` where all are told.
 
-    **Arguments:** `jacobian`: of the measured values alone, (value, field), by the coordinates.
+    An interval says nothing beyond a factor of 3 of a positive number, and of a number of either sign where it reaches
+    beyond three times its start on both sides of zero. A start of 0 gives no measure, and a prior is told in any case.
+
+    **Arguments:** `jacobian`: of the measured values alone, (value, field), by the coordinates; `coordinates`: of all
+    fields.
     """
     indices = np.flatnonzero(free)
     deviation = np.sqrt(np.diag(found.covariance))
@@ -33,14 +40,27 @@ def why_undetermined(
         return unseen[-1], "no measured value changes with it"
     if lost:
         return lost[-1], f"only {_combination(jacobian, lost, fields)} is told"
+    if found.degrees < 0:
+        told = (
+            f"{len(indices)} free fields change {informative(jacobian, free)} of {len(jacobian)} measured values only"
+        )
+        return min(map(int, indices), key=lambda i: size[i]), told
     if not np.isfinite(found.quantile):
         return None
-    half = np.where([field.positive for field in fields], found.quantile * deviation, 0.0)
-    half[~free] = 0.0
-    index = int(np.argmax(half))
-    if half[index] <= UNKNOWN or fields[index].normal_prior is not None:
+    half = found.quantile * deviation
+    share = np.zeros(len(fields))
+    for i in map(int, indices):
+        field = fields[i]
+        if field.normal_prior is None:
+            most = np.inf if not field.start else abs(field.value(coordinates[i])) + STARTS * abs(field.start)
+            share[i] = half[i] / (UNKNOWN if field.positive else most / field.scale)
+    index = int(np.argmax(share))
+    if share[index] <= 1.0:
         return None
-    return index, f"it is uncertain by a factor of {np.exp(min(half[index], 700.0)):.3g} to either side"
+    if fields[index].positive:
+        return index, f"it is uncertain by a factor of {np.exp(min(half[index], 700.0)):.3g} to either side"
+    times = half[index] * fields[index].scale / abs(fields[index].start)
+    return index, f"it is uncertain by {times:.3g} times its start to either side"
 
 
 def _combination(jacobian: np.ndarray, lost: Sequence[int], fields: Sequence[FreeField]) -> str:
@@ -69,7 +89,7 @@ def said_of(found: Spread, free: np.ndarray, fields: Sequence[FreeField]) -> lis
                     f"{fields[j].path} and {fields[i].path} are hardly told apart (correlation {together[i, j]:.3f}): "
                     f"the measurements tell {what} better than each."
                 )
-    for i in indices:
+    for i in map(int, indices):
         prior = fields[i].normal_prior
         error = float(np.sqrt(found.covariance[i, i]))
         if prior is not None and error >= FROM_PRIOR * prior[1]:

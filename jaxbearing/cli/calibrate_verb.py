@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from .messages import NOT_CONVERGED, bad_input, refuse
+from .messages import NOT_CONVERGED, UNDETERMINED, bad_input, refuse
 from .options import JsonOption, LossOption, SceneArgument, SetOption, labelled
 from .output_files import PICTURES, ForceOption, Output, check_files, deliver
 from .posterior_options import (
@@ -16,9 +16,11 @@ from .posterior_options import (
     sampling_of,
     write_posterior,
 )
-from .terminal import console
+from .terminal import console, working
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from fitting.posterior import Posterior
     from fitting.predictive import Predictive
 
@@ -159,9 +161,14 @@ def calibrate(
     label = " and ".join([labelled(scene, changes), *(name for name, _ in further)])
     enable_compilation_cache()
     with without_false_alarms():
-        found, ranked = _calibrated(given, options, folds, wanted, label, as_json)
-        drawn, again = _sampled(found, sampling)
-        predicted = _predicted(found, others, drawn)
+        with working("compiling", as_json) as tell:
+            found, ranked = _calibrated(given, options, folds, wanted, label, as_json, _counted(tell))
+            if sampling is not None:
+                tell("sampling the posterior")
+            drawn, again = _sampled(found, sampling)
+            if others:
+                tell("predicting")
+            predicted = _predicted(found, others, drawn)
         outputs = (
             *(_output(found, drawn, label, file, as_json) for file in out or []),
             Output(plot, lambda path: _write_plot(found, label, path), long=True),
@@ -170,9 +177,24 @@ def calibrate(
         show = lambda: _print(found, label, given.notes, ranked, drawn, again, predicted, as_json)
         deliver(show, outputs if found.converged else ())
     if not found.converged:
+        left_out = [str(path) for path in (*(out or []), plot, plot_posterior) if path is not None]
+        if left_out:
+            typer.echo(f"not written: {', '.join(left_out)}", err=True)
         if as_json:
-            typer.echo(f"not converged: {label}: {found.failure()}", err=True)
-        raise typer.Exit(NOT_CONVERGED)
+            typer.echo(f"{found.status.replace('_', ' ')}: {label}: {found.failure()}", err=True)
+        raise typer.Exit(UNDETERMINED if found.undetermined else NOT_CONVERGED)
+
+
+def _counted(tell: "Callable[[str], None]") -> "Callable[[int], None]":
+    """Tells how many operating points have been solved."""
+    solved = 0
+
+    def count(points: int) -> None:
+        nonlocal solved
+        solved += points
+        tell(f"calibrating, {solved} operating points solved")
+
+    return count
 
 
 def _check(level: float, relative_error: float, folds: int) -> None:
@@ -193,7 +215,13 @@ def _rig(text: str) -> tuple[str, Path]:
 
 
 def _calibrated(
-    given: "Given", options: Any, folds: int, candidates: Any, label: str, as_json: bool
+    given: "Given",
+    options: Any,
+    folds: int,
+    candidates: Any,
+    label: str,
+    as_json: bool,
+    progress: "Callable[[int], None]",
 ) -> "tuple[Calibration, tuple[Candidate, ...]]":
     """The calibration and its candidates; ends the command where these cannot be."""
     from ..calibration.next_point import next_points
@@ -209,6 +237,7 @@ def _calibrated(
             bounds=given.bounds,
             folds=folds,
             options=options,
+            progress=progress,
         )
         ranked = () if candidates is None or not found.converged else next_points(found, candidates)
     except SolveError as error:

@@ -1,7 +1,6 @@
 """`jaxbearing fit`: the rheology of an oil from measured traction curves."""
 
 import json
-import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -9,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from .completion import scene_names
-from .messages import BAD_INPUT, NOT_CONVERGED, bad_input, refuse, say
+from .messages import BAD_INPUT, NOT_CONVERGED, UNDETERMINED, bad_input, refuse, say
 from .options import SCENE_HELP, JsonOption, LossOption, SetOption, labelled
 from .output_files import PICTURES, ForceOption, Output, check_files, deliver
 from .posterior_options import (
@@ -19,7 +18,7 @@ from .posterior_options import (
     sampling_of,
     write_posterior,
 )
-from .terminal import console
+from .terminal import console, working
 
 if TYPE_CHECKING:
     from fitting.comparison import ModelRow
@@ -165,8 +164,11 @@ def fit(
     label = labelled(scene, changes)
     enable_compilation_cache()
     with without_false_alarms():
-        result, rows = _fitted(measurements, machine, models, options, _silent if as_json else _tell)
-        drawn, again = _sampled(result, sampling)
+        with working("fitting", as_json) as tell:
+            result, rows = _fitted(measurements, machine, models, options, tell)
+            if sampling is not None:
+                tell("sampling the posterior")
+            drawn, again = _sampled(result, sampling)
         wrote = "" if as_json else f"wrote {out}: use it with [oil] file = ... or --set oil.file={out}"
         outputs = (
             Output(out, lambda path: _write_oil(result, path, data, scene, changes), wrote),
@@ -174,7 +176,13 @@ def fit(
             Output(plot_posterior, lambda path: _write_posterior(drawn, again, data, path), long=True),
         )
         show = lambda: _print(result, rows, data, label, notes, out, as_json, drawn, again)
-        deliver(show, outputs if result.converged else ())
+        deliver(show, outputs if result.converged else outputs[:2] if result.undetermined else ())
+    if result.undetermined:
+        if plot_posterior is not None:
+            typer.echo(f"not written: {plot_posterior}", err=True)
+        if as_json:
+            typer.echo(f"{data}: {result.failure()}", err=True)
+        raise typer.Exit(UNDETERMINED)
     if not result.converged:
         left_out = [str(path) for path in (plot, plot_posterior, out) if path is not None]
         if left_out:
@@ -241,15 +249,18 @@ def _fitted(
     """The fit, or the best of several with their comparison. **Arguments:** `tell`: shows how far it is."""
     from fitting.fit import fit as fit_one
 
-    if len(models) == 1:
-        return fit_one(measurements, machine, options), ()
+    try:
+        if len(models) == 1:
+            return fit_one(measurements, machine, options), ()
+        results = {}
+        for model in models:
+            # minutes, all together
+            tell(f"fitting {model}")
+            results[str(model)] = fit_one(measurements, machine, options._replace(model=model))
+    except ValueError as error:
+        refuse(str(error))
     from fitting.comparison import compare
 
-    results = {}
-    for model in models:
-        # minutes, all together
-        tell(f"fitting {model}")
-        results[str(model)] = fit_one(measurements, machine, options._replace(model=model))
     tell("comparing")
     rows = compare(results)
     return results[rows[0].model], rows
@@ -273,16 +284,6 @@ def _write_posterior(drawn: Any, again: "Predictive | None", data: Path, path: P
     from fitting.parameters import NAMES, UNITS
 
     write_posterior(drawn, again, dict(zip(NAMES, UNITS, strict=True)), str(data), path)
-
-
-def _tell(text: str) -> None:
-    """Prints what the command is doing, on a terminal only."""
-    if sys.stdout.isatty():
-        typer.echo(f"{text} ...")
-
-
-def _silent(text: str) -> None:
-    pass
 
 
 def _write_oil(result: "FitResult", out: Path, data: Path, scene: str, changes: list[str] | None) -> None:
@@ -318,7 +319,7 @@ def _print(
     if as_json:
         from fitting.io.json_report import fit_to_dict
 
-        oil = str(out) if out is not None and result.converged else None
+        oil = str(out) if out is not None and result.status != "not_converged" else None
         found = fit_to_dict(result, str(data), label, notes, oil, rows)
         if drawn is not None:
             found["posterior"] = drawn.to_dict()

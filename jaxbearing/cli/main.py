@@ -1,8 +1,8 @@
 """The command `jaxbearing`. What a verb needs is imported when it runs: the usage of a command does not wait for the
 scene reader, nor the list of scenes for the solver.
 
-Exit codes: 0 solved; 1 the output cannot be written; 2 bad input, one message on stderr; 3 not converged;
-130 interrupted.
+Exit codes: 0 solved; 1 the output cannot be written; 2 bad input, one message on stderr; 3 not converged; 4 the
+measurements cannot tell anything that is fitted; 130 interrupted.
 """
 
 import io
@@ -35,7 +35,8 @@ from .tolerances_verb import tolerances
 
 _EPILOG = """\b
 Exit codes: 0 solved; 1 the output cannot be written; 2 bad input;
-  3 not converged; 130 interrupted.
+  3 not converged; 4 measurements that tell nothing of what is fitted;
+  130 interrupted.
 Environment: JAXBEARING_CACHE is the folder where compiled programs are kept
   between runs, or off; without it they are kept in the user's cache folder."""
 

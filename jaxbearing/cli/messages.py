@@ -10,7 +10,7 @@ import typer
 if TYPE_CHECKING:
     from ..scenes.errors import SceneError
 
-NO_OUTPUT, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 1, 2, 3, 130
+NO_OUTPUT, BAD_INPUT, NOT_CONVERGED, UNDETERMINED, INTERRUPTED = 1, 2, 3, 4, 130
 
 
 def say(message: str, code: int) -> int:

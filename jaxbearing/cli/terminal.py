@@ -1,7 +1,9 @@
-"""Console of the screen output."""
+"""Console of the screen output, and the line that says what is being done."""
 
 import os
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -18,3 +20,17 @@ def console() -> "Console":
     columns = os.environ.get("COLUMNS", "")
     said = int(columns) if columns.isdecimal() and int(columns) > 0 else None
     return Console(highlight=False, width=said or (None if sys.stdout.isatty() else PIPE_WIDTH))
+
+
+@contextmanager
+def working(text: str, as_json: bool) -> Iterator[Callable[[str], None]]:
+    """A line with what is being done and since when, on a terminal only; what it returns changes the text."""
+    if as_json or not sys.stdout.isatty():
+        yield lambda _: None
+        return
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False), TimeElapsedColumn())
+    with Progress(*columns, console=console(), transient=True) as line:
+        task = line.add_task(text, total=None)
+        yield lambda changed: line.update(task, description=changed)

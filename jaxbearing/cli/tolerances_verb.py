@@ -23,7 +23,7 @@ from .sweep_parts import (
     ends_in_words,
     shown_progress,
 )
-from .terminal import console
+from .terminal import console, working
 
 if TYPE_CHECKING:
     from ..tolerance import Tolerances
@@ -121,7 +121,8 @@ def tolerances(
         from ..numerics.status import SolveError
 
         try:
-            found = analysis.tolerances(wanted)
+            with working("solving at the means, with derivatives", as_json):
+                found = analysis.tolerances(wanted)
         except SolveError as error:
             _print_failure(str(error), error.status.name.lower(), label, as_json)
             raise typer.Exit(NOT_CONVERGED) from None

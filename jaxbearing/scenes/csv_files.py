@@ -16,7 +16,7 @@ from .words import describe
 
 SEPARATORS = {",": "','", ";": "';'", "\t": "a tab"}
 """Separators of columns, with their names in messages. A decimal comma needs one of the latter two."""
-_HEADER = re.compile(r"(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?")
+_HEADER = re.compile(r"(?P<name>[^\[\]]*?(?:\[[0-9]+\])*)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?")
 # Stricter than `float`, which takes "1_000", digits of other scripts and "infinity".
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+(?P<mark>[.,])?[0-9]*|(?P<leading_mark>[.,])[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _NON_FINITE = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
@@ -59,8 +59,8 @@ def cells_of(text: str, separator: str) -> list[str]:
 
 
 def name_and_unit(cell: str) -> tuple[str, str | None]:
-    """Name and unit of a column headed `name [unit]`; `None` where it has no brackets. What cannot be parted is a
-    name."""
+    """Name and unit of a column headed `name [unit]`; `None` where it has no brackets. A number in brackets right after
+    the name, as in `force[0] [N]`, belongs to it. What cannot be parted is a name."""
     match = _HEADER.fullmatch(cell.strip())
     return (cell, None) if match is None else (match["name"], match["unit"])
 

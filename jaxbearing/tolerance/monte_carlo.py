@@ -52,7 +52,7 @@ def sampled(dataset: xr.Dataset, labels: Mapping[str, Label]) -> dict[str, Sampl
         if values.shape[:1] != good.shape:
             # all samples share it
             values = np.broadcast_to(values, (good.size, *values.shape))
-        found[name] = _statistics((values if label.place is None else values[:, label.place]).reshape(good.size)[good])
+        found[name] = _statistics(values[(slice(None), *label.place)].reshape(good.size)[good])
     return found
 
 

@@ -11,7 +11,7 @@ import jax.numpy as jnp
 from .._derived import derived_parts, derived_results
 from .._scene import AbstractSolution
 from ..bearings.operation import LOAD_FIELDS, AbstractOperation
-from ..bearings.solution import RING_FREEDOMS, force_units
+from ..bearings.solution import RING_FREEDOMS, force_units, stiffness_units
 from ..report.labels import dimensions, variable_name
 from ..scenes.errors import nearest
 
@@ -38,17 +38,19 @@ _ALONG = {"bearings": "bearing", "sets": "set"}
 """Results of a shaft by the names of its bearings and sets -> the dimension of data sets that they stand along."""
 _SYSTEM = {"life": "system", "torque": "torque"}
 """Parts of a shaft's results -> the beginning of their names in data sets."""
-_NAME = re.compile(r"(?P<name>[A-Za-z_][\w.-]*)(?:\[(?P<place>[0-9]{1,6})\])?")
+_NAME = re.compile(r"(?P<name>[A-Za-z_][\w.-]*)(?P<places>(?:\[[0-9]{1,6}\])*)")
+_DISPLACEMENTS = ("outer", "displacement")
+"""Mixed results that are displacements, in m and rad; the others are loads, but for stiffnesses."""
 
 
 class Label(NamedTuple):
-    """Unit and description of a result, its name in data sets, and its place there; `along`: dimension and name of the
-    bearing, or set, of a shaft."""
+    """Unit and description of a result, its name in data sets, and its place there (one number for each of its
+    dimensions); `along`: dimension and name of the bearing, or set, of a shaft."""
 
     unit: str
     description: str
     variable: str
-    place: int | None
+    place: tuple[int, ...]
     along: tuple[str, str] | None = None
 
 
@@ -78,16 +80,17 @@ def labels_of(solution: AbstractSolution, names: Sequence[str]) -> dict[str, Lab
     for name in names:
         path, place = _parted(name)
         said = known[path]
-        words = said["description"] if place is None else f"{said['description']}, {_place_in_words(said, place)}"
+        words = ", ".join((said["description"], *(f"{_place_in_words(said, *one)}" for one in enumerate(place))))
         variable, along = _in_data(solution, path)
         found[name] = Label(_unit(path, said, place), words, variable, place, along)
     return found
 
 
-def _place_in_words(said: Mapping[str, Any], place: int) -> str:
-    if said["unit"] == MIXED:
+def _place_in_words(said: Mapping[str, Any], axis: int, place: int) -> str:
+    along = said["dims"][axis]
+    if said["unit"] == MIXED and along != "node":
         return RING_FREEDOMS[place].replace("_", " ")
-    return f"{said['dims'][0]} {place}"
+    return f"{along} {place}"
 
 
 def _entry_of(solution: AbstractSolution, path: str) -> tuple[str, str, str] | None:
@@ -133,12 +136,13 @@ def paths_of(solution: AbstractSolution) -> tuple[str, ...]:
     return tuple(path for path, _ in _known(solution))
 
 
-def _unit(path: str, said: Mapping[str, Any], place: int | None) -> str:
-    if place is None:
+def _unit(path: str, said: Mapping[str, Any], place: tuple[int, ...]) -> str:
+    if not place or said["unit"] != MIXED:
         return said["unit"]
-    if path.endswith(".outer") and said["unit"] == MIXED:
-        return ("m", "m", "m", "rad", "rad")[place]
-    return force_units()[place] if said["dims"] == ("freedom",) or said["unit"] == MIXED else said["unit"]
+    name = path.rpartition(".")[2]
+    if name == "stiffness":
+        return stiffness_units()[place[0]][place[1]]
+    return (("m", "m", "m", "rad", "rad") if name in _DISPLACEMENTS else force_units())[place[-1]]
 
 
 def _known(part: Any, above: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
@@ -159,22 +163,21 @@ def _known(part: Any, above: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
         yield above + name, {**one.metadata, "dims": dimensions(one.annotation)}
 
 
-def _parted(name: str) -> tuple[str, int | None]:
+def _parted(name: str) -> tuple[str, tuple[int, ...]]:
     parted = _NAME.fullmatch(name)
     assert parted is not None, name
-    place = parted["place"]
-    return parted["name"], None if place is None else int(place)
+    return parted["name"], tuple(int(one) for one in re.findall("[0-9]+", parted["places"]))
 
 
-def _value(solution: AbstractSolution, path: str, place: int | None) -> Any:
+def _value(solution: AbstractSolution, path: str, place: tuple[int, ...]) -> Any:
     value = _at(solution, path)
-    return value.reshape(()) if place is None else value[place]
+    return value[place] if place else value.reshape(())
 
 
 def _there(solution: Any, name: str, known: Mapping[str, Any]) -> bool:
     """True if one of the usual results is one of this scene."""
     path, place = _parted(name)
-    if path not in known or (known[path]["dims"] == () and place is not None):
+    if path not in known or (known[path]["dims"] == () and place):
         return False
     if path == "power_loss.total":
         # a total of no part at all is no result
@@ -183,7 +186,7 @@ def _there(solution: Any, name: str, known: Mapping[str, Any]) -> bool:
         # the play of tapered bearings only
         return False
     value = _at(solution, path)
-    return value is not None and (place is not None or value.size == 1)
+    return value is not None and (bool(place) or value.size == 1)
 
 
 def _forces(solution: AbstractSolution) -> Iterator[str]:
@@ -202,21 +205,55 @@ def _of_entries(solution: AbstractSolution) -> Iterator[str]:
             yield from (f"{table}.{entry}.{name}" for name in names)
 
 
-def _resolved(solution: AbstractSolution, text: str, known: Mapping[str, Mapping[str, object]]) -> str:
+def _path_of(text: str, known: Mapping[str, object]) -> str | None:
+    """Path of a result by a text, without its places; `None` for what is no name of a result."""
     parted = _NAME.fullmatch(text.strip())
     name = "" if parted is None else parted["name"]
-    path = next((one for one in known if name in (one, variable_name(one), one.replace(".", "_"))), None)
+    return next((one for one in known if name in (one, variable_name(one), one.replace(".", "_"))), None)
+
+
+def is_result(solution: AbstractSolution, text: str) -> bool:
+    """True for the name of a result that varies smoothly, with or without its places, and for that of one which this
+    scene does not model."""
+    path = _path_of(text, dict(_known(solution)))
+    if path is None:
+        return not_modelled(solution, text)
+    return _varies(_at(solution, path))
+
+
+def _varies(value: Any) -> bool:
+    """True for an array of real numbers, and not for a count or a word."""
+    return hasattr(value, "dtype") and bool(jnp.issubdtype(value.dtype, jnp.inexact))
+
+
+def not_modelled(solution: AbstractSolution, text: str) -> bool:
+    """True for the path of a result of a part that other scenes of this kind have and this one does not."""
+    part: Any = solution
+    for name in text.strip().split("."):
+        if not dataclasses.is_dataclass(part) or name not in {field.name for field in dataclasses.fields(part)}:
+            return False
+        part = getattr(part, name)
+        if part is None:
+            return True
+    return False
+
+
+def _resolved(solution: AbstractSolution, text: str, known: Mapping[str, Mapping[str, object]]) -> str:
+    path = _path_of(text, known)
     value = None if path is None else _at(solution, path)
-    if parted is None or path is None or value is None:
-        near = nearest(name, {one for path in known for one in (path, variable_name(path))}) if name else ""
+    if path is None or value is None:
+        near = nearest(text.strip().partition("[")[0], {one for path in known for one in (path, variable_name(path))})
         hint = f"; did you mean '{near}'?" if near else ""
         raise ValueError(f"results: found '{text}', which this scene does not have; expected a result{hint}")
-    if not jnp.issubdtype(value.dtype, jnp.inexact):
+    if not _varies(value):
         raise ValueError(f"results: found '{text}', a count; expected a result that varies smoothly")
-    place, size = parted["place"], value.size
-    if place is None and size != 1:
-        raise ValueError(f"results: found '{text}', {size} numbers; expected one of them, '{text.strip()}[0]'")
-    if place is not None and (value.ndim != 1 or int(place) >= size):
-        wanted = f"a place from 0 to {size - 1}" if value.ndim == 1 else "no place: it is no list of numbers"
-        raise ValueError(f"results: found '{text}'; expected {wanted}")
-    return path if place is None else f"{path}[{int(place)}]"
+    place = _parted(text.strip())[1]
+    if not place and value.size != 1:
+        entry = f"{text.strip()}{'[0]' * value.ndim}"
+        raise ValueError(f"results: found '{text}', {value.size} numbers; expected one of them, '{entry}'")
+    if place and len(place) != value.ndim:
+        raise ValueError(f"results: found '{text}'; expected {value.ndim or 'no'} place{'s' * (value.ndim != 1)}")
+    for one, size in zip(place, value.shape, strict=True) if place else ():
+        if one >= size:
+            raise ValueError(f"results: found '{text}'; expected a place from 0 to {size - 1}")
+    return path + "".join(f"[{one}]" for one in place)

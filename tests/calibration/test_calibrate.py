@@ -1,13 +1,23 @@
 """Calibration: known fields come back, intervals are those of linear theory and hold, what cannot be told is said."""
 
 import dataclasses
+import io
 
 import numpy as np
 import pytest
+from rich.console import Console
 from scipy import stats
 
 import jaxbearing as jb
+from fitting.uncertainty import spread
 from jaxbearing.calibration import Data, Options, next_points, repeated
+from jaxbearing.calibration.labels import look_at
+from jaxbearing.calibration.parameters import FreeField
+from jaxbearing.calibration.report import print_calibration
+from jaxbearing.calibration.table import read_data
+from jaxbearing.calibration.words import why_undetermined
+from jaxbearing.sweeps.fields import SceneSource
+from jaxbearing.tolerance.results import _at, labels_of, paths_of
 
 CLEARANCE, MODULUS = "geometry.diametral_clearance", "materials.rings.youngs_modulus"
 FREE = [CLEARANCE, MODULUS]
@@ -252,6 +262,8 @@ def test_weights_and_known_deviations(bearing, noisy):
         (["geometry.n_balls"], {}, "shapes the equations"),
         ([MODULUS], {"priors": {CLEARANCE: jb.Distribution(1e-5, 1e-6)}}, "prior: found 'geometry"),
         ([MODULUS], {"bounds": {MODULUS: (2e11, 1e11)}}, "expected the lower one first"),
+        ([CLEARANCE], {"priors": {CLEARANCE: jb.Distribution(1e-5, 0.0)}}, "prior: found the deviation 0 for geometry"),
+        ([MODULUS], {"priors": {MODULUS: jb.Distribution.lognormal(2e11, 1e-200)}}, "which is known then"),
         (["operation.radial_load"], {}, "an operating point of data"),
         ([MODULUS], {"folds": 1}, "folds: found 1"),
         ([MODULUS], {"options": Options(loss="huber")}, "loss: found 'huber'"),
@@ -260,6 +272,82 @@ def test_weights_and_known_deviations(bearing, noisy):
 def test_what_makes_no_sense_is_refused(bearing, noisy, free, more, said):
     with pytest.raises(ValueError, match=said):
         jb.calibrate(bearing, measured(noisy), free, **more)
+
+
+def test_fields_that_no_value_tells_have_the_right_reason(bearing, noisy):
+    """Six values of which none changes are not fewer than one field; one value tells one field, without an interval
+    unless its error is known."""
+    few = {"conditions": {"operation.radial_load": LOADS[:6]}, "measured": {"ring.radial": noisy[:6]}}
+    found = jb.calibrate(bearing, few, ["materials.rings.density"])
+    assert (found.status, found.converged) == ("undetermined", False)
+    assert found["materials.rings.density"].reason == "no measured value changes with it"
+    one = {"conditions": {"operation.radial_load": LOADS[:1]}, "measured": {"ring.radial": noisy[:1]}}
+    found = jb.calibrate(bearing, one, [CLEARANCE])
+    assert found.converged
+    assert (found[CLEARANCE].fixed, found[CLEARANCE].lower) == (False, None)
+    shown = Console(width=120, file=io.StringIO())
+    print_calibration(found, "a bearing", [], (), None, {}, shown)
+    assert "no interval: as many fields as measured values" in " ".join(shown.file.getvalue().split())
+    assert "held" not in shown.file.getvalue()
+    found = jb.calibrate(bearing, one, [CLEARANCE], options=Options(known_errors=True))
+    assert found[CLEARANCE].lower < found[CLEARANCE].value < found[CLEARANCE].upper
+    assert not any("No intervals" in note for note in found.notes)
+    found = jb.calibrate(bearing, one, FREE)
+    assert "a combination of" in found[MODULUS].reason
+    with pytest.raises(ValueError, match="held_back: found every measured value"):
+        jb.calibrate(bearing, measured(noisy, held_back=np.ones(len(LOADS), dtype=bool)), FREE)
+
+
+def test_an_interval_that_says_nothing_is_none():
+    """Of a speed of either sign, 9099 +- 454 294 rpm. A field with a prior does not hide it, a start of 0 is no
+    measure, and what is uncertain by its own size is told."""
+    speed = FreeField("operation.inner_speed", "rad/s", 9000.0, False, 9000.0)
+    known = FreeField("drag.coefficient", "1", 0.3, True, 0.3, prior=jb.Distribution.lognormal(0.3, 1.5))
+    clearance = FreeField(CLEARANCE, "m", 1e-6, False, 1e-6)
+    fields, free = [speed, known, clearance], np.ones(3, dtype=bool)
+    jacobian = np.random.default_rng(0).normal(size=(12, 3)) / [50.0, 30.0, 1.5]
+    found = spread(jacobian, free, 1.0, 0.95)
+    coordinates = np.array([0.011, 0.0, 14.0])
+    index, why = why_undetermined(found, jacobian, free, fields, coordinates)
+    assert index == 0
+    times = found.quantile * np.sqrt(found.covariance[0, 0])
+    assert why == f"it is uncertain by {times:.3g} times its start to either side"
+    for start in (0.0, 9000.0 * times):
+        fields[0] = dataclasses.replace(speed, start=start)
+        assert why_undetermined(found, jacobian, free, fields, coordinates) is None
+    # rows that the other fields alone would leave out: fewer than fields, and the counts are those of the values
+    jacobian[2:] = 0.0
+    jacobian[:2, 2] = 0.0
+    found = spread(jacobian, free, 1.0, 0.95)
+    assert why_undetermined(found, jacobian, free, fields, coordinates) == (2, "no measured value changes with it")
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["deep_groove_6205", *(pytest.param(one, marks=pytest.mark.slow) for one in ("turbine_roller", "gear_shaft"))],
+)
+def test_every_result_is_a_column(name, tmp_path):
+    """Of a list or a matrix each entry; with the unit of the label, and with or without a dot in the name."""
+    scene, units = jb.load_scene(name), {}
+
+    def look(solution):
+        for path in paths_of(solution):
+            value = _at(solution, path)
+            if hasattr(value, "dtype") and np.issubdtype(value.dtype, np.inexact) and value.size:
+                entry = path + "[0]" * value.ndim
+                units[entry] = labels_of(solution, [entry])[entry].unit
+
+    look_at(scene, look, None)
+    heads = (entry if unit in ("1", "") else f"{entry} [{unit}]" for entry, unit in units.items())
+    file = tmp_path / "all.csv"
+    file.write_text(f"{';'.join(heads)};remark\n{';'.join('1' for _ in units)};7\n", encoding="utf-8")
+    data, notes = read_data(file, SceneSource.of(name), scene)
+    # the operating point stands among the results, too
+    assert [*data.measured] == [entry for entry in units if entry not in data.conditions]
+    assert len(data.conditions) < 0.2 * len(units)
+    assert notes == [f"column 'remark' of {file} is ignored"]
+    plain = {"gear_shaft": set(), "deep_groove_6205": {"force[0]", "stiffness[0][0]"}}
+    assert plain.get(name, {"drive_power", "inner_torque", "outer_torque"}) <= {one for one in units if "." not in one}
 
 
 def test_data_that_do_not_fit(bearing, noisy):

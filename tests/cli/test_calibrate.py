@@ -107,12 +107,14 @@ def test_the_page_prints_what_the_command_does(jaxbearing_command, folder):
     assert [row for row in rows if row not in printed] == []
 
 
-def test_nothing_told_is_not_converged(jaxbearing_command, folder):
+def test_nothing_told_has_its_own_status(jaxbearing_command, folder):
     result = jaxbearing_command(
         "calibrate", SCENE, "data.csv", "--free", "materials.rings.density", "--out", "new.toml", "--json"
     )
-    assert result.code == 3
-    assert json.loads(result.out)["converged"] is False
+    assert result.code == 4
+    said = json.loads(result.out)
+    assert (said["converged"], said["status"]) == (False, "undetermined")
+    assert "not written: new.toml" in result.err
     assert "cannot tell any field" in result.err
     assert "new.toml" not in os.listdir(folder)
 
@@ -164,6 +166,13 @@ def test_bad_input(jaxbearing_command, folder, arguments, said):
         ("operation.radial_load,ring.radial [um]\n1,2\n", "radial_load"),
         ("operation.radial_load [kN],ring.radial [um],ring.axial.deviation [um]\n1,2,3\n", "ring.axial.deviation"),
         ("operation.radial_load [kN],ring.radial [um],ring.radial [um]\n1,2,3\n", "twice"),
+        (
+            "operation.radial_load [kN],inner_torque [N m]\n1,2\n",
+            "inner_torque: found a result that this scene does not",
+        ),
+        ("operation.radial_load [kN],force [N]\n1,2\n", "expected one of them, 'force[0]'"),
+        ("operation.radial_load [kN],status,ring.radial\n1,2,3\n", "no unit"),
+        ("ring.radial [um],ring.radial.weight\n1,0\n2,0\n", "ring.radial.weight: found no value with a weight above 0"),
     ],
 )
 def test_files_that_cannot_be_read(jaxbearing_command, folder, text, said):

@@ -1,5 +1,6 @@
 """`fit`: measured curves to parameters, intervals, oil file and picture; refusals, exit codes, what is printed."""
 
+import dataclasses
 import json
 import os
 import sys
@@ -11,6 +12,7 @@ import pytest
 from fit_results import MEDIAN, SWEEPS, made_up
 
 import jaxbearing as jb
+from fitting.measurements import MeasurementError
 from fitting.parameters import NAMES
 from fitting.posterior import available
 from jaxbearing.cli.main import main
@@ -117,9 +119,10 @@ def given_fit(monkeypatch):
         calls.append(options)
         model = options.model or "ree_eyring"
         converged = fit.converged if isinstance(fit.converged, bool) else model in fit.converged
-        return made_up(scene, model=model, converged=converged, bic={"bair_winer": 60.0}.get(model, 70.0))
+        found = made_up(scene, model=model, converged=converged, bic={"bair_winer": 60.0}.get(model, 70.0))
+        return dataclasses.replace(found, undetermined=fit.undetermined, reason="the points tell nothing")
 
-    fit.converged = True
+    fit.converged, fit.undetermined = True, False
     fit.calls = calls
     monkeypatch.setattr(sys.modules["fitting.fit"], "fit", fit)
     monkeypatch.setattr("fitting.io.plots.smooth_curves", lambda *_: [(np.zeros(2),) * 2])
@@ -156,6 +159,31 @@ def test_screen(jaxbearing_command, given_fit, folder):
         assert words in result.out
     assert sorted(os.listdir(folder)) == ["fit.svg", "oil.toml"]
     assert jb.load_scene("turbine_roller", {"oil.file": "oil.toml"}).oil.rheology is not None
+
+
+def test_curves_that_tell_nothing_have_their_own_status(jaxbearing_command, given_fit, folder):
+    """The oil file is there, with what is known, and so is the picture."""
+    given_fit.converged, given_fit.undetermined = False, True
+    result = jaxbearing_command(*ETM, "--out", "oil.toml", "--plot", "fit.svg")
+    assert (result.code, result.err) == (4, "")
+    for words in ("UNDETERMINED", "the points tell nothing", "held: one pressure only", "wrote oil.toml"):
+        assert words in result.out
+    assert "NOT CONVERGED" not in result.out
+    assert sorted(os.listdir(folder)) == ["fit.svg", "oil.toml"]
+    assert jb.load_scene("turbine_roller", {"oil.file": "oil.toml"}).oil.rheology is not None
+    found = json.loads(jaxbearing_command(*ETM, "--json").out)
+    assert (found["converged"], found["status"]) == (False, "undetermined")
+    assert found["parameters"]["shear_modulus_pressure"]["value"] == 6.11e-9
+
+
+def test_what_the_fit_refuses_is_one_sentence(jaxbearing_command, monkeypatch):
+    def fit(*_):
+        raise MeasurementError("inlet temperature: found no solution at 1 of 2 points")
+
+    monkeypatch.setattr(sys.modules["fitting.fit"], "fit", fit)
+    result = jaxbearing_command(*ETM)
+    assert (result.code, result.out) == (2, "")
+    assert result.err == "error: inlet temperature: found no solution at 1 of 2 points\n"
 
 
 def test_all_models(jaxbearing_command, given_fit, folder):
