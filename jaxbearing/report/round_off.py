@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, TypeVar
 import jax.numpy as jnp
 import numpy as np
 
+from ..numerics.checks import Checked
 from .labels import labelled
 
 Result = TypeVar("Result")
@@ -72,7 +73,10 @@ def _cleaned(part: Any, floors: Mapping[str, float]) -> Any:
     changes: dict[str, Any] = {}
     for field in dataclasses.fields(part):
         value = getattr(part, field.name)
-        if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        if isinstance(value, Checked):
+            # what a scene says is no result
+            new = value
+        elif dataclasses.is_dataclass(value) and not isinstance(value, type):
             new = _cleaned(value, floors)
         elif isinstance(value, Mapping):
             new = {name: _cleaned(one, floors) if dataclasses.is_dataclass(one) else one for name, one in value.items()}
