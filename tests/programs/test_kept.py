@@ -3,6 +3,7 @@
 import functools
 import importlib.util
 import os
+import shutil
 import subprocess
 import sys
 
@@ -300,3 +301,30 @@ def test_the_next_process_answers_without_tracing(tmp_path):
     for before in ("", "import jax\n"):
         warm = run("warm", before=before)
         assert (warm.stdout, warm.stderr) == (cold.stdout, "")
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.geteuid() != 0 or shutil.which("setpriv") is None, reason="rights are laid down by setpriv")
+def test_an_ordinary_user_with_a_cache_of_another_user(tmp_path):
+    """The folder may only be read, and its programs belong to somebody else: they are not run, nothing is written, and
+    the answer is the same without a word. The user may read everywhere, as the interpreter may belong to root."""
+    run = lambda *before: subprocess.run(
+        [*before, sys.executable, "-c", ONE], env=variables, capture_output=True, text=True, check=True
+    )
+    variables = environment(JAXBEARING_CACHE=str(tmp_path), PYTHONDONTWRITEBYTECODE="1")
+    expected = run()
+    kept_files = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*")}
+    assert any(path.suffix == SUFFIX for path in kept_files)
+    tmp_path.chmod(0o755)
+    rights = "+dac_read_search"
+    user = ("setpriv", "--reuid=65534", "--regid=65534", "--clear-groups")
+    found = run(*user, f"--inh-caps={rights}", f"--ambient-caps={rights}")
+    assert (found.stdout, found.stderr) == (expected.stdout, "")
+    assert {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*")} == kept_files
+
+
+ONE = """
+import jaxbearing as jb
+
+print(float(jb.solve(jb.load_scene("planet_roller")).ring.radial).hex())
+"""
