@@ -14,6 +14,7 @@ from ..bearings.operation import LOAD_FIELDS, AbstractOperation
 from ..bearings.solution import RING_FREEDOMS, force_units, stiffness_units
 from ..report.labels import dimensions, variable_name
 from ..scenes.errors import nearest
+from ..shafts.solution import ShaftSolution
 
 DEFAULT = (
     "fit.clearance",
@@ -108,7 +109,7 @@ def _in_data(solution: AbstractSolution, path: str) -> tuple[str, tuple[str, str
     entry = _entry_of(solution, path)
     if entry is not None:
         table, name, rest = entry
-        if rest.startswith("solution."):
+        if rest.startswith("solution.") and isinstance(solution, ShaftSolution):
             # imported here: a tolerance without samples needs no data set
             from ..report.shaft.dataset import fronts
 
