@@ -335,6 +335,19 @@ def test_the_exponential_law_that_touches_another_one():
         np.testing.assert_allclose(getattr(touching, name)(0.9e9, 300.0), getattr(law, name)(0.9e9, 300.0), rtol=1e-12)
 
 
+@pytest.mark.slow
+def test_another_law_of_the_oil_gives_first_values(noisy_fit, curves):
+    """The curves tell the same law from them as from the true one, at every point."""
+    law = ProportionalRheology(stress_ratio=0.04, shear_modulus_ratio=0.3)
+    found = fitted(noisy(curves), eqx.tree_at(lambda s: s.oil.rheology, mobil_scene(), law))
+    assert found.converged
+    assert found.fitted == noisy_fit.fitted
+    np.testing.assert_allclose(found.predicted, noisy_fit.predicted, rtol=1e-4)
+    assert any("touches the law of the scene's oil" in note for note in found.notes)
+    text = fitted_oil_text(found, "oil", "curves.csv", "a scene")
+    assert 'reference_temperature = "the middle of curves.csv"' in text
+
+
 def test_modulus_shows_at_one_temperature_only(curves):
     """At 378 K the curves are viscous: they say nothing of the modulus, and 297 K alone says nothing of beta_G."""
     two = (curves.pressure == 1.5e9) & (curves.temperature != 340.0)
