@@ -9,8 +9,11 @@ from traction_curves import mobil_curves, mobil_scene, wrong_start
 
 import fitting
 import fitting.comparison
+from fitting.io.oil_file import fitted_oil_text
 from fitting.parameters import NAMES
+from fitting.start import exponential_about
 from fitting.viscous import held_misfit, with_viscous_function
+from jaxbearing.lubricants import ProportionalRheology
 
 ERRORS = fitting.Errors(relative=0.02, floor=2e-5)
 SLOPES = [name for name in NAMES if "_" in name.removeprefix("shear_")]
@@ -318,6 +321,31 @@ def test_nothing_to_fit(curves):
     nothing = fitted(noisy(curves), scene, fixed=NAMES)
     assert not nothing.converged
     assert "cannot tell any parameter" in nothing.failure()
+    assert nothing.status == "undetermined"
+    assert "cannot tell its rheology" in fitted_oil_text(nothing, "oil", "curves.csv", "a scene")
+
+
+def test_the_exponential_law_that_touches_another_one():
+    """Of a modulus and a stress proportional to pressure alpha = 1/p, and they do not vary with temperature."""
+    law = ProportionalRheology(stress_ratio=0.04, shear_modulus_ratio=0.3)
+    touching = exponential_about(law, 0.9e9, 330.0)
+    assert float(touching.stress_pressure) == pytest.approx(1.0 / 0.9e9, rel=2e-4)
+    assert float(touching.stress_temperature) == 0.0
+    for name in ("log_stress", "log_shear_modulus"):
+        np.testing.assert_allclose(getattr(touching, name)(0.9e9, 300.0), getattr(law, name)(0.9e9, 300.0), rtol=1e-12)
+
+
+@pytest.mark.slow
+def test_another_law_of_the_oil_gives_first_values(noisy_fit, curves):
+    """The curves tell the same law from them as from the true one, at every point."""
+    law = ProportionalRheology(stress_ratio=0.04, shear_modulus_ratio=0.3)
+    found = fitted(noisy(curves), eqx.tree_at(lambda s: s.oil.rheology, mobil_scene(), law))
+    assert found.converged
+    assert found.fitted == noisy_fit.fitted
+    np.testing.assert_allclose(found.predicted, noisy_fit.predicted, rtol=1e-4)
+    assert any("touches the law of the scene's oil" in note for note in found.notes)
+    text = fitted_oil_text(found, "oil", "curves.csv", "a scene")
+    assert 'reference_temperature = "the middle of curves.csv"' in text
 
 
 def test_modulus_shows_at_one_temperature_only(curves):
