@@ -1,12 +1,14 @@
 """64-bit floats: the converter of every number that enters a scene, and the check before a solve."""
 
+from typing import Any
+
 import jax
 import numpy as np
 
 _HINT = "jaxbearing needs 64-bit floats: its tolerances of 1e-10 mean nothing in 32-bit"
 
 
-def as_float(value):
+def as_float(value: Any) -> Any:
     """The value as a float64 leaf; converter of the numeric fields of a scene.
 
     Python and numpy numbers become 0-d numpy arrays, so that they are traced (a new value never recompiles) and cost no
