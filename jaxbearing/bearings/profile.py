@@ -35,8 +35,8 @@ def roller_line(
     alike = alike_modulus(modulus)
     stiffness, ratio = palmgren_stiffness(length, alike), modulus / alike if jnp.ndim(modulus) else None
     if profile is None:
-        return StraightLine(stiffness, length, ratio)
-    return SlicedLine(stiffness, length, profile.shape, profile.n_laminae, ratio)
+        return StraightLine(stiffness, length, ratio=ratio)
+    return SlicedLine(stiffness, length, profile=profile.shape, count=profile.n_laminae, ratio=ratio)
 
 
 def own_laminae(profile: RollerProfile | None) -> int:
