@@ -254,7 +254,7 @@ def rated_by(contacts: RatedContacts, rating: Rating, turns: tuple[Array, Array]
 def _of_points(contacts: RatedContacts, rating: Rating, turns: tuple[Array, Array]) -> Rated:
     assert contacts.conformities is not None
     sizes = (contacts.n_elements, contacts.diameter, contacts.pitch_diameter, jnp.asarray(contacts.contact_angle))
-    modulus = rated_modulus(contacts.rings, contacts.elements)
+    modulus = rated_modulus(contacts.rings, contacts.elements, contacts.inner_ring)
     # the ratings' grooves; those that share the damage between the races are the bearing's own
     rated = contacts.conformities if rating.grooves == "scene" else (CATALOGUE_CONFORMITY,) * 2
     capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *rated))
@@ -285,7 +285,7 @@ def _of_lines(contacts: RatedContacts, rating: Rating, turns: tuple[Array, Array
     assert contacts.length is not None
     angle, length = jnp.asarray(contacts.contact_angle), contacts.length
     sizes = (contacts.n_elements, contacts.diameter, contacts.pitch_diameter)
-    modulus = rated_modulus(contacts.rings, contacts.elements)
+    modulus = rated_modulus(contacts.rings, contacts.elements, contacts.inner_ring)
     capacity = _given(rating.dynamic_capacity, lambda: roller_capacity(*sizes, length, angle))
     static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length, angle, modulus))
     limits = roller_contact_capacities(capacity, *sizes, angle)

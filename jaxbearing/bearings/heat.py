@@ -34,6 +34,7 @@ from ..thermal.reference_speed import radial_seat_area, reference_conductance
 from ..thermal.settings import Thermal
 from ..thermal.shares import loss_shares, node_heat
 from .flanks import by_flank
+from .parts import AbstractMaterials
 from .solution import Solution
 
 if TYPE_CHECKING:
@@ -155,14 +156,18 @@ def _given_shares(scene: AbstractBearing, thermal: Thermal) -> dict[str, dict[st
     return found
 
 
-def _elements_of(scene: AbstractBearing) -> Material:
-    return getattr(scene.materials, f"{scene.element}s")
-
-
 def _solid(material: Material) -> Solid:
     assert material.conductivity is not None
     assert material.heat_capacity is not None
     return Solid(material.conductivity, material.density, material.heat_capacity)
+
+
+def _solid_of_rings(materials: AbstractMaterials) -> Solid:
+    """The solid of both rings; of rings of two materials each field has the shape (2, 1), inner ring first."""
+    if materials.inner_ring is None:
+        return _solid(materials.rings)
+    solids = (_solid(material) for material in materials.of_rings)
+    return Solid(*(jnp.asarray(pair, dtype=float)[:, None] for pair in zip(*solids, strict=True)))
 
 
 def _joined(flanks: Sequence[Array]) -> Array:
@@ -189,7 +194,7 @@ def _contacts(scene: AbstractBearing, elements: Any) -> ContactHeat:
     own = scene.oil_temperatures
     assert own is not None
     conductivity = oil.conductivity(jnp.stack([jnp.asarray(own.inner_raceway), jnp.asarray(own.outer_raceway)]))
-    bodies = (_solid(scene.materials.rings), _solid(_elements_of(scene)))
+    bodies = (_solid_of_rings(scene.materials), _solid(scene.materials.elements))
     points, lines = scene.point_contacts(elements), scene.race_lines(elements)
     # an empty contact has no size
     some = load > 0.0
@@ -213,7 +218,7 @@ def _between(
     """Conductances between the nodes, W/K."""
     geometry, given = scene.geometry, thermal.conductance
     through = jnp.sum(contacts.conductance, axis=1) + oil_filling_conductance(
-        _elements_of(scene).conductivity, scene.element_diameter, scene.n_elements
+        scene.materials.elements.conductivity, scene.element_diameter, scene.n_elements
     )
     inner, outer = scene.raceway_diameters
     transfer, fit = _oil_transfer(scene, solution, temperatures["oil"]), solution.fit
@@ -308,19 +313,19 @@ def _capacities(scene: AbstractBearing) -> list[tuple[str, Scalar | None]]:
 
 def _own_capacities(scene: AbstractBearing) -> dict[str, Scalar]:
     """Heat capacities of rings, elements and oil as far as they follow from the scene."""
-    geometry, rings, balls, oil = scene.geometry, scene.materials.rings, _elements_of(scene), scene.oil
+    geometry, rings, balls, oil = scene.geometry, scene.materials.of_rings, scene.materials.elements, scene.oil
     sizes = (geometry.bore, geometry.outside_diameter, geometry.width)
-    if any(size is None for size in sizes) or rings.heat_capacity is None or balls.heat_capacity is None:
+    if any(size is None for size in sizes) or any(one.heat_capacity is None for one in (*rings, balls)):
         return {}
     inner, outer = scene.raceway_diameters
-    of_ring = (geometry.width, rings.density, rings.heat_capacity)
+    of_ring = [(geometry.width, ring.density, ring.heat_capacity) for ring in rings]
     one = math.pi / 6.0 * jnp.power(scene.element_diameter, 3.0)
     if scene.line_contacts:
         one = 0.25 * math.pi * jnp.square(scene.element_diameter) * geometry.roller_length
     volume = scene.n_elements * one
     found = {
-        "inner_ring": ring_capacity(geometry.bore, inner, *of_ring),
-        "outer_ring": ring_capacity(outer, geometry.outside_diameter, *of_ring),
+        "inner_ring": ring_capacity(geometry.bore, inner, *of_ring[0]),
+        "outer_ring": ring_capacity(outer, geometry.outside_diameter, *of_ring[1]),
         "elements": volume * balls.density * balls.heat_capacity,
     }
     if has_flow(scene):

@@ -75,7 +75,7 @@ def mounting_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
     if temperatures is None and scene.thermal is None:
         return
     materials: dict[str, Material | None] = {
-        "materials.rings": scene.materials.rings,
+        **{f"materials.{name}": material for name, material in scene.materials.named_rings.items()},
         f"materials.{scene.element}s": getattr(scene.materials, f"{scene.element}s"),
         "fits.shaft_material": fits.shaft_material if fits.on_shaft else None,
         "fits.housing_material": fits.housing_material if fits.in_housing else None,
@@ -181,7 +181,7 @@ def _rings(scene: AbstractBearing, warm: Array | bool, turning: Array | bool) ->
         return jnp.where(warm, found - REFERENCE_TEMPERATURE, 0.0)
 
     names, sizes = _seats_of(fits), [(bore, raceways[0]), (raceways[1], outside)]
-    bodies = _bodies([scene.materials.rings] * 2, sizes, speeds, warming("inner_ring", "outer_ring"), cold)
+    bodies = _bodies(list(scene.materials.of_rings), sizes, speeds, warming("inner_ring", "outer_ring"), cold)
     growth, pressures, seats = bodies.free(raceways), jnp.zeros(2), None
     if names:
         sides = slice(0 if "shaft" in names else 1, 2 if "housing" in names else 1)

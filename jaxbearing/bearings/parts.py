@@ -14,7 +14,7 @@ from .._types import Scalar
 from ..contacts.laws import ContactLaws
 from ..gaps import air_density, mixture_density, saturated_oil_fraction
 from ..lubricants import Lubricant
-from ..materials import Material
+from ..materials import Material, reduced_modulus
 from ..numerics.checks import Checked, demand, known, numbers_or_none
 from ..numerics.safe import safe_norm
 from .operation import AbstractOperation
@@ -47,12 +47,49 @@ class AbstractGeometry(Checked):
         """Diameter of a rolling element, at its middle, m."""
 
 
-class Materials(eqx.Module):
-    """Solids of a roller bearing: `rings`, `rollers` and, for the dynamics, `cage`."""
+class AbstractMaterials(eqx.Module):
+    """Solids of a bearing. `rings` is the material of both rings, or of the outer one alone where `inner_ring` is
+    given."""
+
+    rings: eqx.AbstractVar[Material]
+    inner_ring: eqx.AbstractVar[Material | None]
+
+    @property
+    @abc.abstractmethod
+    def elements(self) -> Material:
+        """The material of the rolling elements."""
+
+    @property
+    def of_rings(self) -> tuple[Material, Material]:
+        """The materials of the inner and of the outer ring."""
+        return (self.rings if self.inner_ring is None else self.inner_ring), self.rings
+
+    @property
+    def named_rings(self) -> dict[str, Material]:
+        """The materials of the rings, by their fields."""
+        return {"rings": self.rings} | ({} if self.inner_ring is None else {"inner_ring": self.inner_ring})
+
+    @property
+    def race_modulus(self) -> Float[Array, ""] | Float[Array, "2 1"]:
+        """E' of the elements on the raceways, Pa: one number where both rings are of one material, else of shape
+        (2, 1), inner race first."""
+        if self.inner_ring is None:
+            return reduced_modulus(self.rings, self.elements)
+        return jnp.stack([reduced_modulus(ring, self.elements) for ring in self.of_rings])[:, None]
+
+
+class Materials(AbstractMaterials):
+    """Solids of a roller bearing: `rings`, `rollers` and, for the dynamics, `cage`; `inner_ring`: where it is of
+    another material than `rings`, which is that of the outer ring then."""
 
     rings: Material
     rollers: Material
     cage: Material | None = None
+    inner_ring: Material | None = None
+
+    @property
+    def elements(self) -> Material:
+        return self.rollers
 
 
 class DragSettings(Checked):

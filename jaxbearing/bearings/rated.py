@@ -18,7 +18,7 @@ class RatedContacts(NamedTuple):
     **Arguments:**
     - `n_elements`, `diameter`, `pitch_diameter`: of the rolling elements; m.
     - `contact_angle`: nominal one, for which ratings are made, rad.
-    - `rings`, `elements`: their materials.
+    - `rings`, `elements`: their materials; `inner_ring`: where it is of another material than `rings`.
     - `inner`, `outer`: loads on the raceways, N, one an element; of line contacts in laminae one a lamina as well.
     - `second`: loads on the second flanks of the inner and the outer raceway, N, one an element, of rings with two
       groove arcs; `None` of rings with one.
@@ -44,6 +44,7 @@ class RatedContacts(NamedTuple):
     profiled: bool = False
     radial_load: Array | None = None
     axial_load: Array | None = None
+    inner_ring: Material | None = None
 
 
 def sizes_of_loads(

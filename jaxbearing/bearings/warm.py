@@ -105,7 +105,7 @@ def _lacking_sizes(scene: AbstractBearing, thermal: Thermal) -> Iterator[str]:
 def _lacking_of_materials(scene: AbstractBearing, thermal: Thermal) -> Iterator[str]:
     if thermal.nodes == 1:
         return
-    names = ("rings", f"{scene.element}s")
+    names = (*scene.materials.named_rings, f"{scene.element}s")
     for name in names:
         for field, example in (("conductivity", "46 W/(m*K)"), ("heat_capacity", "460 J/(kg*K)")):
             if getattr(getattr(scene.materials, name), field) is None:

@@ -64,6 +64,7 @@ from .thermal import inlet_temperature_rise as inlet_temperature_rise
 from .tilted_line import AbstractTiltedLine as AbstractTiltedLine
 from .tilted_line import SlicedLine as SlicedLine
 from .tilted_line import StraightLine as StraightLine
+from .tilted_line import alike_modulus as alike_modulus
 from .tilted_line import lamina_points as lamina_points
 from .tilted_line import palmgren_stiffness as palmgren_stiffness
 from .traction import AbstractTraction as AbstractTraction

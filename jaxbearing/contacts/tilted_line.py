@@ -6,6 +6,7 @@ homogeneous. All of it is the gradient of an energy, $Q = \partial w/\partial f$
 """
 
 import abc
+import dataclasses
 
 import equinox as eqx
 import jax
@@ -38,16 +39,39 @@ def palmgren_stiffness(length: Scalar, reduced_modulus: Scalar) -> Float[Array, 
     return jnp.asarray(reduced_modulus / (8.0 * 0.39**EXPONENT) * length ** (-1.0 / 9.0))
 
 
+def alike_modulus(reduced_modulus: Float[Array, ""] | Float[Array, "2 1"]) -> Float[Array, ""]:
+    r"""E' of two contacts that are alike and that a load brings as near as both contacts of a roller together, Pa:
+    $\delta\propto E'^{-9/10}$ at a load. **Arguments:** one number for both, or inner and outer."""
+    if not jnp.ndim(reduced_modulus):
+        return reduced_modulus
+    return jnp.mean(reduced_modulus ** (-1.0 / EXPONENT)) ** -EXPONENT
+
+
 class AbstractTiltedLine(Checked):
     """Load of a contact whose approach is f + g s, m; s from one end of the roller, m.
 
     **Arguments:**
     - `stiffness`: K of the line load by the approach, N/m^(19/9), > 0.
     - `length`: of the contact, m, > 0.
+    - `ratio`: of contacts with the inner and the outer race that differ, K of either over `stiffness`, against
+      approaches with races on the last axis but one; `None`: all contacts are alike.
     """
 
     stiffness: eqx.AbstractVar[Scalar]
     length: eqx.AbstractVar[Scalar]
+    ratio: eqx.AbstractVar[Float[Array, "2 1"] | None]
+
+    def of_race(self, race: int) -> "AbstractTiltedLine":
+        """The contact with one race alone. **Arguments:** `race`: 0 inner, 1 outer."""
+        if self.ratio is None:
+            return self
+        return dataclasses.replace(self, stiffness=self.stiffness * self.ratio[race, 0], ratio=None)
+
+    def _constant(self, axes: int) -> Values:
+        """K of all contacts, N/m^(19/9). **Arguments:** `axes`: number of axes of what it is multiplied with."""
+        if self.ratio is None:
+            return self.stiffness
+        return self.stiffness * jnp.expand_dims(self.ratio, range(axes - 2))
 
     @abc.abstractmethod
     def load_and_moment(self, f: Values, g: Values) -> tuple[Float[Array, "..."], Float[Array, "..."]]:
@@ -64,7 +88,7 @@ class AbstractTiltedLine(Checked):
     def load_per_length(self, f: Values, g: Values, position: Values) -> Float[Array, "..."]:
         """q, N/m, at a place s/l."""
         approach = f + g * self.length * position - self.drop(position)
-        return self.stiffness * positive_power(approach, EXPONENT)
+        return self._constant(jnp.ndim(approach)) * positive_power(approach, EXPONENT)
 
     def laminae(self, f: Float[Array, " batch"], g: Float[Array, " batch"], count: int) -> Float[Array, "batch lamina"]:
         """Loads of `count` equal laminae, N, by two Gauss-Legendre points in each."""
@@ -85,6 +109,7 @@ class StraightLine(AbstractTiltedLine):
 
     stiffness: Scalar = bounded("> 0")
     length: Scalar = bounded("> 0")
+    ratio: Float[Array, "2 1"] | None = None
 
     def drop(self, position: Values) -> Float[Array, "..."]:
         return jnp.zeros_like(jnp.asarray(position, dtype=float))
@@ -92,12 +117,13 @@ class StraightLine(AbstractTiltedLine):
     def load_and_moment(self, f: Values, g: Values) -> tuple[Float[Array, "..."], Float[Array, "..."]]:
         f, g, length = (jnp.asarray(value, dtype=float) for value in (f, g, self.length))
         load, moment = _straight(*jnp.broadcast_arrays(f, g, length))
-        return self.stiffness * load, self.stiffness * moment
+        constant = self._constant(load.ndim)
+        return constant * load, constant * moment
 
     def energy(self, f: Values, g: Values) -> Float[Array, "..."]:
         f, g, length = (jnp.asarray(value, dtype=float) for value in (f, g, self.length))
         total = _sums(*jnp.broadcast_arrays(f, g, length), power=2, orders=1)[0]
-        return self.stiffness / (EXPONENT + 1.0) * total
+        return self._constant(total.ndim) / (EXPONENT + 1.0) * total
 
 
 def _ninth_power(x: Array, whole: int) -> Array:
@@ -168,6 +194,7 @@ class SlicedLine(AbstractTiltedLine):
     length: Scalar = bounded("> 0")
     profile: AbstractProfile | None = None
     count: int = whole("count", 30, least=1)
+    ratio: Float[Array, "2 1"] | None = None
 
     def drop(self, position: Values) -> Float[Array, "..."]:
         if self.profile is None:
@@ -185,13 +212,13 @@ class SlicedLine(AbstractTiltedLine):
 
     def load_and_moment(self, f: Values, g: Values) -> tuple[Float[Array, "..."], Float[Array, "..."]]:
         place, weight, approach = self._points(f, g)
-        load = self.stiffness * self.length * weight * positive_power(approach, EXPONENT)
+        load = self._constant(approach.ndim) * self.length * weight * positive_power(approach, EXPONENT)
         return jnp.sum(load, axis=0), self.length * jnp.sum(load * place, axis=0)
 
     def energy(self, f: Values, g: Values) -> Float[Array, "..."]:
         _, weight, approach = self._points(f, g)
         each = weight * positive_power(approach, EXPONENT + 1.0)
-        return self.stiffness * self.length / (EXPONENT + 1.0) * jnp.sum(each, axis=0)
+        return self._constant(each.ndim - 1) * self.length / (EXPONENT + 1.0) * jnp.sum(each, axis=0)
 
 
 def lamina_points(count: int) -> tuple[np.ndarray, np.ndarray]:

@@ -20,13 +20,15 @@ STEEL_MODULUS = 2.2747252747252747e11
 """E' of the steel (207 GPa, 0.3) for which ratings are made, Pa."""
 
 
-def rated_modulus(rings: Material, elements: Material) -> Float[Array, ""]:
+def rated_modulus(rings: Material, elements: Material, inner_ring: Material | None = None) -> Float[Array, ""]:
     """E' for the static rating, Pa: that of the standard's steel on itself, times E' of the rolling elements on the
-    rings over that of the rings on themselves. The grade of steel does not count: ISO 76 gives all one rating.
+    inner ring, whose contact is rated, over that of `rings` on themselves. The grade of steel does not count: ISO 76
+    gives all one rating.
 
-    **Validity:** steel rings.
+    **Validity:** `rings` of steel. **Arguments:** `inner_ring`: where it is of another material than `rings`.
     """
-    return STEEL_MODULUS * reduced_modulus(rings, elements) / reduced_modulus(rings, rings)
+    inner = rings if inner_ring is None else inner_ring
+    return STEEL_MODULUS * reduced_modulus(inner, elements) / reduced_modulus(rings, rings)
 
 
 def ball_static_capacity(

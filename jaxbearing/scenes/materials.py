@@ -8,6 +8,7 @@ from pydantic import BeforeValidator, Discriminator, Tag
 from ..materials import CATALOGUE, THERMAL_FIELDS, Material, catalogue_material, material_named
 from . import units
 from .errors import nearest, one_of
+from .table import Table
 from .table_of import table_of
 from .words import describe
 
@@ -58,3 +59,14 @@ def material(given: str | MaterialTable, *, thermal: bool = False) -> Material:
         return catalogue_material(given, thermal=thermal)
     named = given.model_dump(exclude_none=True, exclude=set() if thermal else THERMAL_FIELDS)
     return Material(**{name: np.float64(value) for name, value in named.items()})
+
+
+class RingMaterialsTable(Table):
+    """Materials of the rings of a bearing.
+
+    - `rings`: material of both rings, or of the outer one alone where `inner_ring` is given
+    - `inner_ring`: material of the inner ring; not given: that of `rings`
+    """
+
+    rings: MaterialField
+    inner_ring: MaterialField | None = None

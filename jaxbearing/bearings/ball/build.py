@@ -12,7 +12,6 @@ from jaxtyping import Array, Float
 
 from ...gaps import ReynoldsDrag, RollerDrag, ball_frontal_area
 from ...gaps.ball_pocket import BallPocket
-from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowPoint
 from ...numerics.safe import safe_norm
 from ..elastic_ring import BentRings, ElasticRing, elastic_ring
@@ -92,7 +91,7 @@ def ball_row(scene: BallBearing, exact: bool, ring: InnerRing | None = None) -> 
 
 def ball_grooves(scene: BallBearing, expansion: Float[Array, ""] | None = None) -> Grooves:
     geometry = scene.geometry
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
+    modulus = scene.materials.race_modulus
     contacts = geometry.free_contacts(modulus)
     if scene.tilts_by_standard:
         cosine = jnp.cos(jnp.asarray(geometry.nominal_angle))
@@ -159,16 +158,16 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
 
 def _bending_rings(scene: BallBearing, azimuth: Float[Array, " ball"]) -> BentRings:
     """The rings of a scene that bend."""
-    material, width, (inner, outer) = scene.materials.rings, scene.geometry.width, scene.raceway_diameters
+    rings, width, (inner, outer) = scene.materials.of_rings, scene.geometry.width, scene.raceway_diameters
     return BentRings(
-        elastic_ring(scene.outer_ring, material, outer, width, azimuth),
-        elastic_ring(scene.inner_ring, material, inner, width, azimuth),
+        elastic_ring(scene.outer_ring, rings[1], outer, width, azimuth),
+        elastic_ring(scene.inner_ring, rings[0], inner, width, azimuth),
     )
 
 
 def _spread(scene: BallBearing) -> Float[Array, "2"]:
     """$(a^2 + c^2)/Q^{2/3}$ of the contacts on both races at the contact angle of the unloaded bearing, m^2/N^(2/3)."""
-    contacts = scene.geometry.free_contacts(reduced_modulus(scene.materials.rings, scene.materials.balls))
+    contacts = scene.geometry.free_contacts(scene.materials.race_modulus)
     ellipse = contacts.ellipse(SPREAD_LOAD)
     return (jnp.square(ellipse.rolling) + jnp.square(ellipse.transverse)) / SPREAD_LOAD ** (2.0 / 3.0)
 
@@ -198,7 +197,7 @@ def with_films(scene: BallBearing, core: BallCore) -> BallCore:
     assert scene.oil is not None
     laws, oil = scene.contact, scene.oil
     geometry, motion, angle = scene.geometry, core.kinematics, core.grooves.free_angle
-    contacts = geometry.free_contacts(reduced_modulus(scene.materials.rings, scene.materials.balls)).shaped()
+    contacts = geometry.free_contacts(scene.materials.race_modulus).shaped()
     rolling = motion.rolling(angle, angle, motion.outer_control(angle))
     speed = motion.races(jax.tree.map(jnp.atleast_1d, rolling), jnp.full((2, 1), angle)).mean_speed[:, 0]
     inlet = jax.tree.map(lambda leaf: leaf[:, 0] if jnp.ndim(leaf) == 2 else leaf, oil_of_races(scene))
@@ -244,7 +243,7 @@ def build_lubricated(
         **(_guesses(core, scene.slips, _guess if arcs.single else _places) if guess is None else {"guess": guess}),
         "attitude": scene.kinematics.attitude,
         "geometry": scene.geometry,
-        "reduced_modulus": reduced_modulus(scene.materials.rings, scene.materials.balls),
+        "reduced_modulus": scene.materials.race_modulus,
         "laws": scene.contact,
         "oil": scene.oil,
         "inlet": inlet,

@@ -7,7 +7,6 @@ from jaxtyping import Array, Float
 
 from ..._types import Scalar
 from ...contacts import PointContact
-from ...materials import reduced_modulus
 from ..computed import computed_results
 from ..facts import LOADED, MEAN_OF_POINT, RACEWAYS, Contacts
 from ..parts import azimuths
@@ -107,5 +106,4 @@ def _conformities(scene: BallBearing) -> tuple[Scalar, Scalar]:
 
 def contacts_at(scene: BallBearing, angle: Array, races: tuple[int, ...]) -> PointContact:
     """The contacts at contact angles, rad. **Arguments:** `races`: of each contact, 0 inner."""
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
-    return scene.geometry.contacts_on(jnp.cos(angle), races, modulus)
+    return scene.geometry.contacts_on(jnp.cos(angle), races, scene.materials.race_modulus)

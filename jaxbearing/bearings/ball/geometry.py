@@ -205,7 +205,8 @@ class BallGeometry(AbstractGeometry):
     def contacts_on(
         self, cosines: Sequence[Values] | Array, races: tuple[int, ...], reduced_modulus: Values
     ) -> PointContact:
-        """Contacts at given contact angles, shape (contact, ...). **Arguments:** `races`: of each contact, 0 inner."""
+        """Contacts at given contact angles, shape (contact, ...). **Arguments:** `races`: of each contact, 0 inner;
+        `reduced_modulus`: one number, or of shape (2, 1), inner race first."""
         ratio = self.ball_diameter / self.pitch_diameter
         half = 0.5 * jnp.asarray(self.ball_diameter)
         rolling = jnp.stack(
@@ -217,7 +218,10 @@ class BallGeometry(AbstractGeometry):
         groove = lambda f: f * self.ball_diameter / (2.0 * f - 1.0)
         conformities = (self.conformity_inner, self.conformity_outer)
         transverse = jnp.stack([jnp.asarray(groove(conformities[race])) for race in races])
-        return PointContact(rolling, transverse.reshape((len(races),) + (1,) * (rolling.ndim - 1)), reduced_modulus)
+        shape = (len(races),) + (1,) * (rolling.ndim - 1)
+        if jnp.ndim(reduced_modulus):
+            reduced_modulus = jnp.asarray(reduced_modulus)[np.asarray(races)].reshape(shape)
+        return PointContact(rolling, transverse.reshape(shape), reduced_modulus)
 
     def free_contacts(self, reduced_modulus: Values) -> PointContact:
         """Both contacts at the free contact angle, shape (2,)."""

@@ -53,7 +53,7 @@ def line_contact_of(
         raise ValueError(f"ball: found {ball}, expected a number from 0 to {geometry.n_balls - 1}")
     side = 0 if race == "inner" else 1
     operation = scene.operation
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
+    modulus = reduced_modulus(scene.materials.of_rings[side], scene.materials.balls)
     angles = (elements.contact_angle_inner, elements.contact_angle_outer)
     loads = jnp.stack([elements.load_inner, elements.load_outer])
     load = known(loads[side, ball])
@@ -77,7 +77,7 @@ def line_contact_of(
     surfaces = (kinematics.inner_race if race == "inner" else kinematics.outer_race)(motion, angles[side])
     return EHLLineContact(
         geometry=ContactGeometry(half_width * modulus / (4.0 * pressure)),
-        materials=ContactBodies(scene.materials.rings, scene.materials.balls),
+        materials=ContactBodies(scene.materials.of_rings[side], scene.materials.balls),
         oil=scene.oil,
         contact=FilmModel() if model is None else model,
         operation=ContactOperation(

@@ -22,7 +22,7 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
     """Geometry, laws and parts of lubricated balls."""
 
     geometry: BallGeometry
-    reduced_modulus: Float[Array, ""]
+    reduced_modulus: Float[Array, ""] | Float[Array, "2 1"]
     laws: PointLaws
     oil: Lubricant
     inlet: InletOil

@@ -29,6 +29,7 @@ def rated_contacts(
         pitch_diameter=geometry.pitch_diameter,
         contact_angle=geometry.nominal_angle,
         rings=scene.materials.rings,
+        inner_ring=scene.materials.inner_ring,
         elements=scene.materials.balls,
         inner=inner,
         outer=outer,

@@ -22,7 +22,7 @@ from ...contacts import PointContact
 from ...contacts.point_laws import PointLaws
 from ...gaps.ball_pocket import SUPERPOSITIONS
 from ...lubricants import Lubricant, NoPressureViscosity
-from ...materials import BALL_PRESSURE, Material, reduced_modulus
+from ...materials import BALL_PRESSURE, Material
 from ...mounting import Fits, PartTemperatures
 from ...numerics.checks import demand, numbers_or_none
 from ...numerics.newton import NewtonOptions
@@ -39,7 +39,7 @@ from ..motion.settings import Simulation
 from ..mounted import mounting_problems
 from ..operation import LOAD_FIELDS, AbstractOperation
 from ..outline import Outline
-from ..parts import DragSettings
+from ..parts import AbstractMaterials, DragSettings
 from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
@@ -94,12 +94,18 @@ class BallOperation(AbstractOperation):
             )
 
 
-class BallMaterials(eqx.Module):
-    """Solids of a ball bearing: `rings`, `balls` and, for the motion in time, `cage`."""
+class BallMaterials(AbstractMaterials):
+    """Solids of a ball bearing: `rings`, `balls` and, for the motion in time, `cage`; `inner_ring`: where it is of
+    another material than `rings`, which is that of the outer ring then."""
 
     rings: Material
     balls: Material
     cage: Material | None = None
+    inner_ring: Material | None = None
+
+    @property
+    def elements(self) -> Material:
+        return self.balls
 
 
 class BallAttitude(eqx.Module):
@@ -339,7 +345,7 @@ class BallBearing(AbstractMovingBearing):
 
     def point_contacts(self, elements: "BallResults") -> PointContact:
         cosines = (jnp.cos(elements.contact_angle_inner), jnp.cos(elements.contact_angle_outer))
-        return self.geometry.contacts(*cosines, reduced_modulus(self.materials.rings, self.materials.balls))
+        return self.geometry.contacts(*cosines, self.materials.race_modulus)
 
     @property
     def tilts_by_standard(self) -> bool:

@@ -120,7 +120,7 @@ def overload(scene: BallBearing) -> Float[Array, ""]:
         axial = axial + jnp.abs(operation.axial_load)
     share = 0.6 if radial_row else 0.5
     equivalent = jnp.maximum(radial, share * radial + jnp.minimum(0.58 - 0.008 * jnp.degrees(angle), 0.5) * axial)
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
+    modulus = reduced_modulus(scene.materials.of_rings[0], scene.materials.balls)
     rolling = 0.5 * geometry.ball_diameter * (1.0 - geometry.ball_diameter / geometry.pitch_diameter * jnp.cos(angle))
     transverse = geometry.conformity_inner * geometry.ball_diameter / (2.0 * geometry.conformity_inner - 1.0)
     ratio, radius = transverse / rolling, 1.0 / (1.0 / rolling + 1.0 / transverse)

@@ -36,6 +36,7 @@ def rated_contacts(
         pitch_diameter=geometry.pitch_diameter,
         contact_angle=0.0,
         rings=scene.materials.rings,
+        inner_ring=scene.materials.inner_ring,
         elements=scene.materials.rollers,
         inner=loads[0],
         outer=loads[1],

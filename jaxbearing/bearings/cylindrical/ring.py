@@ -19,8 +19,8 @@ def roller_ring(scene: CylindricalRollerBearing, lever: Array) -> InnerRing:
 
 def bending_rings(scene: CylindricalRollerBearing, azimuth: Float[Array, " roller"]) -> BentRings:
     """The rings of a scene that bend. **Arguments:** `azimuth`: of the rollers, rad."""
-    material, (inner, outer) = scene.materials.rings, scene.raceway_diameters
+    rings, (inner, outer) = scene.materials.of_rings, scene.raceway_diameters
     return BentRings(
-        elastic_ring(scene.outer_ring, material, outer, scene.ring_width, azimuth),
-        elastic_ring(scene.inner_ring, material, inner, scene.ring_width, azimuth),
+        elastic_ring(scene.outer_ring, rings[1], outer, scene.ring_width, azimuth),
+        elastic_ring(scene.inner_ring, rings[0], inner, scene.ring_width, azimuth),
     )

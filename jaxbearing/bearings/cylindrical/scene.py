@@ -18,7 +18,6 @@ from jaxtyping import Array
 from ..._types import Scalar
 from ...contacts import LineContact, RigidRollingResistance
 from ...lubricants import Lubricant, NoPressureViscosity
-from ...materials import reduced_modulus
 from ...mounting import Fits, PartTemperatures
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
@@ -288,7 +287,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         length = jnp.asarray(self.geometry.loaded_length)
         roller, races = 0.5 * jnp.asarray(self.geometry.roller_diameter), jnp.stack(self.raceway_diameters)[:, None]
         radii = 1.0 / (1.0 / roller + jnp.asarray([[2.0], [-2.0]]) / races)
-        return LineContact(radii, length, reduced_modulus(self.materials.rings, self.materials.rollers))
+        return LineContact(radii, length, self.materials.race_modulus)
 
     def unused_parts(self) -> tuple[str, ...]:
         """Tables that the scene names but that have no effect without traction on the raceways."""

@@ -3,9 +3,8 @@
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ...contacts import LineContact, palmgren_stiffness
+from ...contacts import LineContact, alike_modulus, palmgren_stiffness
 from ...gaps import Flange, Pocket, PocketEdge, RollerDrag
-from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results, assemble
@@ -55,7 +54,7 @@ def build_system(
     contact = LineContact(
         reduced_radius=radii[:, None],
         length=jnp.asarray(geometry.loaded_length),
-        reduced_modulus=jnp.asarray(reduced_modulus(scene.materials.rings, scene.materials.rollers)),
+        reduced_modulus=scene.materials.race_modulus,
     )
     clearance, held = jnp.asarray(geometry.diametral_clearance) / 2.0, None
     form, bent = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth), bending_rings(scene, azimuth)
@@ -63,7 +62,7 @@ def build_system(
         held = jnp.einsum("f,fn->n", ring.held[1:3], cosines)
         if ring.expansion is not None:
             held = held + ring.expansion
-        stiffness = palmgren_stiffness(contact.length, contact.reduced_modulus)
+        stiffness = palmgren_stiffness(contact.length, alike_modulus(contact.reduced_modulus))
         pressed = held - clearance if form is None else held + form - clearance
         asked = pressed_load(stiffness, contact.length, pressed, jnp.zeros(()))
         asked = jnp.sum(asked) + LEAST_LOAD

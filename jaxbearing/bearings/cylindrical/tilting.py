@@ -109,7 +109,7 @@ class TiltingRollers(AbstractRowSystem):
     def _between(self, inward: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
         """First guess of the rollers where the inner race has come nearer by `inward`, m."""
         half = 0.5 * (inward - self.radial_clearance)
-        seat = (self.centrifugal / (self.line.stiffness * self.line.length)) ** 0.9
+        seat = (self.centrifugal / (self.line.of_race(1).stiffness * self.line.length)) ** 0.9
         out = jnp.maximum(half, seat) / LENGTH_UNIT
         return jnp.stack([out, jnp.zeros_like(out)])
 
@@ -145,13 +145,13 @@ class TiltingRollers(AbstractRowSystem):
     def seated(self, point: ArrowPoint) -> ArrowPoint:
         """The point with each roller that does not reach the inner race seated on the outer one, held there by its
         centrifugal force; a profile is the same on both sides of the middle, so that it does not tilt."""
-        length, zero = jnp.asarray(self.line.length), jnp.zeros(())
+        line, length, zero = self.line.of_race(1), jnp.asarray(self.line.length), jnp.zeros(())
         position = jnp.linspace(0.0, 1.0, 101)
-        high = (self.centrifugal / (self.line.stiffness * length)) ** 0.9 + jnp.max(self.line.drop(position))
+        high = (self.centrifugal / (line.stiffness * length)) ** 0.9 + jnp.max(line.drop(position))
 
         def halved(_: Array, ends: tuple[Array, Array]) -> tuple[Array, Array]:
             middle = 0.5 * (ends[0] + ends[1])
-            heavy = self.line.load_and_moment(middle, zero)[0] > self.centrifugal
+            heavy = line.load_and_moment(middle, zero)[0] > self.centrifugal
             return jnp.where(heavy, ends[0], middle), jnp.where(heavy, middle, ends[1])
 
         depth = jax.lax.fori_loop(0, HALVINGS, halved, (zero, high))[1]

@@ -12,11 +12,10 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ...contacts import LineContact, palmgren_stiffness
+from ...contacts import LineContact
 from ...contacts.laws import ContactState
 from ...contacts.oil_supply import Starvation
 from ...lubricants import InletOil
-from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowPoint, linearize
 from ...numerics.newton import NewtonOptions, newton_solve
 from ...numerics.status import Status
@@ -46,7 +45,7 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
     columns = _columns(azimuth, length)
     if ring is None:
         ring = roller_ring(scene, length)
-    stiffness = palmgren_stiffness(length, reduced_modulus(scene.materials.rings, scene.materials.rollers))
+    line = roller_line(scene.profile, scene.materials.race_modulus, length)
     motion = roller_kinematics(scene.geometry, scene.operation)
     mass = scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length
     held = jnp.einsum("f,fcn->cn", ring.held, columns)
@@ -54,7 +53,7 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
     if form is not None:
         held = held.at[0].add(form)
     system = TiltingRollers(
-        line=roller_line(scene.profile, stiffness, length),
+        line=line,
         azimuth=azimuth,
         columns=ring.of_unknown(columns),
         held=held if ring.expansion is None else held.at[0].add(ring.expansion),
@@ -68,7 +67,7 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
     if not ring.needs_held_load:
         return system
     pressed = system.held[0] - system.radial_clearance
-    load = jnp.sum(pressed_load(stiffness, length, pressed, system.held[1]))
+    load = jnp.sum(pressed_load(jnp.asarray(line.stiffness), length, pressed, system.held[1]))
     if system.outer is not None:
         load = load + system.outer.given_load()
     return dataclasses.replace(system, ring=ring.with_held_load(load))
@@ -118,7 +117,7 @@ def _results(
     )
     count = own_laminae(scene.profile)
     cut = lambda number: jnp.stack(
-        [system.line.laminae(state.approach[side], state.slope[side], number) for side in (0, 1)]
+        [system.line.of_race(side).laminae(state.approach[side], state.slope[side], number) for side in (0, 1)]
     )
     laminae = cut(count)
     rated = rated_laminae(scene.rating, count)
@@ -127,7 +126,7 @@ def _results(
     contact = LineContact(
         (1.0 / (1.0 / motion.roller_radius + curvatures))[:, None],
         jnp.asarray(system.line.length),
-        reduced_modulus(scene.materials.rings, scene.materials.rollers),
+        scene.materials.race_modulus,
     )
     if scene.profile is None:
         # what is straight carries most at an end
@@ -180,7 +179,8 @@ def _films(
         return {}, None, None
     inlet = oil_of_races(scene)
     # of laminae, the last axis
-    inlet_along = jax.tree.map(lambda values: values[..., None] if jnp.ndim(values) else values, inlet)
+    along = lambda tree: jax.tree.map(lambda values: values[..., None] if jnp.ndim(values) else values, tree)
+    inlet_along = along(inlet)
     speed = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))[0][:, None]
 
     def loaded(one: LineContact, load: Array, speed: Array, inlet: InletOil) -> tuple[Array, ContactState]:
@@ -189,7 +189,8 @@ def _films(
         return carries, laws.evaluate(one, safe, speed + 0.0 * safe, 0.0 * safe, oil, inlet)
 
     carries, whole = loaded(contact, load, speed, inlet)
-    each = LineContact(contact.reduced_radius[..., None], contact.length / laminae.shape[2], contact.reduced_modulus)
+    radius, modulus = along((contact.reduced_radius, contact.reduced_modulus))
+    each = LineContact(radius, contact.length / laminae.shape[2], modulus)
     if inlet.flow is not None:
         # of each lamina its share
         inlet_along = dataclasses.replace(inlet_along, flow=inlet.flow / laminae.shape[2])

@@ -6,8 +6,6 @@ from typing import NamedTuple
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ...contacts import palmgren_stiffness
-from ...materials import reduced_modulus
 from ..elastic_ring import BentRings, elastic_ring
 from ..parts import azimuths
 from ..profile import pressed_load, roller_line
@@ -104,15 +102,14 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
     columns = ring_columns(azimuth, lever, jnp.asarray(operation.load_position))
     if ring is None:
         ring = inner_ring(scene, lever)
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
+    modulus = scene.materials.race_modulus
     length = jnp.asarray(geometry.roller_length)
-    stiffness = palmgren_stiffness(length, modulus)
     body = roller_body(geometry, jnp.asarray(scene.materials.rollers.density))
     held = jnp.einsum("f,fcn->cn", ring.held, columns)
     bent = _bending_rings(scene, azimuth)
     system = TaperedSystem(
         form=tapered_form(geometry),
-        line=roller_line(scene.profile, stiffness, length),
+        line=roller_line(scene.profile, modulus, length),
         flange_stiffness=geometry.flange_contact(modulus).stiffness_constant(),
         inertia=roller_inertia(geometry, body, rolling_motion(geometry, operation)),
         columns=ring.of_unknown(columns),
@@ -128,15 +125,15 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
     )
     if not ring.needs_held_load:
         return system
-    return dataclasses.replace(system, ring=ring.with_held_load(_held_load(system, stiffness)))
+    return dataclasses.replace(system, ring=ring.with_held_load(_held_load(system)))
 
 
 def _bending_rings(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"]) -> BentRings:
     """The cup and the cone of a scene, if they bend."""
-    material, (inner, outer) = scene.materials.rings, scene.raceway_diameters
+    rings, (inner, outer) = scene.materials.of_rings, scene.raceway_diameters
     return BentRings(
-        elastic_ring(scene.outer_ring, material, outer, scene.ring_width, azimuth),
-        elastic_ring(scene.inner_ring, material, inner, scene.ring_width, azimuth),
+        elastic_ring(scene.outer_ring, rings[1], outer, scene.ring_width, azimuth),
+        elastic_ring(scene.inner_ring, rings[0], inner, scene.ring_width, azimuth),
     )
 
 
@@ -153,12 +150,12 @@ def _out_of_round(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"])
     return jnp.stack([closing, -opening])
 
 
-def _held_load(system: TaperedSystem, stiffness: Array) -> Float[Array, ""]:
+def _held_load(system: TaperedSystem) -> Float[Array, ""]:
     """Estimates the load that the given displacements of the ring ask for, N."""
     pressed = system.pressed(system.held)
     if system.out_of_round is not None:
         pressed = pressed + jnp.sum(system.out_of_round, axis=0)
     load = system.multiplicity * jnp.sum(
-        pressed_load(stiffness, jnp.asarray(system.line.length), pressed, system.held[2])
+        pressed_load(jnp.asarray(system.line.stiffness), jnp.asarray(system.line.length), pressed, system.held[2])
     )
     return load if system.outer is None else load + system.outer.given_load()

@@ -40,7 +40,6 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ..._types import Scalar
 from ...contacts import LineContact, PointContact, Sliding, Traction
 from ...contacts.laws import ContactLaws
 from ...contacts.mixed import Asperities, MixedState
@@ -48,7 +47,6 @@ from ...contacts.oil_supply import Starvation
 from ...contacts.point_laws import PointFilm
 from ...gaps import RollerDrag
 from ...lubricants import InletOil, Lubricant
-from ...materials import reduced_modulus
 from ..inlet import oil_elsewhere, oil_of, oil_of_races, oil_temperature
 from ..interactions import FrictionTotals, Interaction, friction_totals
 from ..parts import drag_density
@@ -147,7 +145,7 @@ def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> Tapere
     assert scene.contact is not None
     assert oil is not None
     motion, inlet, elsewhere = rolling_motion(geometry, operation), oil_of_races(scene), oil_elsewhere(scene)
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
+    modulus = scene.materials.race_modulus
     roller = _roller(geometry)
     races = _races(geometry, scene.contact, state.load, roller.reach, motion, modulus, oil, inlet)
     rib = (
@@ -197,7 +195,7 @@ def _races(
     load: Float[Array, "2 roller"],
     reach: Array,
     motion: TaperedMotion,
-    modulus: Scalar,
+    modulus: Array,
     oil: Lubricant,
     inlet: InletOil,
 ) -> RaceFriction:
@@ -242,7 +240,7 @@ def _races(
 
 
 def _rib(
-    scene: TaperedRollerBearing, load: Float[Array, " roller"], motion: TaperedMotion, modulus: Scalar, inlet: InletOil
+    scene: TaperedRollerBearing, load: Float[Array, " roller"], motion: TaperedMotion, modulus: Array, inlet: InletOil
 ) -> RibFriction:
     laws, oil = scene.rib, scene.oil
     assert laws is not None

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from typing import Any, ClassVar
 
 import jax.numpy as jnp
-from jaxtyping import Array
+from jaxtyping import Array, Float
 
 from ..._scene import number, optional_number
 from ..._types import Scalar
@@ -20,6 +20,7 @@ from ...contacts import PointContact
 from ...numerics.checks import array_module, demand, numbers_or_none
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import count
+from ..inlet import of_inner_race
 from ..parts import FIRST_ELEMENT, AbstractGeometry
 from .usual_ends import USUAL_END_RADIUS, USUAL_RIB_HEIGHT, usual_end_radius, usual_flange_angle
 
@@ -171,11 +172,11 @@ class TaperedGeometry(AbstractGeometry):
         height = self.sphere_radius * jnp.sin(self.rib_angle) - self.end_height * jnp.sin(self.axis_angle)
         return self.big_end_radius + height
 
-    def flange_contact(self, reduced_modulus: Scalar) -> PointContact:
+    def flange_contact(self, race_modulus: Float[Array, ""] | Float[Array, "2 1"]) -> PointContact:
         """Sphere on the concave cone of the rib (eq. (53)): straight along its generator, curved around the axis, which
-        is the direction of rolling."""
+        is the direction of rolling. The rib is a part of the inner ring. **Arguments:** of the materials, Pa."""
         around = 1.0 / self.sphere_radius - jnp.sin(self.rib_angle) / self.flange_radius
-        return PointContact(1.0 / around, jnp.asarray(self.sphere_radius), reduced_modulus)
+        return PointContact(1.0 / around, jnp.asarray(self.sphere_radius), of_inner_race(race_modulus))
 
     def race_reduced_radii(self, position: Array) -> Array:
         """Reduced radii of the inner and outer contact normal to the generator at s/l, m; shape (2, ...)."""

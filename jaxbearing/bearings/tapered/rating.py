@@ -23,6 +23,7 @@ def rated_contacts(
         pitch_diameter=geometry.pitch_diameter,
         contact_angle=geometry.contact_angle,
         rings=scene.materials.rings,
+        inner_ring=scene.materials.inner_ring,
         elements=scene.materials.rollers,
         inner=laminae.inner,
         outer=laminae.outer,

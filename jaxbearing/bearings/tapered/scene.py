@@ -20,7 +20,6 @@ from ...contacts import LineContact
 from ...contacts.laws import ContactLaws
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant
-from ...materials import reduced_modulus
 from ...mounting import Fits, PartTemperatures
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
@@ -209,8 +208,7 @@ class TaperedRollerBearing(AbstractBearing):
 
     def race_lines(self, elements: "TaperedResults") -> LineContact:
         radii = self.geometry.race_reduced_radii(jnp.asarray(0.5))[:, None]
-        modulus = reduced_modulus(self.materials.rings, self.materials.rollers)
-        return LineContact(radii, jnp.asarray(self.geometry.roller_length), modulus)
+        return LineContact(radii, jnp.asarray(self.geometry.roller_length), self.materials.race_modulus)
 
     @property
     def ring_lever(self) -> Array:

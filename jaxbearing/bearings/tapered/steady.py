@@ -8,7 +8,6 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
 from ...contacts import LineContact, lamina_points
-from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowPoint, linearize
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ...numerics.safe import safe_norm
@@ -204,7 +203,7 @@ def _results(
     motion = rolling_motion(geometry, scene.operation)
     place = system.units() * result.point.elements
     pressure = line_pressure(scene, system, state)
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
+    modulus = scene.materials.race_modulus
     flange = geometry.flange_contact(modulus).hertz_pressure(state.flange_load)
     more: dict[str, Array | None] = {} if friction is None else {**_of_friction(friction, state)}
     more |= computed_results(TaperedResults, SolvedTapered(system, state, place, friction))
@@ -226,7 +225,7 @@ def _results(
     own = own_laminae(scene.profile)
     rated = rated_laminae(scene.rating, own)
     cut = lambda number: jnp.stack(
-        [system.line.laminae(state.approach[side], state.slope[side], number) for side in (0, 1)]
+        [system.line.of_race(side).laminae(state.approach[side], state.slope[side], number) for side in (0, 1)]
     )
     laminae = cut(own)
     inner_laminae, outer_laminae = (
@@ -329,7 +328,7 @@ def line_pressure(scene: TaperedRollerBearing, system: TaperedSystem, state: Tap
     summed over, so that one without load has none.
     """
     geometry = scene.geometry
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
+    modulus = scene.materials.race_modulus
     length, reach = system.line.length, geometry.apex_distance
     if scene.profile is None:
         falls = state.slope < 0
@@ -341,14 +340,15 @@ def line_pressure(scene: TaperedRollerBearing, system: TaperedSystem, state: Tap
         place = jnp.broadcast_to(places, (len(places), *state.slope.shape))
     load = system.line.load_per_length(state.approach[None], state.slope[None], place)
     radii = jnp.stack([geometry.race_reduced_radii(place[:, side])[side] for side in (0, 1)], axis=1)
-    contact = LineContact(radii, jnp.ones(()), modulus)
+    # of places, the first axis
+    contact = LineContact(radii, jnp.ones(()), modulus[None] if jnp.ndim(modulus) else modulus)
     return jnp.max(jnp.where(load > 0, contact.hertz_pressure(load), 0.0), axis=0)
 
 
 def _end_reach(scene: TaperedRollerBearing, state: TaperedState) -> Array:
     """Length by which the ellipse on the rib reaches beyond the end face, m."""
     geometry = scene.geometry
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
+    modulus = scene.materials.race_modulus
     below = geometry.sphere_radius * jnp.sin(geometry.flange_tilt)
     # across the rolling direction, along the rib's generator
     ellipse = geometry.flange_contact(modulus).ellipse(state.flange_load)

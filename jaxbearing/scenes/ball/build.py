@@ -37,7 +37,7 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
     return built(
         BallBearing,
         geometry=lambda: BallGeometry(**table.geometry.model_dump()),
-        materials=lambda: BallMaterials(**solids(table, "rings", "balls", "cage")),
+        materials=lambda: BallMaterials(**solids(table, "rings", "balls", "cage", "inner_ring")),
         operation=lambda: BallOperation(**table.operation.model_dump(exclude_none=True)),
         kinematics=lambda: _kinematics(
             table.kinematics, slips(), table.geometry.shim_inner is not None or table.geometry.shim_outer is not None

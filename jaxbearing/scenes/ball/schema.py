@@ -31,7 +31,7 @@ from ..bearing.schema import (
 from ..bearing.simulation import BallSimulationTable
 from ..kinds import KIND
 from ..laws import BALL_FILMS, POINT_ROLLING, POINT_THERMAL, TRACTIONS, TractionAccuracy
-from ..materials import MaterialField
+from ..materials import MaterialField, RingMaterialsTable
 from ..mixed import MixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
 from ..presets import Preset
@@ -47,8 +47,7 @@ class BallGeometryTable(table_of(BallGeometry)):
     }
 
 
-class BallMaterialsTable(Table):
-    rings: MaterialField
+class BallMaterialsTable(RingMaterialsTable):
     balls: MaterialField
     cage: MaterialField | None = None
 

@@ -27,7 +27,7 @@ def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRoll
     return built(
         CylindricalRollerBearing,
         geometry=lambda: RollerGeometry(**table.geometry.model_dump()),
-        materials=lambda: Materials(**solids(table, "rings", "rollers", "cage")),
+        materials=lambda: Materials(**solids(table, "rings", "rollers", "cage", "inner_ring")),
         operation=lambda: Operation(**table.operation.model_dump(exclude_none=True)),
         oil=oil,
         contact=lambda: None if table.contact is None else contact_laws(table.contact, oil()),

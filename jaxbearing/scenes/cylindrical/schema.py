@@ -28,7 +28,7 @@ from ..bearing.schema import (
 from ..bearing.simulation import SimulationTable
 from ..kinds import KIND
 from ..laws import LINE_THERMAL, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
-from ..materials import MaterialField
+from ..materials import MaterialField, RingMaterialsTable
 from ..mixed import MixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
 from ..presets import Preset
@@ -42,8 +42,7 @@ class GeometryTable(table_of(RollerGeometry)):
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {"flange_stiffness": ("flange_gap", "thrust")}
 
 
-class MaterialsTable(Table):
-    rings: MaterialField
+class MaterialsTable(RingMaterialsTable):
     rollers: MaterialField
     cage: MaterialField | None = None
 

@@ -35,7 +35,7 @@ def tapered_roller_bearing(table: TaperedRollerTable) -> TaperedRollerBearing:
     return built(
         TaperedRollerBearing,
         geometry=lambda: TaperedGeometry(**table.geometry.model_dump()),
-        materials=lambda: Materials(**solids(table, "rings", "rollers")),
+        materials=lambda: Materials(**solids(table, "rings", "rollers", "inner_ring")),
         operation=lambda: TaperedOperation(**table.operation.model_dump(exclude_none=True)),
         oil=oil,
         contact=lambda: None if table.contact is None else _laws(table.contact, oil()),

@@ -27,7 +27,7 @@ from ..bearing.simulation import WarmUpTable
 from ..cylindrical.schema import RACEWAY_LAWS, DragTable
 from ..kinds import KIND
 from ..laws import LINE_THERMAL, RIB_FILMS, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
-from ..materials import MaterialField
+from ..materials import MaterialField, RingMaterialsTable
 from ..mixed import RibMixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
 from ..presets import Preset
@@ -39,8 +39,7 @@ class TaperedGeometryTable(table_of(TaperedGeometry)):
     """See `bearings.tapered.geometry.TaperedGeometry`."""
 
 
-class TaperedMaterialsTable(Table):
-    rings: MaterialField
+class TaperedMaterialsTable(RingMaterialsTable):
     rollers: MaterialField
 
 
