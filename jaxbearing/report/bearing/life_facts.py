@@ -62,7 +62,7 @@ def lives_in_words(life: AtReliability) -> Iterator[str]:
         yield f"at {percent(share)} reliability: {'; '.join(said)}"
 
 
-def _lasting(life: AtReliability, hours: str, name: str) -> str:
+def _lasting(life: AtReliability | CatalogueLife, hours: str, name: str) -> str:
     """A life in hours and revolutions; what stands lasts no number of hours, and what carries nothing for ever."""
     time, turns = (float(np.asarray(getattr(life, one))) for one in (hours, name))
     if not math.isfinite(turns):
@@ -84,9 +84,8 @@ def life_headlines(life: AtReliability) -> Iterator[tuple[str, str]]:
 
 def catalogue_fact(life: CatalogueLife) -> tuple[str, str]:
     """Name and text of the life of loads that have no equilibrium."""
-    of = lambda name: digits(float(np.asarray(getattr(life, name))))
     load, capacity = (f"{digits(1e-3 * float(one))} kN" for one in (life.catalogue_load, life.dynamic_capacity))
-    lasting = f"{of('L10h')} h ({of('L10')} million revolutions)"
+    lasting = _lasting(life, "L10h", "L10")
     return "Catalogue life", f"needs no equilibrium: ISO 281 L10 {lasting} at 90 % reliability, P {load}, C {capacity}"
 
 
