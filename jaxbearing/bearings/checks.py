@@ -167,7 +167,7 @@ def _starved(result: SolvedBearing) -> Excess:
 def _on_edge(result: SolvedBearing) -> Excess:
     text = (
         "rollers are loaded on an edge of {place}, with more than 1.5 times their mean load per length at an end: the "
-        "peak of pressure there is higher than that of laminae, and the film thinner than at mid length"
+        "peak of pressure at the edge is higher than these results have it, and the film thinner than at mid length"
     )
 
     def on_edge(contacts: Contacts) -> Array | None:

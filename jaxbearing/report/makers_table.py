@@ -51,7 +51,7 @@ def print_comparison(found: Comparison, label: str, console: Console, full: bool
     for one in covered:
         if one.assumed:
             print_line(NAMES[one.law], f"assumed: {'; '.join(one.assumed)}", console, 20)
-    print_warnings(comparison_notes(found), console)
+    print_warnings(comparison_notes(found), console, full)
 
 
 def comparison_rows(found: Comparison) -> list[tuple[str, ...]]:

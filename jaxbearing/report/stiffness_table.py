@@ -25,7 +25,7 @@ def print_stiffness(table: StiffnessTable, scene_label: str, console: Console, f
         print_table(piece, [0.0] * len(table.speed), 0, "", console)
     for name, text in _meanings(table):
         print_line(name, text, console)
-    print_warnings(table.warnings, console)
+    print_warnings(table.warnings, console, full)
 
 
 def _meanings(table: StiffnessTable) -> Iterable[tuple[str, str]]:

@@ -13,6 +13,7 @@ from ..bearings.solution import Solution
 from ..numerics.status import Status
 from ..report.backends.json import finite, plain
 from ..report.backends.screen import counted, headline, print_line, print_rule, print_warnings, shown_pieces
+from ..report.bearing.facts import NO_LIFE, OVERLOAD, overload
 from ..report.bearing.life_facts import lives_in_words, percent
 from ..report.display import digits, with_unit
 from ..report.json_report import solution_to_dict
@@ -54,7 +55,7 @@ def print_spectrum(
         console.print(Padding(table, (0, 1)))
     for name, text in spectrum_facts(found):
         print_line(name, text, console)
-    print_warnings([*(f"{name}: {text}" for name, text in failures.items()), *_warnings(found)], console)
+    print_warnings([*(f"{name}: {text}" for name, text in failures.items()), *_warnings(found)], console, full)
 
 
 def _warnings(found: Spectrum) -> list[str]:
@@ -89,8 +90,13 @@ def spectrum_facts(found: Spectrum) -> Iterator[tuple[str, str]]:
     if found.failures:
         yield "Life", f"none: {', '.join(found.failures)} failed, and its damage is not known"
         return
+    yields = "; ".join(
+        f"{name}: {said}" for name, one in zip(found.names, found.solutions, strict=True) if (said := overload(one))
+    )
+    if yields:
+        yield OVERLOAD, f"elements and races yield, so that there is no life: {yields}"
     for text in lives_in_words(life):
-        yield "Life", text
+        yield "Life", f"{NO_LIFE}: {text}" if yields else text
     said = [f"equivalent to the contacts' loads {with_unit(float(life.equivalent_load), 'N')}"]
     if _there(life.catalogue_load):
         said.append(f"by ISO 281 P {with_unit(float(np.asarray(life.catalogue_load)), 'N')}")

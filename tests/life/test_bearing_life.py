@@ -19,7 +19,7 @@ from jaxbearing.contacts import CrownedProfile
 from jaxbearing.life.reference import roller_damage_rate
 from jaxbearing.life.result import Life
 from jaxbearing.materials import CATALOGUE, reduced_modulus
-from jaxbearing.report.bearing.life_facts import lives_in_words
+from jaxbearing.report.bearing.life_facts import life_headlines, lives_in_words
 
 STEEL = CATALOGUE["52100"]
 
@@ -122,6 +122,15 @@ def test_lives_at_the_reliability_of_the_rating():
     (only,) = lives_in_words(Life(**numbers, Lnmr=jnp.ones(()), Lnmr_hours=jnp.ones(())))
     assert only.startswith("at 90 % reliability: modified life Lnmr 1.000 h")
     assert "Lnr" not in only
+    standing = Life(
+        **(numbers | {"L10r_hours": jnp.asarray(np.inf), "L10h": jnp.asarray(np.inf), "L10": jnp.asarray(np.inf)})
+    )
+    (only,) = lives_in_words(standing)
+    assert only == "at 90 % reliability: basic reference life L10r 1.000 million revolutions; ISO 281 L10 unlimited"
+    assert dict(life_headlines(standing)) == {
+        "life L10r, 90 %": "1.000 million revolutions",
+        "life L10, 90 %": "unlimited",
+    }
     scene = jb.load_scene("angular_contact_218")
     solved = jb.solve(scene.replace({"rating": Rating()}))
     rated = bearing_life(scene.replace({"rating": Rating(reliability=0.98)}), solved)

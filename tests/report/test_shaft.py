@@ -6,6 +6,7 @@ import json
 import tomllib
 from datetime import UTC, datetime
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from filled_results import solution_of
 from rich.console import Console
 
 import jaxbearing as jb
+from jaxbearing.life.duty import SpectrumLife
 from jaxbearing.report.dataset import solution_to_dataset, write_netcdf
 from jaxbearing.report.display import digits
 from jaxbearing.report.html_report import html_report
@@ -34,7 +36,7 @@ from jaxbearing.report.shaft.stiffness import (
 )
 from jaxbearing.report.summary import print_summary
 from jaxbearing.scenes.inputs import scene_inputs
-from jaxbearing.shafts import MountedBearing
+from jaxbearing.shafts import DutyResult, MountedBearing, SystemLifeResult
 from jaxbearing.solve import solve_once
 from jaxbearing.tolerance.results import labels_of
 
@@ -104,6 +106,33 @@ def test_lives_safety_and_lubrication(scene, filled):
     page = html_report(scene, rated, "x", scene_inputs("spindle_pair", {}, scene), datetime(2026, 1, 1, tzinfo=UTC))
     for words in ("Lnmr, h, 98 %", "safety, contact", "system life L10, 90 %", "system life L10r, 90 %"):
         assert words in page
+
+
+def test_a_duty_cycle_with_a_state_that_yields_has_no_life_of_the_system(filled):
+    """A state that is not the first one: it is named first of all, and the other bearing keeps its life."""
+
+    def under(pressure, bearing):
+        found = bearing.solution
+        elements = dataclasses.replace(
+            found.elements, pressure_inner=jnp.full_like(found.elements.pressure_inner, pressure)
+        )
+        return dataclasses.replace(bearing, solution=dataclasses.replace(found, elements=elements))
+
+    fine = dataclasses.replace(filled, bearings={name: under(1e9, one) for name, one in filled.bearings.items()})
+    one = fine.bearings["pair.1"]
+    heavy = dataclasses.replace(fine, bearings=fine.bearings | {"pair.1": under(5e9, one)})
+    hours = {name: jnp.asarray(100.0) for name in ("L10r_hours", "L10r", "mean_speed", "equivalent_load")}
+    each = {name: jnp.ones(2) for name in ("revolutions", "damage", "reference_damage")}
+    lives = dict.fromkeys(fine.bearings, SpectrumLife(**hours, **each))
+    system = SystemLifeResult(L10r=hours["L10r"], L10r_hours=hours["L10r_hours"])
+    for states, yields in (((fine, fine), False), ((fine, heavy), True)):
+        stacked = jax.tree.map(lambda *leaves: jnp.stack(leaves), *states)
+        duty = DutyResult(lives, system, jnp.asarray([0.9, 0.1]), stacked, ("idle", "shock"))
+        shown = " ".join(screen(print_summary, dataclasses.replace(fine, duty=duty), "a shaft").split())
+        assert ("pair.1 in state shock 5.000 GPa on the inner raceway" in shown) == yields
+        assert shown.count("System life at 90 %") == (0 if yields else 2)
+        assert ("pair.1 at 90 % reliability" in shown) != yields
+        assert "pair.2 at 90 % reliability" in shown
 
 
 def _with_life(one, life):

@@ -6,6 +6,7 @@ import pytest
 
 import jaxbearing as jb
 from jaxbearing.bearings.rating import Rating
+from jaxbearing.spectrum.tables import spectrum_facts
 
 LOADS = {"cruise": 15e3, "start": 40e3}
 RATING = Rating(viscosity_ratio=1.5, contamination_factor=0.5)
@@ -51,6 +52,18 @@ def test_two_states(scene, plain):
     np.testing.assert_allclose(found["start"].life.L10r, plain["start"].L10r, rtol=1e-10)
     with pytest.raises(KeyError, match="no state 'stop'"):
         found["stop"]
+
+
+def test_a_state_that_yields_is_named_before_the_life(scene):
+    """4 GPa is the limit of line contacts; the raw life stays what the formulas give."""
+    found = jb.solve_spectrum(scene, [state("cruise", 0.9, 15e3), state("start", 0.1, 1e6)])
+    (name, said), *others = spectrum_facts(found)
+    assert (name, said.count("cruise:"), said.count("start:")) == ("Overload", 0, 1)
+    assert all(text.startswith("none, because it yields") for title, text in others if title == "Life")
+    assert float(found.life.L10r) > 0.0
+    fine = dict(spectrum_facts(jb.solve_spectrum(scene, [state("cruise", 1.0, 15e3)])))
+    assert "Overload" not in fine
+    assert "none" not in fine["Life"]
 
 
 def test_a_state_that_fails_is_named_and_there_is_no_life():

@@ -1,5 +1,6 @@
 """Facts about the life of a bearing, in words: lives, ratings and loads, static safety, least load, lubrication."""
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -56,24 +57,35 @@ def repeated_lives(life: AtReliability | None) -> set[str]:
 
 def lives_in_words(life: AtReliability) -> Iterator[str]:
     """A text for each reliability that lives are known at, hours before revolutions."""
-    of = lambda name: digits(float(np.asarray(getattr(life, name))))
     for share, names in known_lives(life).items():
-        said = [f"{words} {of(hours)} h ({of(name)} million revolutions)" for name, (hours, words) in names.items()]
+        said = [f"{words} {_lasting(life, hours, name)}" for name, (hours, words) in names.items()]
         yield f"at {percent(share)} reliability: {'; '.join(said)}"
+
+
+def _lasting(life: AtReliability | CatalogueLife, hours: str, name: str) -> str:
+    """A life in hours and revolutions; what stands lasts no number of hours, and what carries nothing for ever."""
+    time, turns = (float(np.asarray(getattr(life, one))) for one in (hours, name))
+    if not math.isfinite(turns):
+        return "unlimited"
+    counted = f"{digits(turns)} million revolutions"
+    return f"{digits(time)} h ({counted})" if math.isfinite(time) else counted
 
 
 def life_headlines(life: AtReliability) -> Iterator[tuple[str, str]]:
     """Name and text of the lives at the top of a page, in hours, each with its reliability."""
     for share, names in known_lives(life).items():
         for name, hours in ((name, names[name][0]) for name in _FIRST if name in names):
-            yield f"life {name}, {percent(share)}", f"{digits(float(np.asarray(getattr(life, hours))))} h"
+            time = float(np.asarray(getattr(life, hours)))
+            yield (
+                f"life {name}, {percent(share)}",
+                f"{digits(time)} h" if math.isfinite(time) else _lasting(life, hours, name),
+            )
 
 
 def catalogue_fact(life: CatalogueLife) -> tuple[str, str]:
     """Name and text of the life of loads that have no equilibrium."""
-    of = lambda name: digits(float(np.asarray(getattr(life, name))))
     load, capacity = (f"{digits(1e-3 * float(one))} kN" for one in (life.catalogue_load, life.dynamic_capacity))
-    lasting = f"{of('L10h')} h ({of('L10')} million revolutions)"
+    lasting = _lasting(life, "L10h", "L10")
     return "Catalogue life", f"needs no equilibrium: ISO 281 L10 {lasting} at 90 % reliability, P {load}, C {capacity}"
 
 

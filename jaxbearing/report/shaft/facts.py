@@ -3,13 +3,14 @@
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+import jax
 import numpy as np
 
 from ..._checks import about
 from ...bearings.solution import RING_FREEDOMS
 from ...life.duty import IN_HOURS
 from ...life.result import Life
-from ...shafts.solution import BearingOnShaft, SetResult, ShaftSolution
+from ...shafts.solution import BearingOnShaft, DutyResult, SetResult, ShaftSolution
 from ..backends.json import finite
 from ..bearing.facts import OVERLOAD, bending, overload
 from ..bearing.life_facts import AT_RELIABILITY, lives_in_words, percent
@@ -163,10 +164,32 @@ def system_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
 
 
 def overloads(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
-    """The bearings that yield, which have no life, nor has the system."""
-    texts = [f"{name} {_yielding(one)}" for name, one in solution.bearings.items() if _yielding(one)]
+    """The bearings that yield, in any state of a duty cycle, which have no life, nor has the system."""
+    states = {"": solution} if solution.duty is None else dict(_states(solution.duty))
+    texts = [
+        f"{name}{f' in state {state}' if state else ''} {_yielding(one)}"
+        for state, found in states.items()
+        for name, one in found.bearings.items()
+        if _yielding(one)
+    ]
     if texts:
         yield OVERLOAD, f"yield, so that neither these bearings nor the system has a life: {'; '.join(texts)}"
+
+
+def duty_lives(duty: DutyResult) -> Iterator[tuple[str, str]]:
+    """Name and text of the lives under a duty cycle: of the bearings that yield in no state, and of the system if none
+    does."""
+    yielding = {name for _, found in _states(duty) for name, one in found.bearings.items() if _yielding(one)}
+    lives = {name: life for name, life in duty.lives.items() if name not in yielding}
+    if duty.system is not None and not yielding:
+        lives["System life"] = duty.system
+    for name, life in lives.items():
+        yield from ((name, text) for text in lives_in_words(life))
+
+
+def _states(duty: DutyResult) -> Iterator[tuple[str, ShaftSolution]]:
+    for place, name in enumerate(duty.names):
+        yield name, jax.tree.map(lambda leaf, place=place: leaf[place], duty.states)
 
 
 def _yielding(one: BearingOnShaft) -> str:

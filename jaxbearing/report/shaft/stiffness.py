@@ -202,4 +202,4 @@ def print_shaft_stiffness(table: ShaftStiffness, label: str, console: Console, f
         print_table(first | columns, [0.0] * len(table.speed), 0, "", console)
     print_line("Stiffness", "d load / d displacement of the inner ring, its other freedoms held", console)
     print_line("Axes", "axial X, radial Y, lateral Z of the shaft; tilts move azimuth 0 and 90 deg along X", console)
-    print_warnings(table.warnings, console)
+    print_warnings(table.warnings, console, full)

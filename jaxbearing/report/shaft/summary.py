@@ -14,10 +14,10 @@ from ..backends.screen import (
     print_warnings,
     shown_pieces,
 )
-from ..bearing.life_facts import lives_in_words
 from .facts import (
     NAMES,
     bearing_columns,
+    duty_lives,
     life_columns,
     life_facts,
     overloads,
@@ -79,8 +79,5 @@ def _print_duty(duty: DutyResult, console: Console) -> None:
         f"{name} {100.0 * float(share):.4g} %" for name, share in zip(duty.names, duty.shares, strict=True)
     )
     print_line("States", shares, console)
-    for name, life in duty.lives.items():
-        for text in lives_in_words(life):
-            print_line(name, text, console)
-    for text in () if duty.system is None else lives_in_words(duty.system):
-        print_line("System life", text, console)
+    for name, text in duty_lives(duty):
+        print_line(name, text, console)
