@@ -21,7 +21,7 @@ GROOVES = {"inner": (0.52, 0.51, 0.53), "outer": (0.53, 0.515, 0.54)}
 LAWS_HINT = (
     '# laws = "best"  # adds {best}. It needs [oil], such as',
     '#                # grade = "ISO VG 68", and in [operation] oil_temperature, and oil_flow for the drag;',
-    '#                # `jaxbearing new {name} --oil "ISO VG 68"` writes them.',
+    '#                # `jaxbearing new {name} --oil "ISO VG 68" --force` writes them, and this file anew.',
 )
 """Lines of a dry file; `{name}` stands for the designation, `{best}` for the words of its family."""
 BEST_IN_WORDS = {

@@ -35,6 +35,8 @@ def test_an_interference_that_no_steel_bears_is_refused():
         fine = jb.load_scene(scene, {field: f"{sign * 5:g} um", **left_out})
         with pytest.raises(ValueError, match=f"{field}: found an interference of 5 mm"):
             fine.replace({field: sign * 5e-3})
+    with pytest.raises(SceneError, match=r"found 37\.5 mm on a pitch diameter of .* mm. expected at most a tenth"):
+        jb.load_scene("reference_roller", {"geometry.diametral_clearance": "37.5 mm"})
     scene = jb.load_scene("deep_groove_6205")
     lanes = jax.vmap(lambda value: jb.solve(scene.replace({"geometry.diametral_clearance": value}), throw=False))
     found = lanes(jax.numpy.asarray([-5e-3, 12e-6]))

@@ -75,6 +75,7 @@ class RollerGeometry(AbstractGeometry):
         if clearance is not None:
             name = "geometry.diametral_clearance"
             yield from refusals_of(check_interference, name, -clearance[0], self.pitch_diameter)
+            yield from refusals_of(_check_play, clearance[0], self.pitch_diameter)
         yield from refusals_of(check_flanges, self)
         sizes = numbers_or_none(self.contact_length, self.roller_length)
         if sizes is not None:
@@ -174,6 +175,22 @@ class RollerFlange(Checked):
 
     def rim_height(self, geometry: RollerGeometry) -> Scalar:
         return ASSUMED_FLANGE_HEIGHT * geometry.roller_diameter if self.height is None else self.height
+
+
+LARGEST_PLAY = 0.1
+"""Clearance over pitch diameter beyond which it is a mistake of the unit: bearings have at most a thousandth or two."""
+
+
+def _check_play(clearance: Scalar, pitch_diameter: Scalar) -> None:
+    """**Raises:** `ValueError` for a clearance, m, that no roller bearing has."""
+    demand(
+        "geometry.diametral_clearance must be at most a tenth of the pitch diameter",
+        clearance <= LARGEST_PLAY * pitch_diameter,
+        lambda: (
+            f"geometry.diametral_clearance: found {1e3 * float(clearance):g} mm on a pitch diameter of "
+            f"{1e3 * float(pitch_diameter):g} mm, expected at most a tenth of it; check the unit"
+        ),
+    )
 
 
 def check_height(flange: RollerFlange, geometry: RollerGeometry) -> None:
