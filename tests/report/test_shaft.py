@@ -109,7 +109,7 @@ def test_lives_safety_and_lubrication(scene, filled):
 
 
 def test_a_duty_cycle_with_a_state_that_yields_has_no_life_of_the_system(filled):
-    """A state that is not the first one: it is named first of all, and the other bearing keeps its life."""
+    """A state that is not the first one: the bearing is named first of all, and the other one keeps its life."""
 
     def under(pressure, bearing):
         found = bearing.solution
@@ -129,7 +129,7 @@ def test_a_duty_cycle_with_a_state_that_yields_has_no_life_of_the_system(filled)
         stacked = jax.tree.map(lambda *leaves: jnp.stack(leaves), *states)
         duty = DutyResult(lives, system, jnp.asarray([0.9, 0.1]), stacked, ("idle", "shock"))
         shown = " ".join(screen(print_summary, dataclasses.replace(fine, duty=duty), "a shaft").split())
-        assert ("pair.1 in state shock 5.000 GPa on the inner raceway" in shown) == yields
+        assert ("pair.1 in its worst state 5.000 GPa on the inner raceway" in shown) == yields
         assert shown.count("System life at 90 %") == (0 if yields else 2)
         assert ("pair.1 at 90 % reliability" in shown) != yields
         assert "pair.2 at 90 % reliability" in shown

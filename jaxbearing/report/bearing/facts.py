@@ -38,7 +38,8 @@ def _left_out_couple(solution: Solution) -> str:
 
 
 def overload(solution: Solution) -> str:
-    """The contacts that yield, and a static load beyond the rating, in words; "" of a bearing that carries its load."""
+    """The contacts that yield, and a static load beyond the rating, in words; "" of a bearing that carries its load. Of
+    several states, stacked, those of the worst ones."""
     limit = BALL_PRESSURE if solution.element_name == "ball" else ROLLER_PRESSURE
     elements, life = on_heavier_flanks(solution.elements), solution.life
     said = []
@@ -46,8 +47,8 @@ def overload(solution: Solution) -> str:
         largest = float(np.nanmax(np.asarray(getattr(elements, f"pressure_{side}")), initial=0.0))
         if largest > limit:
             said.append(f"{with_unit(largest, 'Pa')} on the {side} raceway ({1e-9 * limit:g} GPa is the limit)")
-    if life is not None and life.static_safety is not None and float(np.asarray(life.static_safety)) < 1.0:
-        said.append(f"static load {with_unit(float(np.asarray(life.static_load)), 'N')} beyond C0")
+    if life is not None and life.static_safety is not None and np.any(np.asarray(life.static_safety) < 1.0):
+        said.append(f"static load {with_unit(float(np.max(np.asarray(life.static_load))), 'N')} beyond C0")
     return ", ".join(said)
 
 

@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-import jax
 import numpy as np
 
 from ..._checks import about
@@ -165,13 +164,8 @@ def system_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
 
 def overloads(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     """The bearings that yield, in any state of a duty cycle, which have no life, nor has the system."""
-    states = {"": solution} if solution.duty is None else dict(_states(solution.duty))
-    texts = [
-        f"{name}{f' in state {state}' if state else ''} {_yielding(one)}"
-        for state, found in states.items()
-        for name, one in found.bearings.items()
-        if _yielding(one)
-    ]
+    states, worst = (solution, "") if solution.duty is None else (solution.duty.states, " in its worst state")
+    texts = [f"{name}{worst} {_yielding(one)}" for name, one in states.bearings.items() if _yielding(one)]
     if texts:
         yield OVERLOAD, f"yield, so that neither these bearings nor the system has a life: {'; '.join(texts)}"
 
@@ -179,17 +173,12 @@ def overloads(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
 def duty_lives(duty: DutyResult) -> Iterator[tuple[str, str]]:
     """Name and text of the lives under a duty cycle: of the bearings that yield in no state, and of the system if none
     does."""
-    yielding = {name for _, found in _states(duty) for name, one in found.bearings.items() if _yielding(one)}
+    yielding = {name for name, one in duty.states.bearings.items() if _yielding(one)}
     lives = {name: life for name, life in duty.lives.items() if name not in yielding}
     if duty.system is not None and not yielding:
         lives["System life"] = duty.system
     for name, life in lives.items():
         yield from ((name, text) for text in lives_in_words(life))
-
-
-def _states(duty: DutyResult) -> Iterator[tuple[str, ShaftSolution]]:
-    for place, name in enumerate(duty.names):
-        yield name, jax.tree.map(lambda leaf, place=place: leaf[place], duty.states)
 
 
 def _yielding(one: BearingOnShaft) -> str:
