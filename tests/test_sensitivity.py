@@ -56,8 +56,8 @@ CALLERS = {
     "solve_two_disk": ("two_disk.py",),
     "solve_line_contact": ("line_contact.py",),
     "steady_solution": ("solve.py",),
-    "with_life": ("solve.py",),
-    # of a warm-up the losses are asked for alone; a shaft rates its bearings itself
+    "with_life": ("solve.py", "steady.py"),  # of a shaft, which rates its bearings itself
+    # of a warm-up the losses are asked for alone
     "solve_ring": ("bearing.py", "port.py", "programs.py", "batches.py"),
 }
 """Function that gives a solution without life or checked inputs -> the files that may call it."""

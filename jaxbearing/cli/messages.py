@@ -28,7 +28,6 @@ def bad_input(notes: list[str] | None = None) -> Iterator[None]:
 
     **Arguments:** `notes`: list that gets notes on the input; left out: they are printed on stderr.
     """
-    from .._checks import Information
     from ..scenes.errors import MeanUsedWarning, PresetUsedWarning, SceneError, StatesUnusedWarning
     from ..scenes.input_files import remembered_inputs
 
@@ -43,14 +42,24 @@ def bad_input(notes: list[str] | None = None) -> Iterator[None]:
             if not issubclass(one.category, notable):
                 warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
             elif str(one.message) not in said:
-                unused = issubclass(one.category, StatesUnusedWarning)
-                said.append(Information(one.message) if unused else str(one.message))
+                said.append(_noted(one))
     except SceneError as error:
         refuse(str(error) + _of_a_bearing(error))
     for text in said if notes is None else ():
         typer.echo(f"note: {text}", err=True)
     if notes is not None:
         notes += said
+
+
+def _noted(warning: warnings.WarningMessage) -> str:
+    """The text of a warning as a note, in the group that it has."""
+    from ..scenes.errors import StatesUnusedWarning
+
+    if not issubclass(warning.category, StatesUnusedWarning):
+        return str(warning.message)
+    from .._checks import Information  # brings JAX, which `jaxbearing new` does without
+
+    return Information(warning.message)
 
 
 def _of_a_bearing(error: "SceneError") -> str:
