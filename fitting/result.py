@@ -87,7 +87,7 @@ class FitResult(eqx.Module):
 
     @property
     def status(self) -> str:
-        """How the fit ended: "converged", "undetermined" or "not_converged"."""
+        """End of the fit: "converged", "undetermined" or "not_converged"."""
         return "converged" if self.converged else "undetermined" if self.undetermined else "not_converged"
 
     def failure(self) -> str:

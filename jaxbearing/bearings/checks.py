@@ -43,8 +43,8 @@ neutral fibre changes the stiffness by about the square of this, 4 %."""
 MORE_THAN_WALL = 1.01
 """Thickness of a ring that bends over the wall between its raceway and its seat, which a warning allows."""
 LARGEST_INTERFERENCE, LARGEST_CLEARANCE = 1e-3, 1e-2
-"""Of the pitch diameter: rings that are stretched by a thousandth carry 0.2 GPa; the widest classes of clearance are
-about a thousandth."""
+"""Limits over the pitch diameter: rings that are stretched by a thousandth carry 0.2 GPa; the widest classes of
+clearance are about a thousandth."""
 SLOWEST = 99.9 * 2.0 * np.pi / 60.0
 """Speed of the rings against each other below which the lubricated models have no meaning, rad/s (100 rpm)."""
 

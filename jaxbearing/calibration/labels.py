@@ -37,7 +37,7 @@ def result_names(scene: AbstractScene, newton: NewtonOptions | None = None) -> t
 
 
 def results_among(scene: AbstractScene, names: Sequence[str], newton: NewtonOptions | None = None) -> list[str]:
-    """Those of the names that are results, also of parts that the scene does not model."""
+    """The names that are results, also of parts that the scene does not model."""
     found: list[str] = []
     if names:
         look_at(scene, lambda solution: found.extend(name for name in names if is_result(solution, name)), newton)
@@ -45,7 +45,7 @@ def results_among(scene: AbstractScene, names: Sequence[str], newton: NewtonOpti
 
 
 def is_left_out(scene: AbstractScene, name: str, newton: NewtonOptions | None = None) -> bool:
-    """Whether a name is the path of a result that this scene does not model."""
+    """True for the path of a result that this scene does not model."""
     found: list[bool] = []
     look_at(scene, lambda solution: found.append(not_modelled(solution, name)), newton)
     return any(found)

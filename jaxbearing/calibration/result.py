@@ -126,7 +126,7 @@ class Calibration:
 
     @property
     def status(self) -> str:
-        """How the calibration ended: "converged", "undetermined" or "not_converged"."""
+        """End of the calibration: "converged", "undetermined" or "not_converged"."""
         return "converged" if self.converged else "undetermined" if self.undetermined else "not_converged"
 
     def failure(self) -> str:

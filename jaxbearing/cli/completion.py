@@ -1,4 +1,4 @@
-"""What the shell completes: names of scenes, kinds, paths of fields. Nothing here needs JAX."""
+"""Completion of the shell: names of scenes, kinds, paths of fields. Nothing here needs JAX."""
 
 import os
 from pathlib import Path

@@ -17,7 +17,7 @@ from .thermal_facts import thermal_facts
 
 
 def not_modelled(solution: Solution) -> str:
-    """What the scene does not model, in words: losses, and a gyroscopic couple that counts."""
+    """The parts that the scene does not model, in words: losses, and a gyroscopic couple that counts."""
     names = ", ".join(name.replace("_", " ") for name in solution.not_modelled)
     losses = f"all power losses ({names})" if solution.power_loss.total is None else names
     return "; ".join(text for text in (losses, _left_out_couple(solution)) if text)
