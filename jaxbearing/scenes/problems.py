@@ -5,6 +5,7 @@ A *law* is a formula that a scene chooses by its name. In some tables of a file 
 decides which other fields the table has.
 """
 
+import difflib
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -63,6 +64,10 @@ def meant_by(problem: SceneError) -> str:
     return ".".join([*problem.path.split(".")[:-1], problem.suggestion])
 
 
+SLIP = 0.85
+"""Similarity (difflib) of two names from which on one is the other with a typing error."""
+
+
 def _absent_meant(
     location: Sequence[int | str],
     model: type[BaseModel],
@@ -82,7 +87,9 @@ def _absent_meant(
     if not inside and _inside(name, model, names_at(model, ()).names):
         return ""
     only = needed[0] if len(needed) == len(unknown) == 1 else ""
-    return usual_word(name, valid) or only or nearest(name, needed) or nearest(name, valid)
+    # a letter that is wrong means its field even if that is given, as in changes of a scene and in states
+    slip = "".join(difflib.get_close_matches(name, names_at(model, inside).names, n=1, cutoff=SLIP))
+    return slip or usual_word(name, valid) or only or nearest(name, needed) or nearest(name, valid)
 
 
 def in_words(file: str, path: str, words: Mapping[str, str]) -> SceneError:

@@ -64,8 +64,9 @@ def require_rated(scenes: Mapping[str, AbstractScene]) -> None:
         reliabilities[name] = scene.rating.reliability
     if len(set(reliabilities.values())) > 1:
         raise ValueError(f"rating.reliability: expected the same in all states, got {reliabilities}")
-    (first, bearing), *others = scenes.items()
-    for name, scene in others:
+    states = list(scenes.items())
+    for name, scene in states[1:]:
+        first, bearing = states[0]
         for path in _of_another(bearing, scene):
             found = f"found one value in state '{first}' and another in state '{name}'"
             raise ValueError(f"{path}: {found}, expected states of one bearing")

@@ -75,7 +75,7 @@ class RollerGeometry(AbstractGeometry):
         if clearance is not None:
             name = "geometry.diametral_clearance"
             yield from refusals_of(check_interference, name, -clearance[0], self.pitch_diameter)
-            yield from refusals_of(_check_play, clearance[0], self.pitch_diameter)
+            yield from refusals_of(_check_play, self.diametral_clearance, self.pitch_diameter)
         yield from refusals_of(check_flanges, self)
         sizes = numbers_or_none(self.contact_length, self.roller_length)
         if sizes is not None:
@@ -181,14 +181,17 @@ LARGEST_PLAY = 0.1
 """Clearance over pitch diameter beyond which it is a mistake of the unit: bearings have at most a thousandth or two."""
 
 
-def _check_play(clearance: Scalar, pitch_diameter: Scalar) -> None:
+def _check_play(clearance: object, pitch_diameter: object) -> None:
     """**Raises:** `ValueError` for a clearance, m, that no roller bearing has."""
+    sizes = numbers_or_none(clearance, pitch_diameter)
+    if sizes is None:
+        return
     demand(
         "geometry.diametral_clearance must be at most a tenth of the pitch diameter",
-        clearance <= LARGEST_PLAY * pitch_diameter,
+        sizes[0] <= LARGEST_PLAY * sizes[1],
         lambda: (
-            f"geometry.diametral_clearance: found {1e3 * float(clearance):g} mm on a pitch diameter of "
-            f"{1e3 * float(pitch_diameter):g} mm, expected at most a tenth of it; check the unit"
+            f"geometry.diametral_clearance: found {1e3 * float(sizes[0]):g} mm on a pitch diameter of "
+            f"{1e3 * float(sizes[1]):g} mm, expected at most a tenth of it; check the unit"
         ),
     )
 
