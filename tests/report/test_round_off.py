@@ -25,7 +25,7 @@ def noisy(part, share):
     changes = {}
     for field in dataclasses.fields(part):
         value = getattr(part, field.name)
-        if isinstance(value, Checked):
+        if isinstance(value, Checked) or field.metadata.get("static"):
             continue
         if dataclasses.is_dataclass(value):
             changes[field.name] = noisy(value, share)

@@ -117,8 +117,8 @@ def test_summary_leaves_out_what_is_not_modelled(loaded):
 
 @pytest.mark.parametrize("width", [40, 60, 80, 100, 200])
 def test_summary_at_any_width(solution, width):
-    """No number is cut, and friction is shown at the smallest and the largest slide at least."""
-    text = text_of(solution, width)
+    """No number is cut, and in full friction is shown at the smallest and the largest slide at least."""
+    text = text_of(solution, width, full=True)
     assert max(map(len, text.splitlines())) <= width
     assert "…" not in text
     for slide in (3, 6):

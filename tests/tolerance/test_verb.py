@@ -105,7 +105,7 @@ def test_names_of_results(mounted_scene):
         ("fit.clearence", "did you mean 'fit.clearance'"),
         ("contact_angle_inner", r"9 numbers; expected one of them, 'contact_angle_inner\[0\]'"),
         ("contact_angle_inner[9]", "a place from 0 to 8"),
-        ("fit.clearance[0]", "no list of numbers"),
+        ("fit.clearance[0]", "expected no place"),
         ("iterations", "a count"),
         ("", "does not have"),
     ],
@@ -133,13 +133,13 @@ def test_statistics_of_samples_and_their_errors():
     """Errors of mean and deviation, against the spread of many repeats; failed samples are left out and counted."""
     random = np.random.default_rng(3)
     values = random.standard_normal((400, 1000)) ** 2
-    repeats = [sampled(_dataset(row), {"loss": Label("W", "loss", "loss", None)})["loss"] for row in values]
+    repeats = [sampled(_dataset(row), {"loss": Label("W", "loss", "loss", ())})["loss"] for row in values]
     for word in ("mean", "deviation"):
         spread = np.std([getattr(one, word) for one in repeats])
         # the spread of 400 repeats is itself known to 1/sqrt(800) = 3.5 %: four times that
         np.testing.assert_allclose(np.mean([getattr(one, f"{word}_error") for one in repeats]), spread, rtol=0.15)
     row = _dataset(values[0], failed=(3, 5))
-    found = sampled(row, {"loss": Label("W", "loss", "loss", None)})["loss"]
+    found = sampled(row, {"loss": Label("W", "loss", "loss", ())})["loss"]
     assert found.values.size == 998
     np.testing.assert_allclose(found.mean, np.delete(values[0], [3, 5]).mean(), rtol=1e-14)
 
