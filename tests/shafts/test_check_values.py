@@ -33,9 +33,9 @@ from jaxbearing.shafts.preload import mount
 
 RPM = np.pi / 30.0
 PRELOAD = Preload(force=180.0)
-NO_FLOOR = 2e-7
-"""Relative tolerance of sets: the reference code presses every ball outwards by 1e-3 N also at rest, which moves the closure of
-the mounted set by 1e-7 (the sheet asks for 1e-5)."""
+NO_FLOOR = 3e-7
+"""Relative tolerance of sets: the reference code presses every ball outwards by 1e-3 N also at rest, which moves the
+closure of the mounted set by 1e-7 and forces by up to 2.2e-7 (the sheet asks for 1e-5)."""
 close = lambda found, value, rtol=1e-6, atol=0.0: np.testing.assert_allclose(found, value, rtol=rtol, atol=atol)
 
 
