@@ -8,7 +8,7 @@ import numpy as np
 from ..._checks import about
 from ...bearings.solution import RING_FREEDOMS
 from ...life.duty import IN_HOURS
-from ...life.result import Life
+from ...life.result import AtReliability, Life
 from ...shafts.solution import BearingOnShaft, DutyResult, SetResult, ShaftSolution
 from ..backends.json import finite
 from ..bearing.facts import OVERLOAD, bending, overload
@@ -174,7 +174,7 @@ def duty_lives(duty: DutyResult) -> Iterator[tuple[str, str]]:
     """Name and text of the lives under a duty cycle: of the bearings that yield in no state, and of the system if none
     does."""
     yielding = {name for name, one in duty.states.bearings.items() if _yielding(one)}
-    lives = {name: life for name, life in duty.lives.items() if name not in yielding}
+    lives: dict[str, AtReliability] = {name: life for name, life in duty.lives.items() if name not in yielding}
     if duty.system is not None and not yielding:
         lives["System life"] = duty.system
     for name, life in lives.items():
