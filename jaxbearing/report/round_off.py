@@ -19,7 +19,7 @@ Result = TypeVar("Result")
 
 
 class Resolution(NamedTuple):
-    """What is resolved of a quantity: `absolute`, in its SI unit, and `relative` to the largest one."""
+    """Resolution of a quantity: `absolute`, in its SI unit, and `relative` to the largest one."""
 
     absolute: float
     relative: float = 0.0
@@ -38,10 +38,10 @@ RESOLUTIONS = {
 }
 """By SI unit; numbers of other units are shown as they are. A length of 1 pm is a hundredth of an atom."""
 RELATIVE = 1e-9
-"""Of a force on a ring to the largest one, with a lever of 1 m; of an entry of a stiffness to those of its diagonal."""
+"""Ratio of a force on a ring to the largest (lever 1 m), and of an entry of a stiffness to those of its diagonal."""
 _FORCES = ("force", "on_shaft")
 _DIAGNOSTICS = ("residual_norm", "inner_residual")
-"""How well a solve has converged, which is round-off by its nature."""
+"""Results that say how well a solve has converged, which is round-off by its nature."""
 
 
 def without_round_off(result: Result) -> Result:

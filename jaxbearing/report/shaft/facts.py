@@ -108,7 +108,7 @@ def _clearance(one: BearingOnShaft) -> str:
 
 
 def _temperatures(one: BearingOnShaft) -> str:
-    """Of the inner and of the outer ring."""
+    """Temperatures of the inner and of the outer ring."""
     thermal = getattr(one.solution, "thermal", None)
     if thermal is None:
         return "-"
