@@ -557,7 +557,7 @@ def test_unknown_fields_in_python_suggest_the_nearest():
     ball, shaft = jb.load_scene("deep_groove_6205"), jb.load_scene("gear_shaft")
     for scene, path, meant in (
         (ball, "operation.radial_laod", "operation.radial_load"),
-        (ball, "opration.radial_load", "operation"),
+        (ball, "operatoin.radial_load", "operation"),
         (shaft, "bearing.raer.position", "bearing.rear"),
         (shaft, "bearing.rear.positon", "bearing.rear.position"),
         (shaft, "bearing.rear.geometry.pitch_diametr", "bearing.rear.geometry.pitch_diameter"),

@@ -74,7 +74,7 @@ def one(text="", share="1.0"):
 REFUSED = {
     "none": ("", "state: found nothing; expected a load spectrum"),
     "one table": ('[state]\nname = "a"\nshare = 1.0', "state: found a table"),
-    "misspelt name": ('[[state]]\nnane = "a"\nshare = 1.0', r"state '1': nane: found the unknown name 'nane'"),
+    "misspelt name": ('[[state]]\nnamee = "a"\nshare = 1.0', r"state '1': namee: found the unknown name 'namee'"),
     "number as a name": ("[[state]]\nname = 3\nshare = 1.0", r"state\[0\]\.name: found the number 3"),
     "twice": (one("", "0.5") + one("", "0.5"), r"state\[1\]\.name: found 'a' twice"),
     "no share": ('[[state]]\nname = "a"', r"state\[0\]\.share: found nothing"),
