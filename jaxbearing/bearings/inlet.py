@@ -78,6 +78,6 @@ def race_temperatures(scene: AbstractBearing) -> Scalar | Float[Array, "2 1"]:
     return jnp.stack([jnp.asarray(own.inner_raceway), jnp.asarray(own.outer_raceway)])[:, None]
 
 
-def of_inner_race(values: Array) -> Float[Array, ""]:
+def of_inner_race(values: Scalar | Float[Array, "2 1"]) -> Scalar:
     """A property of the oil in the inner raceway. **Arguments:** `values`: one, or of shape (2, 1)."""
     return values[0, 0] if jnp.ndim(values) else values

@@ -74,6 +74,9 @@ def _of_a_class(value: object) -> str:
     if dataclasses.is_dataclass(value):
         fields = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
         return f"{_named(type(value))}({static_description(fields)})"
+    if isinstance(value, str) and not getattr(value, "__dict__", None):
+        # a text that its class puts in a group, as a warning
+        return f"{_named(type(value))}:{str(value)!r}"
     # one of a kind: equinox' mark of a field that is not there
     if type(value).__module__.split(".")[0] == "equinox":
         return _named(type(value))

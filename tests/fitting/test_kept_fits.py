@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from fitting import Measurements, fit
+from fitting import Measurements
 from fitting.estimation import estimate_from, held_out, linearized
 from fitting.options import FitOptions
 from fitting.search import Search, _compiled_state
@@ -34,13 +34,6 @@ def problem():
     assert isinstance(scene, TwoDisk)
     search = Search(measured(), scene, FitOptions())
     return search.problem(search.free_by_rule()[0], {})
-
-
-def test_only_the_exponential_law_is_fitted():
-    scene = jb.load_scene("two_disk_etm", {"oil.grade": "ISO VG 68"})
-    assert isinstance(scene, TwoDisk)
-    with pytest.raises(ValueError, match="found ProportionalRheology, expected first values of the law 'exponential'"):
-        fit(measured(), scene)
 
 
 def calls(problem):

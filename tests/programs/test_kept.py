@@ -14,6 +14,7 @@ import pytest
 from command_process import environment
 
 import jaxbearing as jb
+from jaxbearing._checks import Information
 from jaxbearing.programs import KeptProgram, files, kept
 from jaxbearing.programs.describe import NotKept, static_description
 from jaxbearing.programs.files import SUFFIX
@@ -100,6 +101,7 @@ def test_code_that_was_changed_after_it_was_imported_is_not_kept(folder, tmp_pat
 def test_names_are_not_taken_on_trust(tmp_path, monkeypatch):
     """A module of the user's own that hides a package of this project, and what bears the name of something else."""
     assert static_description(files.read) == "jaxbearing.programs.files.read"
+    assert static_description(Information("a law")) == "jaxbearing._checks.Information:'a law'"
     file = tmp_path / "fitting.py"
     file.write_text("def law(x):\n    return x\n")
     spec = importlib.util.spec_from_file_location("fitting", file)
