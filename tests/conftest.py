@@ -9,6 +9,7 @@ import os
 import time
 from pathlib import Path
 
+os.environ.pop("COLUMNS", None)  # parallel tests set it: the width of the screen would depend on their number
 os.environ.setdefault("JAX_PLATFORMS", "cpu")
 # programs of the package are compiled from what is here, and not loaded
 os.environ.setdefault("JAXBEARING_CACHE", "off")

@@ -53,9 +53,9 @@ def bad_input(notes: list[str] | None = None) -> Iterator[None]:
 
 def _noted(warning: warnings.WarningMessage) -> str:
     """The text of a warning as a note, in the group that it has."""
-    from ..scenes.errors import StatesUnusedWarning
+    from ..scenes.errors import PresetUsedWarning
 
-    if not issubclass(warning.category, StatesUnusedWarning):
+    if issubclass(warning.category, PresetUsedWarning):
         return str(warning.message)
     from .._checks import Information  # brings JAX, which `jaxbearing new` does without
 

@@ -196,8 +196,8 @@ def _show(found: "Bearing") -> None:
     sizes = f"{bearing.bore:g} x {bearing.outside:g} x {bearing.width:g} mm"
     out.print(f"{bearing.text}: {bearing.in_words}, {sizes}", style="bold", markup=False)
     table = Table.grid(padding=(0, 2, 0, 0))
-    for _ in range(3):
-        table.add_column(no_wrap=True)
+    for wrapped in (False, False, True):
+        table.add_column(no_wrap=not wrapped, overflow="fold")
     for name in _fields(found):
         label, scale, unit = _SHOWN[name]
         one = getattr(geometry, name)

@@ -75,7 +75,7 @@ def spectrum(
             typed = {one.name: one.changes for one in cases[0]}
             deliver(lambda: _print(found[0], typed, label, seconds, as_json, full))
         else:
-            deliver(lambda: _print_over(*varied, found, label, seconds, as_json))
+            deliver(lambda: _print_over(*varied, found, label, seconds, as_json, full))
     _end_if_failed(found, label, as_json)
 
 
@@ -119,7 +119,13 @@ def _print(
 
 
 def _print_over(
-    field: "Field", values: list[float], found: "list[Spectrum]", label: str, seconds: float, as_json: bool
+    field: "Field",
+    values: list[float],
+    found: "list[Spectrum]",
+    label: str,
+    seconds: float,
+    as_json: bool,
+    full: bool,
 ) -> None:
     from ..spectrum.over import over_to_dict, print_over
 
@@ -127,4 +133,4 @@ def _print_over(
     if as_json:
         typer.echo(json.dumps(over_to_dict(field.path, unit, values, found), allow_nan=False))
     else:
-        print_over(field.path, unit, values, found, label, seconds, console())
+        print_over(field.path, unit, values, found, label, seconds, console(), full)

@@ -40,6 +40,10 @@ RESOLUTIONS = {
 RELATIVE = 1e-9
 """Ratio of a force on a ring to the largest (lever 1 m), and of an entry of a stiffness to those of its diagonal."""
 _FORCES = ("force", "on_shaft")
+_INPUTS = ("scene", "operation")
+"""Fields that hold inputs, which are shown as they were typed."""
+_OVERFLOWN = 1e30
+"""Numbers beyond belong to a case that failed; they make nothing of the other cases."""
 _DIAGNOSTICS = ("residual_norm", "inner_residual")
 """Results that say how well a solve has converged, which is round-off by its nature."""
 
@@ -55,8 +59,8 @@ def without_round_off(result: Result) -> Result:
 
 
 def _largest(numbers: np.ndarray) -> float:
-    """Largest modulus of those that are finite."""
-    return float(np.max(np.abs(numbers), initial=0.0, where=np.isfinite(numbers)))
+    """Largest modulus of those that have not overflown."""
+    return float(np.max(np.abs(numbers), initial=0.0, where=np.abs(numbers) < _OVERFLOWN))
 
 
 def _parts(result: Any) -> Iterator[Any]:
@@ -73,8 +77,7 @@ def _cleaned(part: Any, floors: Mapping[str, float]) -> Any:
     changes: dict[str, Any] = {}
     for field in dataclasses.fields(part):
         value = getattr(part, field.name)
-        if isinstance(value, Checked):
-            # what a scene says is no result
+        if isinstance(value, Checked) or field.name in _INPUTS:
             new = value
         elif dataclasses.is_dataclass(value) and not isinstance(value, type):
             new = _cleaned(value, floors)

@@ -15,7 +15,7 @@ from .backends.screen import counted, headline, print_warnings
 from .display import with_unit
 from .labels import label_unit
 from .stores import opened
-from .sweep_table import failures, screen_table
+from .sweep_table import failures, print_cases
 
 _MAIN = (
     "power_loss_total",
@@ -66,7 +66,7 @@ def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: fl
             grid.add_row(Text(f"  {name}"), Text(text))
         console.print(grid)
         if 1 < failure.size <= _FEW and len(dataset.attrs["sweep_fields"].split()) <= _FEW_FIELDS:
-            console.print(screen_table(dataset, _MAIN))
+            print_cases(dataset, _MAIN, console)
         print_warnings(_reasons(failure), console)
         print_warnings(filter(None, dataset.attrs.get("warnings", "").split("\n")), console)
     console.print(Text(f"wrote {os.fspath(file)}: open it with xarray.open_dataset"))

@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from rich.table import Table
-from rich.text import Text
+from rich.console import Console
 
+from .backends.screen import print_columns
 from .display import digits, display_unit, displayed
 from .files import atomic_file
 from .labels import label_unit
@@ -56,21 +56,18 @@ def results(dataset: xr.Dataset, names: Iterable[str] | None = None) -> list[Col
     ]
 
 
-def screen_table(dataset: xr.Dataset, names: Iterable[str]) -> Table:
-    """The fields, the named results that are not 0 everywhere, and, where one failed, how each case ended."""
-    shown = [*fields(dataset), *(one for one in results(dataset, names) if np.nansum(np.abs(one.values)))]
-    failed = failures(dataset)
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    table.add_column("", width=1)
+def print_cases(dataset: xr.Dataset, names: Iterable[str], console: Console) -> None:
+    """The fields, where one failed how each case ended, and the named results that are not 0 everywhere."""
+    own = fields(dataset)
+    shown = [*own, *(one for one in results(dataset, names) if np.nansum(np.abs(one.values)))]
     last = [one.name.rpartition(".")[2] for one in shown]
-    for one, short in zip(shown, last, strict=True):
-        table.add_column(Text(f"{short if last.count(short) == 1 else one.name}\n{one.unit}"), justify="right")
+    short = {one.name: name if last.count(name) == 1 else one.name for one, name in zip(shown, last, strict=True)}
+    columns = {f"{short[one.name]}\n{one.unit}": [digits(float(value)) for value in one.values] for one in shown}
+    first = {title: columns.pop(title) for title in list(columns)[: len(own)]}
+    failed = failures(dataset)
     if any(failed):
-        table.add_column("")
-    for case, failure in enumerate(failed):
-        numbers = [Text(digits(float(one.values[case]))) for one in shown]
-        table.add_row("", *numbers, *([Text("failed" if failure else "")] if any(failed) else []))
-    return table
+        first["case"] = ["failed" if failure else "" for failure in failed]
+    print_columns(first, columns, console, full=False, left=("case",), way="--table FILE")
 
 
 def write_table(path: Path, file: str | os.PathLike[str]) -> None:

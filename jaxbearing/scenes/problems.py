@@ -81,15 +81,16 @@ def _absent_meant(
     for key in filter(None, path_of(inside).split(".")):
         table = table.get(key) if isinstance(table, Mapping) else None
     given = table if isinstance(table, Mapping) else {}
-    valid = [field for field in names_at(model, inside).names if field not in given]
+    names = names_at(model, inside).names
+    valid = [field for field in names if field not in given]
     needed = [str(one[-1]) for one in absent if tuple(one[:-1]) == inside]
-    unknown = [field for field in given if field not in names_at(model, inside).names]
+    unknown = [field for field in given if field not in names]
     if not inside and _inside(name, model, names_at(model, ()).names):
         return ""
     only = needed[0] if len(needed) == len(unknown) == 1 else ""
-    # a letter that is wrong means its field even if that is given, as in changes of a scene and in states
-    slip = "".join(difflib.get_close_matches(name, names_at(model, inside).names, n=1, cutoff=SLIP))
-    return slip or usual_word(name, valid) or only or nearest(name, needed) or nearest(name, valid)
+    # a wrong letter, or the word of a catalogue, means its field even if that is given, as in changes of a scene
+    slip = "".join(difflib.get_close_matches(name, names, n=1, cutoff=SLIP))
+    return slip or usual_word(name, names) or only or nearest(name, needed) or nearest(name, valid)
 
 
 def in_words(file: str, path: str, words: Mapping[str, str]) -> SceneError:

@@ -179,8 +179,8 @@ def solutions(
 
 
 class Acting(NamedTuple):
-    """What a batch does to the shaft: forces and stiffness of `Port`, the solutions of its own scenes, and of rollers
-    that slide those of the dry ones with the tilt of the ring and without it."""
+    """Forces and stiffness of a batch as `Port` has them, and the solutions of its own scenes. Rollers that slide have
+    the solutions of the dry ones too, with the tilt of the ring and without it."""
 
     force: Float[Array, "own 5"]
     stiffness: Float[Array, "own 5 5"]

@@ -4,13 +4,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from rich import box
 from rich.console import Console
-from rich.padding import Padding
-from rich.table import Table
 
 from ..life.duty import IN_HOURS
-from ..report.backends.screen import counted, headline, print_rule, print_warnings
+from ..report.backends.screen import counted, headline, print_columns, print_rule, print_warnings
 from ..report.bearing.life_facts import percent
 from ..report.display import digits, display_unit, number, with_unit
 from .result import Spectrum
@@ -25,11 +22,12 @@ def print_over(
     label: str,
     seconds: float,
     console: Console,
+    full: bool,
 ) -> None:
     """A row for each value; one whose states did not all converge has no life.
 
     **Arguments:** `path`: of the field; `unit`: its SI unit, "" for a plain number; `values`, in SI, and the spectrum
-    of each; `label`: of the scene; `seconds`: that it took.
+    of each; `label`: of the scene; `seconds`: that it took; `full`: with all columns of the table.
     """
     failed = sum(bool(one.failures) for one in found)
     status, style = (f"{failed} FAILED", "bold red") if failed else ("CONVERGED", "bold green")
@@ -37,12 +35,8 @@ def print_over(
     headline(label, status, style, words, console)
     print_rule("Life under the load spectrum", console)
     columns = over_columns(path, unit, values, found)
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
-    for heading in columns:
-        table.add_column(heading, justify="left" if heading == _GOVERNS else "right")
-    for row in zip(*columns.values(), strict=True):
-        table.add_row(*row)
-    console.print(Padding(table, (0, 1)))
+    own = next(iter(columns))
+    print_columns({own: columns.pop(own)}, columns, console, full, left=(_GOVERNS,))
     said = [
         f"{with_unit(value, unit)}, {name}: {text}"
         for value, one in zip(values, found, strict=True)

@@ -4,15 +4,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any, SupportsFloat
 
 import numpy as np
-from rich import box
 from rich.console import Console
-from rich.padding import Padding
-from rich.table import Table
 
 from ..bearings.solution import Solution
 from ..numerics.status import Status
 from ..report.backends.json import finite, plain
-from ..report.backends.screen import counted, headline, print_line, print_rule, print_warnings, shown_pieces
+from ..report.backends.screen import counted, headline, print_columns, print_line, print_rule, print_warnings
 from ..report.bearing.facts import NO_LIFE, OVERLOAD, overload
 from ..report.bearing.life_facts import lives_in_words, percent
 from ..report.display import digits, with_unit
@@ -46,13 +43,7 @@ def print_spectrum(
     headings, rows = spectrum_rows(found)
     columns = {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
     first = {"state": columns.pop("state")}
-    for piece in shown_pieces(first, columns, console, full):
-        table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
-        for heading in piece:
-            table.add_column(heading, justify="left" if heading == "state" else "right", no_wrap=True)
-        for row in zip(*piece.values(), strict=True):
-            table.add_row(*row)
-        console.print(Padding(table, (0, 1)))
+    print_columns(first, columns, console, full, left=("state",))
     for name, text in spectrum_facts(found):
         print_line(name, text, console)
     print_warnings([*(f"{name}: {text}" for name, text in failures.items()), *_warnings(found)], console, full)

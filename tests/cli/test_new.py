@@ -47,7 +47,7 @@ def test_several_designations_make_a_file_each(jaxbearing_command, folder):
     kinds = [tomllib.loads((folder / name).read_text(encoding="utf-8"))["kind"] for name in sorted(os.listdir(folder))]
     assert kinds == ["ball_bearing", "cylindrical_roller_bearing"]
     for arguments, words in {
-        ("6309", "NU", "308"): "NU_308.toml: found a file that exists",
+        ("6309", "NU", "308"): "found 'NU_308.toml', a file that exists already",
         ("6309", "6310", "--balls", "8"): "facts about the inside of one",
         ("6309", "6310", "--output", "a.toml"): "a folder that exists",
         ("6309", "6309"): "a designation twice",

@@ -1,7 +1,7 @@
 """Parts of a summary on the screen: headline, lines, tables with bars, warnings. Tables come in pieces where a terminal
 is too narrow: numbers are never cut."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 import numpy as np
 from rich import box
@@ -124,16 +124,35 @@ def pieces(
 
 
 def shown_pieces(
-    first: dict[str, list[str]], columns: dict[str, list[str]], console: Console, full: bool
+    first: dict[str, list[str]], columns: dict[str, list[str]], console: Console, full: bool, way: str = "--full"
 ) -> Iterator[dict[str, list[str]]]:
     """The table that fits the width of the console; in full all columns, in several tables. Behind a table that lacks
-    columns a line names these."""
+    columns a line names these. **Arguments:** `way`: option that shows all."""
     each = list(pieces(first, columns, console.width))
     yield from each if full else each[:1]
     left = [title.replace("\n", " ") for piece in each[1:] for title in piece if title not in first]
     if left and not full:
-        text = f"More columns: --full, or a wider terminal ({', '.join(left)})"
+        text = f"More columns: {way}, or a wider terminal ({', '.join(left)})"
         console.print(Padding(Text(text, style="dim"), (0, 2)))
+
+
+def print_columns(
+    first: dict[str, list[str]],
+    columns: dict[str, list[str]],
+    console: Console,
+    full: bool,
+    left: Collection[str] = (),
+    way: str = "--full",
+) -> None:
+    """A row for each text of the columns, under their titles, with the columns that the width has room for
+    (`shown_pieces`). **Arguments:** `left`: titles of columns of words, which begin at the left."""
+    for piece in shown_pieces(first, columns, console, full, way):
+        table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
+        for title in piece:
+            table.add_column(title, justify="left" if title in left else "right", no_wrap=True)
+        for row in zip(*piece.values(), strict=True):
+            table.add_row(*map(Text, row))
+        console.print(Padding(table, (0, 1)))
 
 
 def column(values: np.ndarray, unit: str) -> list[str]:
