@@ -15,6 +15,7 @@ from filled_results import solution_of
 from rich.console import Console
 
 import jaxbearing as jb
+from jaxbearing.bearings.ring import shift_matrix
 from jaxbearing.life.duty import SpectrumLife
 from jaxbearing.report.dataset import solution_to_dataset, write_netcdf
 from jaxbearing.report.display import digits
@@ -244,8 +245,8 @@ def test_bending_line_and_cut_loads_of_a_cantilever(scene):
     np.testing.assert_allclose(cut.shear[0], -load, rtol=1e-12)
 
 
-def table_of(scene, radial=2e8):
-    matrix = np.diag([1e8, radial, 1.5 * radial, 1e5, 1e5])
+def table_of(scene, radial=2e8, tilt=1e5):
+    matrix = np.diag([1e8, radial, 1.5 * radial, tilt, tilt])
     values = {place.name: np.stack([matrix, 1.1 * matrix]) for place in scene.places}
     at = {place.name: float(place.position) for place in scene.places} | {"pair": 0.03}
     return ShaftStiffness(np.array([0.0, 100.0]), values, {"pair": np.stack([matrix, matrix])}, at, FREEDOMS, ())
@@ -269,17 +270,22 @@ def test_rotor_for_ross(scene, tmp_path):
 
 
 def test_natural_frequencies_of_a_stiff_shaft(scene):
-    """On soft bearings the shaft moves as a rigid body, up and down and tilting."""
+    """On soft bearings the shaft moves as a rigid body, up and down and tilting. Springs beside the rows are the same
+    as rows whose tilting is coupled with their displacement."""
     radial, density = 1e4, 7850.0
-    found = natural_frequencies(table_of(scene, radial), scene)
     mass = density * np.pi * 0.025**2 * 0.06
     inertia = mass * (0.025**2 / 4.0 + 0.06**2 / 12.0)
-    tilt = 2.0 * 0.008**2
-    expected = sorted(
-        [np.sqrt(2.0 * k / mass) for k in (radial, 1.5 * radial)]
-        + [np.sqrt(tilt * k / inertia) for k in (radial, 1.5 * radial)]
-    )
-    np.testing.assert_allclose(found[:4], expected, rtol=2e-5)
+    for tilt, beside, tilting in ((1.0, 0.0, False), (1.0, 0.0, True), (0.0, 4e-3, True)):
+        table = table_of(scene, radial, tilt)
+        for name, values in table.bearings.items():
+            outwards = shift_matrix(jnp.asarray(np.sign(table.position[name] - 0.03) * beside))
+            table.bearings[name] = np.asarray(outwards.T @ values @ outwards)
+        found = natural_frequencies(table, scene, tilting=tilting)
+        against = [2.0 * (0.008 + beside) ** 2 * k + 2.0 * tilting * tilt for k in (radial, 1.5 * radial)]
+        expected = sorted(
+            [np.sqrt(2.0 * k / mass) for k in (radial, 1.5 * radial)] + [np.sqrt(one / inertia) for one in against]
+        )
+        np.testing.assert_allclose(found[:4], expected, rtol=3e-5)
 
 
 def test_stiffness_in_words_and_json(scene):

@@ -105,6 +105,8 @@ def _print_first(solution: Solution, said: dict[str, list[str]], console: Consol
     print_rule("Results", console)
     for name, texts in said.items():
         _print_fact(name, texts, console)
+    if solution.life is None:
+        print_line("Life", "not computed: give a table [rating]", console)
     if not _losses(solution):
         print_line("Not modelled:", not_modelled(solution), console)
         return

@@ -3,7 +3,8 @@ r"""Natural frequencies of the bending of a shaft on the tangent stiffness of it
 The shaft is divided into the elements of its ROSS rotor (`ross`): beams after Timoshenko with Cowper's shear factor,
 their consistent mass and rotary inertia (Friswell et al., Dynamics of Rotating Machines, 2010). No damping, no
 gyroscopic effect: frequencies of the shaft that stands still, on bearings as stiff as at the speed of the table. The
-bearings act across the axis; their tilting stiffness is left out, as it is in ROSS.
+bearings act across the axis and against tilting; along the axis the shaft is held. The rotors of ROSS have no tilting
+stiffness of bearings: frequencies without it are those that ROSS finds.
 """
 
 import numpy as np
@@ -14,14 +15,17 @@ from .bending import cowper
 from .ross import rotor_nodes, section_between
 from .stiffness import ShaftStiffness
 
-_LATERAL = (1, 2)
-"""Places of the radial and the lateral freedom."""
+_FREEDOMS = (1, 3, 2, 4)
+"""Places in a tangent of radial displacement, its tilt, lateral displacement and its tilt, in the order of a node."""
+_SIGNS = np.array([1.0, -1.0, 1.0, -1.0])
+"""A slope of the shaft is a tilt the other way round (`bearings.ring.shift_matrix`)."""
 
 
-def natural_frequencies(table: ShaftStiffness, scene: ShaftSystem, place: int = 0) -> np.ndarray:
+def natural_frequencies(table: ShaftStiffness, scene: ShaftSystem, place: int = 0, tilting: bool = True) -> np.ndarray:
     """Natural frequencies, rad/s, in ascending order.
 
-    **Arguments:** `place`: of the speed in the table whose stiffness counts.
+    **Arguments:** `place`: of the speed in the table whose stiffness counts; `tilting`: False leaves out the bearings'
+    stiffness against tilting and its coupling with the other freedoms, as ROSS does.
 
     **Raises:** `ValueError` as `ross.require_rotor`.
     """
@@ -37,8 +41,11 @@ def natural_frequencies(table: ShaftStiffness, scene: ShaftSystem, place: int = 
             mass[np.ix_(at, at)] += own[1]
     for name, values in table.bearings.items():
         node = int(np.argmin(np.abs(nodes - table.position[name])))
-        at = [4 * node, 4 * node + 2]
-        stiffness[np.ix_(at, at)] += values[place][np.ix_(_LATERAL, _LATERAL)]
+        own = _SIGNS[:, None] * values[place][np.ix_(_FREEDOMS, _FREEDOMS)] * _SIGNS
+        if not tilting:
+            own[[1, 3]] = own[:, [1, 3]] = 0.0
+        at = np.arange(4 * node, 4 * node + 4)
+        stiffness[np.ix_(at, at)] += own
     for one in scene.forces:
         if isinstance(one, Mass):
             node = int(np.argmin(np.abs(nodes - float(one.position))))
