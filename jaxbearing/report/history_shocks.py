@@ -7,6 +7,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from ..bearings.motion.history import History
+from .round_off import RESOLUTIONS
 
 FACES = ("front", "rear")
 SECTORS = 12
@@ -108,11 +109,16 @@ def single_shocks(load: Float[np.ndarray, " time"], threshold: float) -> list[tu
 
 def whirl_ratio(history: History) -> float | None:
     """Mean angular speed of the cage's centre about its mean place over the mean cage speed; > 0: whirls the way it
-    turns. `None` without a cage and for less than three instants."""
+    turns. `None` without a cage, for less than a turn of the cage, whose mean place is that of an arc, and for a centre
+    that stays where it is."""
     cage, time = history.instants.cage, np.asarray(history.time)
-    if cage is None or time.size < 3:
+    if cage is None:
         return None
-    return mean_whirl(time, np.asarray(cage.x), np.asarray(cage.y)) / float(np.mean(cage.speed))
+    speed, x, y = float(np.mean(cage.speed)), np.asarray(cage.x), np.asarray(cage.y)
+    turns = abs(speed) * float(time[-1] - time[0]) / (2.0 * math.pi)
+    if turns < 1.0 or np.hypot(np.std(x), np.std(y)) < RESOLUTIONS["m"].absolute:
+        return None
+    return mean_whirl(time, x, y) / speed
 
 
 def mean_whirl(time: np.ndarray, x: np.ndarray, y: np.ndarray) -> float:

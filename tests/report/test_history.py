@@ -4,6 +4,7 @@ import dataclasses
 import json
 import math
 import shutil
+from types import SimpleNamespace
 
 import equinox as eqx
 import numpy as np
@@ -176,6 +177,18 @@ def test_whirl_of_a_circle(speed):
     time = np.linspace(0.0, 1.0, 400) ** 1.1 * 3.1 * 2.0 * math.pi / abs(speed)
     x, y = 40e-6 * np.cos(speed * time) - 2e-6, 40e-6 * np.sin(speed * time) + 1e-6
     np.testing.assert_allclose(history_shocks.mean_whirl(time, x, y), speed, rtol=0.02)
+
+
+def test_whirl_needs_a_turn_and_an_orbit():
+    """Of an arc and of a centre that stays where it is there is none."""
+    for turns, radius, expected in ((3.1, 40e-6, 0.5), (0.4, 40e-6, None), (3.1, 1e-14, None)):
+        time = np.linspace(0.0, turns * 2.0 * math.pi / 600.0, 4000)
+        cage = SimpleNamespace(
+            x=radius * np.cos(300.0 * time), y=radius * np.sin(300.0 * time), speed=np.full(time.size, 600.0)
+        )
+        history = SimpleNamespace(instants=SimpleNamespace(cage=cage), time=time)
+        found = history_shocks.whirl_ratio(history)
+        assert found is None if expected is None else abs(found - expected) < 0.02
 
 
 def test_plot(whole, tmp_path):
