@@ -15,7 +15,7 @@ from .backends.screen import counted, headline, print_warnings
 from .display import with_unit
 from .labels import label_unit
 from .stores import opened
-from .sweep_table import failures, print_cases
+from .sweep_table import failures, print_cases, without_lives_that_yield, yielding
 
 _MAIN = (
     "power_loss_total",
@@ -41,8 +41,8 @@ _REASONS = 3
 
 def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: float, console: Console) -> None:
     """**Arguments:** `file`: the store; `kept`: cases that an earlier run had computed; `seconds`: of this run."""
-    with opened(file) as dataset:
-        failure = failures(dataset)
+    with opened(file) as whole:
+        dataset, failure = without_lives_that_yield(whole), failures(whole)
         failed = int(np.sum(failure != ""))
         status, style = ("ALL CONVERGED", "bold green") if failed == 0 else (f"{failed} FAILED", "bold red")
         new = failure.size - kept
@@ -67,7 +67,7 @@ def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: fl
         console.print(grid)
         if 1 < failure.size <= _FEW and len(dataset.attrs["sweep_fields"].split()) <= _FEW_FIELDS:
             print_cases(dataset, _MAIN, console)
-        print_warnings(_reasons(failure), console)
+        print_warnings([*_reasons(failure), *_yield(whole)], console)
         print_warnings(filter(None, dataset.attrs.get("warnings", "").split("\n")), console)
     console.print(Text(f"wrote {os.fspath(file)}: open it with xarray.open_dataset"))
 
@@ -79,6 +79,12 @@ def _reasons(failure: np.ndarray) -> Iterator[str]:
     if len(found) > _REASONS:
         others = sum(count for _, count in found.most_common()[_REASONS:])
         yield f"{counted(others, 'case')} failed otherwise"
+
+
+def _yield(dataset: xr.Dataset) -> Iterator[str]:
+    number = int(yielding(dataset).sum())
+    if number:
+        yield f"in {counted(number, 'case')} elements and races yield (static safety below 1): these have no life"
 
 
 def _held(dataset: xr.Dataset) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 import csv
 import os
+import re
 from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
@@ -16,7 +17,9 @@ from .files import atomic_file
 from .labels import label_unit
 from .stores import opened
 
-CONVERGED = "converged"
+CONVERGED, YIELDS = "converged", "yields"
+_LIFE = re.compile(r"(.*_)?L(10|n)")
+"""Beginning of the names of lives, in hours, in millions of turns, of a bearing and of a system."""
 _EXACT = 10
 """Digits of the numbers in a file."""
 
@@ -39,6 +42,29 @@ def failures(dataset: xr.Dataset) -> np.ndarray:
     return dataset["failure"].values.astype(object).ravel()
 
 
+def yielding(dataset: xr.Dataset) -> xr.DataArray:
+    """True for each case whose elements and races yield: one of its static safeties is below 1."""
+    cases = dataset["failure"]
+    found = xr.zeros_like(cases, dtype=bool)
+    for name in dataset.data_vars:
+        if str(name).endswith("static_safety"):
+            low = dataset[name] < 1.0
+            found |= low.any([dim for dim in low.dims if dim not in cases.dims])
+    return found
+
+
+def without_lives_that_yield(dataset: xr.Dataset) -> xr.Dataset:
+    """The sweep with NaN for the lives of cases that yield, as `solve` gives none."""
+    good = ~yielding(dataset)
+    return dataset.assign({name: one.where(good) for name, one in dataset.data_vars.items() if _LIFE.match(str(name))})
+
+
+def ends(dataset: xr.Dataset) -> list[str]:
+    """The reason of failure of each case, or `YIELDS`, or `CONVERGED`."""
+    own = yielding(dataset).transpose(*dataset["failure"].dims).values.ravel()
+    return [why or (YIELDS if bad else CONVERGED) for why, bad in zip(failures(dataset), own, strict=True)]
+
+
 def fields(dataset: xr.Dataset) -> list[Column]:
     """The fields that the sweep varies, under their paths in a scene file."""
     return [_column(dataset, path.replace(".", "_"), path) for path in dataset.attrs["sweep_fields"].split()]
@@ -57,37 +83,38 @@ def results(dataset: xr.Dataset, names: Iterable[str] | None = None) -> list[Col
 
 
 def print_cases(dataset: xr.Dataset, names: Iterable[str], console: Console) -> None:
-    """The fields, where one failed how each case ended, and the named results that are not 0 everywhere."""
+    """The fields, how each case ended unless all are well, and the named results that are not 0 everywhere."""
     own = fields(dataset)
     shown = [*own, *(one for one in results(dataset, names) if np.nansum(np.abs(one.values)))]
     last = [one.name.rpartition(".")[2] for one in shown]
     short = {one.name: name if last.count(name) == 1 else one.name for one, name in zip(shown, last, strict=True)}
     columns = {f"{short[one.name]}\n{one.unit}": [digits(float(value)) for value in one.values] for one in shown}
     first = {title: columns.pop(title) for title in list(columns)[: len(own)]}
-    failed = failures(dataset)
-    if any(failed):
-        first["case"] = ["failed" if failure else "" for failure in failed]
+    words = ["" if end == CONVERGED else end if end == YIELDS else "failed" for end in ends(dataset)]
+    if any(words):
+        first["case"] = words
     print_columns(first, columns, console, full=False, left=("case",), way="--table FILE")
 
 
 def write_table(path: Path, file: str | os.PathLike[str]) -> None:
-    """Writes a sweep as a CSV file: the fields, all results that are one number a case, and the reason of each failure.
+    """Writes a sweep as a CSV file: the fields, all results that are one number a case, and how each case ended.
 
-    A number that a case lacks is left empty. Units are those of the screen.
+    A number that a case lacks is left empty, as are the lives of a bearing that yields. Units are those of the screen.
 
     **Arguments:** `path`: of the CSV file, which appears whole or not at all; `file`: the store of the sweep.
 
     **Raises:** `OSError` if the file cannot be written.
     """
-    with opened(file) as dataset, atomic_file(path) as temporary:
-        columns, failed = [*fields(dataset), *results(dataset)], failures(dataset)
+    with opened(file) as whole, atomic_file(path) as temporary:
+        dataset = without_lives_that_yield(whole)
+        columns = [*fields(dataset), *results(dataset)]
         with temporary.open("w", encoding="utf-8", newline="") as stream:
             writer = csv.writer(stream, lineterminator="\n")
             writer.writerow([*(one.header for one in columns), "status"])
-            for case, failure in enumerate(failed):
+            for case, end in enumerate(ends(dataset)):
                 numbers = (float(one.values[case]) for one in columns)
                 cells = [f"{one:.{_EXACT}g}" if np.isfinite(one) else "" for one in numbers]
-                writer.writerow([*cells, failure or CONVERGED])
+                writer.writerow([*cells, end])
 
 
 def _column(dataset: xr.Dataset, name: str, path: str) -> Column:

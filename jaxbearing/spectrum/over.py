@@ -11,7 +11,7 @@ from ..report.backends.screen import counted, headline, print_columns, print_rul
 from ..report.bearing.life_facts import percent
 from ..report.display import digits, display_unit, number, with_unit
 from .result import Spectrum
-from .tables import spectrum_to_dict
+from .tables import overloads, spectrum_to_dict
 
 
 def print_over(
@@ -49,13 +49,16 @@ _GOVERNS = "governed by"
 
 
 def over_columns(path: str, unit: str, values: Sequence[float], found: Sequence[Spectrum]) -> dict[str, list[str]]:
-    """Heading, with the unit on a second line -> texts, one a value; lives that no value has are left out."""
+    """Heading, with the unit on a second line -> texts, one a value; lives that no value has are left out.
+
+    A spectrum with a state that yields has no life."""
     own = path.rpartition(".")[2].replace("_", " ")
     largest = max(map(abs, values))
     columns = {f"{own}\n{display_unit(unit, largest)}": [number(value, unit, largest=largest) for value in values]}
     kinds = {"Lnmr": found[0].life.reliability, "L10r": 0.90, "L10m": 0.90, "L10": 0.90}
+    none = ["-" if one.failures else "yields" if overloads(one) else "" for one in found]
     for kind, reliability in kinds.items():
-        texts = ["-" if one.failures else _text(getattr(one.life, IN_HOURS[kind])) for one in found]
+        texts = [why or _text(getattr(one.life, IN_HOURS[kind])) for why, one in zip(none, found, strict=True)]
         if set(texts) != {"-"}:
             columns[f"{kind}\nh, {percent(reliability)}"] = texts
     loads = ["-" if one.failures else _text(1e-3 * np.asarray(one.life.equivalent_load)) for one in found]

@@ -75,15 +75,19 @@ def spectrum_rows(found: Spectrum) -> tuple[list[str], list[list[str]]]:
     return list(kept), [list(row) for row in zip(*kept.values(), strict=True)]
 
 
+def overloads(found: Spectrum) -> str:
+    """The states in which elements and races yield, in words; "" where none does."""
+    told = zip(found.names, map(overload, found.solutions), strict=True)
+    return "; ".join(f"{name}: {text}" for name, text in told if text)
+
+
 def spectrum_facts(found: Spectrum) -> Iterator[tuple[str, str]]:
     """Name and text of what is known of the whole spectrum; nothing but the failed states where one failed."""
     life = found.life
     if found.failures:
         yield "Life", f"none: {', '.join(found.failures)} failed, and its damage is not known"
         return
-    yields = "; ".join(
-        f"{name}: {said}" for name, one in zip(found.names, found.solutions, strict=True) if (said := overload(one))
-    )
+    yields = overloads(found)
     if yields:
         yield OVERLOAD, f"elements and races yield, so that there is no life: {yields}"
     for text in lives_in_words(life):

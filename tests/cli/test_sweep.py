@@ -86,6 +86,21 @@ def test_list_with_units_and_a_case_that_fails(jaxbearing_command, folder):
         assert dataset["status"].attrs["flag_meanings"].split()[1] == "not_converged"
 
 
+def test_a_bearing_that_yields_has_no_life(jaxbearing_command, folder):
+    over = ("--over", "operation.radial_load=2 kN:20 kN:2", "--set", "operation.axial_load=0 N")
+    rated = ("--set", "rating.cleanliness=none", "--set", "rating.static_capacity=8 kN")
+    result = jaxbearing_command("sweep", "deep_groove_6205", *over, *rated, "--out", "y.nc", "--table", "y.csv")
+    assert result.code == 0, result.err
+    (marked,) = (line for line in result.out.splitlines() if line.split()[1:2] == ["yields"])
+    assert marked.split()[0] == "20000"
+    assert "in 1 case elements and races yield (static safety below 1): these have no life" in result.out
+    good, bad = csv.DictReader((folder / "y.csv").read_text(encoding="utf-8").splitlines())
+    assert (good["status"], bad["status"]) == ("converged", "yields")
+    assert float(good["life_L10h [h]"]) > 0.0
+    assert all(bad[name] == "" for name in bad if name.startswith("life_L"))
+    assert float(bad["life_static_safety"]) < 1.0
+
+
 def test_no_case_converges(jaxbearing_command):
     sizes = "geometry.roller_diameter=15 mm:16 mm:2"
     result = jaxbearing_command("sweep", *DRY, "--over", sizes, "--json")

@@ -118,3 +118,27 @@ def test_a_network_along_the_shaft():
     apart = [float(compiled(one, 1500.0)[0] @ jnp.asarray([1.0, -1.0])) for one in (1e-3, 0.2, 20.0)]
     assert apart[0] > apart[1] > apart[2] > 0.0
     assert apart[2] < 0.1 * apart[0]
+
+
+@pytest.mark.slow
+def test_a_runaway_has_its_status_and_names_the_place():
+    """Above the limit of temperature there is no result, and the message says where and at which speed."""
+
+    @jax.jit
+    def solved(rpm):
+        cool = system(0.2)
+        bearings = [
+            dataclasses.replace(one, scene=one.scene.replace({"thermal.limit": 273.15 + 60.0})) for one in cool.bearings
+        ]
+        shaft = dataclasses.replace(cool.shaft, speed=rpm * RPM)
+        return jb.solve(dataclasses.replace(cool, bearings=bearings, shaft=shaft), throw=False)
+
+    slow, fast = solved(6000.0), solved(20000.0)
+    assert int(slow.status) == jb.Status.CONVERGED
+    assert float(slow.bearings["A"].solution.thermal.temperatures.inner_ring) < 273.15 + 60.0
+    assert int(fast.status) == jb.Status.THERMAL_RUNAWAY
+    for word in ("thermal_runaway", "inner_ring of A", "20000 rpm", "thermal.limit"):
+        assert word in fast.failure()
+    thermal = [one.solution.thermal for one in fast.bearings.values()]
+    results = [fast.thermal, fast.torque, *([one.flows, one.heat_to_oil, one.temperatures] for one in thermal)]
+    assert all(np.all(np.isnan(leaf)) for leaf in jax.tree.leaves(results) if jnp.issubdtype(leaf.dtype, jnp.floating))
