@@ -8,7 +8,7 @@ import typer
 
 from .messages import NOT_CONVERGED, UNDETERMINED, bad_input, refuse
 from .options import JsonOption, LossOption, SceneArgument, SetOption, labelled
-from .output_files import PICTURES, ForceOption, Output, check_files, deliver
+from .output_files import PICTURES, ForceOption, Output, check_files, deliver, kept_if_interrupted
 from .posterior_options import (
     PlotPosteriorOption,
     PosteriorOption,
@@ -163,19 +163,22 @@ def calibrate(
     with without_false_alarms():
         with working("compiling", as_json) as tell:
             found, ranked = _calibrated(given, options, folds, wanted, label, as_json, _counted(tell))
-            if sampling is not None:
-                tell("sampling the posterior")
-            drawn, again = _sampled(found, sampling)
-            if others:
-                tell("predicting")
-            predicted = _predicted(found, others, drawn)
-        outputs = (
-            *(_output(found, drawn, label, file, as_json) for file in out or []),
-            Output(plot, lambda path: _write_plot(found, label, path), long=True),
-            Output(plot_posterior, lambda path: _write_posterior(found, drawn, again, label, path), long=True),
-        )
+            outputs = lambda drawn, again: (
+                *(_output(found, drawn, label, file, as_json) for file in out or []),
+                Output(plot, lambda path: _write_plot(found, label, path), long=True),
+                Output(plot_posterior, lambda path: _write_posterior(found, drawn, again, label, path), long=True),
+            )
+            plain = lambda: _print(found, label, given.notes, ranked, None, None, {}, as_json)
+            files = outputs(None, None) if found.converged else ()
+            with kept_if_interrupted(plain, files, "without what comes after the fit"):
+                if sampling is not None:
+                    tell("sampling the posterior")
+                drawn, again = _sampled(found, sampling)
+                if others:
+                    tell("predicting")
+                predicted = _predicted(found, others, drawn)
         show = lambda: _print(found, label, given.notes, ranked, drawn, again, predicted, as_json)
-        deliver(show, outputs if found.converged else ())
+        deliver(show, outputs(drawn, again) if found.converged else ())
     if not found.converged:
         left_out = [str(path) for path in (*(out or []), plot, plot_posterior) if path is not None]
         if left_out:

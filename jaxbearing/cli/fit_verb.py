@@ -10,7 +10,7 @@ import typer
 from .completion import scene_names
 from .messages import BAD_INPUT, NOT_CONVERGED, UNDETERMINED, bad_input, refuse, say
 from .options import SCENE_HELP, JsonOption, LossOption, SetOption, labelled
-from .output_files import PICTURES, ForceOption, Output, check_files, deliver
+from .output_files import PICTURES, ForceOption, Output, check_files, deliver, kept_if_interrupted
 from .posterior_options import (
     PlotPosteriorOption,
     PosteriorOption,
@@ -166,17 +166,20 @@ def fit(
     with without_false_alarms():
         with working("fitting", as_json) as tell:
             result, rows = _fitted(measurements, machine, models, options, tell)
-            if sampling is not None:
-                tell("sampling the posterior")
-            drawn, again = _sampled(result, sampling)
-        wrote = "" if as_json else f"wrote {out}: use it with [oil] file = ... or --set oil.file={out}"
-        outputs = (
-            Output(out, lambda path: _write_oil(result, path, data, scene, changes), wrote),
-            Output(plot, lambda path: _write_plot(result, path, data, label, notes), long=True),
-            Output(plot_posterior, lambda path: _write_posterior(drawn, again, data, path), long=True),
-        )
-        show = lambda: _print(result, rows, data, label, notes, out, as_json, drawn, again)
-        deliver(show, outputs if result.converged else outputs[:2] if result.undetermined else ())
+            wrote = "" if as_json else f"wrote {out}: use it with [oil] file = ... or --set oil.file={out}"
+            outputs = lambda drawn, again: (
+                Output(out, lambda path: _write_oil(result, path, data, scene, changes), wrote),
+                Output(plot, lambda path: _write_plot(result, path, data, label, notes), long=True),
+                Output(plot_posterior, lambda path: _write_posterior(drawn, again, data, path), long=True),
+            )
+            show = lambda drawn, again: _print(result, rows, data, label, notes, out, as_json, drawn, again)
+            plain = outputs(None, None) if result.converged else ()
+            with kept_if_interrupted(lambda: show(None, None), plain, "without the posterior"):
+                if sampling is not None:
+                    tell("sampling the posterior")
+                drawn, again = _sampled(result, sampling)
+        files = outputs(drawn, again)
+        deliver(lambda: show(drawn, again), files if result.converged else files[:2] if result.undetermined else ())
     if result.undetermined:
         if plot_posterior is not None:
             typer.echo(f"not written: {plot_posterior}", err=True)

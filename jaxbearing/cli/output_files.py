@@ -3,14 +3,15 @@
 import os
 import sys
 import tempfile
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, NamedTuple
 
 import typer
 
 from ..numerics.interrupts import INTERRUPTED, deferred_interrupts
-from .interrupt import ALL, if_interrupted, tell
+from .interrupt import ALL, NOTHING, if_interrupted, tell
 from .messages import NO_OUTPUT, refuse, say
 
 PICTURES = (".png", ".svg", ".pdf")
@@ -121,6 +122,29 @@ def deliver(show: Callable[[], None], files: Sequence[Output] = (), notes_to_std
             typer.echo(file.done, err=notes_to_stderr)
     if code:
         raise typer.Exit(code)
+
+
+@contextmanager
+def kept_if_interrupted(show: Callable[[], None], files: Sequence[Output], without: str) -> Iterator[None]:
+    """Ctrl-C inside the block shows the results that are there already, and writes their files.
+
+    **Arguments:** `show`: prints them; `files`: the long ones among them are left out; `without`: what is not there.
+    """
+
+    def words() -> str:
+        show()
+        sys.stdout.flush()
+        for file in files:
+            if file.path is not None and not file.long:
+                file.write(file.path)
+        left = [file for file in files if file.path is not None and file.long]
+        return f"{without}; not written: {_named(left)}" if left else without
+
+    if_interrupted(words)
+    try:
+        yield
+    finally:
+        if_interrupted(NOTHING)
 
 
 def _write(left: list[Output], written: list[Output]) -> int:

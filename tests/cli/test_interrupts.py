@@ -17,6 +17,7 @@ from command_process import environment
 from fit_results import MEDIAN
 
 import jaxbearing as jb
+from fitting.posterior import available
 
 DRY = ("reference_roller", "--set", "contact=none")
 BALL = ("deep_groove_6205", "--set", "contact=none")
@@ -145,6 +146,18 @@ def test_any_moment_of_long_work(moment, tmp_path):
     check(done, seconds)
     assert done.stderr == "interrupted: nothing was computed\n"
     assert (done.stdout, os.listdir(place)) == ("", [])
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not available(), reason="the sampler is an extra")
+def test_a_posterior_that_is_interrupted_leaves_the_fit(tmp_path):
+    fit = ("fit", str(MEDIAN), "--scene", "two_disk_etm", "--starts", "1", "--posterior", "--out", "a.toml")
+    done, seconds, place = pressed(tmp_path, (*fit, "--plot-posterior", "a.png"), "numpyro.infer", 0.5)
+    check(done, seconds)
+    assert done.stderr == "interrupted: without the posterior; not written: a.png\n"
+    assert "CONVERGED" in done.stdout
+    assert os.listdir(place) == ["a.toml"]
+    assert jb.load_scene("turbine_roller", {"oil.file": str(place / "a.toml")}).oil.rheology is not None
 
 
 def test_data_that_are_being_written_are_written(tmp_path):
