@@ -53,6 +53,10 @@ STEEP_WARNING = Information(
 THIN_WARNING = (
     "viscosity ratio kappa below 0.1: ISO 281 gives no a_ISO there, that of kappa = 0.1 is used; boundary lubrication"
 )
+THICK_WARNING = Information(
+    "viscosity ratio kappa above 4: a_ISO is that of kappa = 4, as ISO 281 asks; the contamination factor of a "
+    "cleanliness class takes kappa itself, beyond the diagrams of ISO 281, which end at 4"
+)
 
 
 UNSAFE = "static safety C0/P0 below 1: larger permanent dents than the static load rating of ISO 76 allows"
@@ -86,6 +90,8 @@ def with_life(scene: AbstractScene, solution: AnySolution) -> AnySolution:
     checks = dict(solution.checks)
     if life.modification_factor is not None and life.viscosity_ratio is not None:
         checks[THIN_WARNING] = life.viscosity_ratio < KAPPA_RANGE[0]
+        if scene.rating.cleanliness is not None:
+            checks[THICK_WARNING] = life.viscosity_ratio > KAPPA_RANGE[1]
     if life.static_safety is not None:
         checks[UNSAFE] = life.static_safety < 1.0
     checks[TOO_LIGHT] = life.equivalent_load < life.minimum_load

@@ -13,9 +13,9 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import jax.numpy as jnp
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
-from .._checks import about
+from .._checks import Information, about
 from ..mounting import PartTemperatures
 from ..numerics.checks import known, nan_unless
 from ..numerics.refusals import refusals_of
@@ -26,7 +26,7 @@ from ..thermal.result import HeatPaths, NodeTemperatures, ThermalResult, named
 from ..thermal.settings import Thermal
 from ..thermal.shares import oil_temperatures
 from ..thermal.solve import START_NOTE, UNSTABLE, ThermalState, solve_network
-from .heat import OUTSIDE, bearing_heat, bearing_network, heat_capacities, rings_of, thermal_of
+from .heat import OUTSIDE, bearing_heat, bearing_network, has_flow, heat_capacities, rings_of, thermal_of
 from .mounted import check_walls
 from .solution import Solution
 
@@ -177,6 +177,7 @@ def _answer(scene: AbstractBearing, network: Network, state: ThermalState) -> So
     checks = {text: broken & (good | (text in inputs)) for text, broken in solution.checks.items()}
     if result.unstable is not None:
         checks[UNSTABLE] = good & result.unstable
+    checks[NO_FLOW] = good & without_flow(scene)
     return dataclasses.replace(
         solution,
         status=state.status,
@@ -231,6 +232,17 @@ def heat_paths(network: Network, temperatures: Float[Array, " node"], losses: No
 def thermal_notes(scene: AbstractBearing) -> tuple[str, ...]:
     """Notes for the user: what the network assumes, and what a steady state does not say."""
     return about("thermal", START_NOTE), *network_notes(scene)
+
+
+NO_FLOW = Information(
+    "operation.oil_temperature has no effect: no oil flows through the bearing (operation.oil_flow), and [thermal] "
+    "computes the temperature of the oil in it"
+)
+
+
+def without_flow(scene: AbstractBearing) -> Bool[Array, ""]:
+    """True if no oil brings its inlet temperature into the network."""
+    return ~jnp.asarray(has_flow(scene)) | (jnp.asarray(scene.operation.oil_flow) == 0.0)
 
 
 def network_notes(scene: AbstractBearing) -> tuple[str, ...]:

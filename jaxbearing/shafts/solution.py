@@ -237,4 +237,13 @@ class ShaftSolution(AbstractSolution):
                 f"{status.text}: nothing holds the shaft along {self.freedom_names[int(self.softest)]} (after "
                 f"{steps} steps)"
             )
+        if status == Status.THERMAL_RUNAWAY:
+            return self._runaway()
         return f"{status.text} after {steps} steps: scaled residual {float(self.residual_norm):.3g}"
+
+    def _runaway(self) -> str:
+        """One sentence on temperatures beyond their limit: the hottest node of all bearings."""
+        own = {name: one.solution for name, one in self.bearings.items()}
+        warm = {name: one for name, one in own.items() if one is not None and one.thermal is not None}
+        name, hottest = max(warm.items(), key=lambda one: float(jnp.max(one[1].thermal.last)))
+        return f"{hottest.thermal.ending(Status.THERMAL_RUNAWAY)}, in bearing {name}"

@@ -18,7 +18,7 @@ from jaxtyping import Array, Float
 from .._checks import about
 from ..bearings.bearing import AbstractBearing
 from ..bearings.heat import bearing_heat, bearing_network, heat_capacities, inlet_temperature, rings_of
-from ..bearings.warm import MOST_BROYDEN, at_temperatures, heat_paths, network_notes
+from ..bearings.warm import MOST_BROYDEN, NO_FLOW, at_temperatures, heat_paths, network_notes, without_flow
 from ..numerics.checks import nan_unless
 from ..numerics.status import Status
 from ..thermal.network import HeatFlows, Network, NodeHeat
@@ -163,6 +163,7 @@ def _answer(system: ShaftSystem, warm: _Warm, state: ThermalState) -> ShaftSolut
     ended: ShaftSolution = state.ended.other[0]
     good = state.status == Status.CONVERGED
     bearings, notes = dict(solution.bearings), [about("thermal", START_NOTE)]
+    checks = {text: broken & good for text, broken in solution.checks.items()}
     results = []
     for number, name in enumerate(warm.names):
         result = _of_bearing(warm, number, state, heats[number])
@@ -170,6 +171,7 @@ def _answer(system: ShaftSystem, warm: _Warm, state: ThermalState) -> ShaftSolut
         own = dataclasses.replace(bearings[name].solution, thermal=result)
         bearings[name] = dataclasses.replace(bearings[name], solution=own)
         notes += [f"{name}: {note}" for note in network_notes(warm.scenes[number])]
+        checks[about(name, NO_FLOW)] = good & without_flow(warm.scenes[number])
     masked = lambda value: nan_unless(value, good)
     loss = sum(jnp.sum(heat.heat) for heat in heats)
     to_oil = sum(result.heat_to_oil for result in results)
@@ -184,7 +186,7 @@ def _answer(system: ShaftSystem, warm: _Warm, state: ThermalState) -> ShaftSolut
         softest=ended.softest,
         failure_causes=ended.failure_causes,
         bearings=bearings,
-        checks={text: broken & good for text, broken in solution.checks.items()},
+        checks=checks,
         notes=(*solution.notes, *notes),
         thermal=ShaftThermalResult(
             shaft_flow=masked(along[0]),

@@ -137,7 +137,12 @@ def test_a_runaway_has_its_status_and_names_the_place():
     assert int(slow.status) == jb.Status.CONVERGED
     assert float(slow.bearings["A"].solution.thermal.temperatures.inner_ring) < 273.15 + 60.0
     assert int(fast.status) == jb.Status.THERMAL_RUNAWAY
-    for word in ("thermal_runaway", "inner_ring of A", "20000 rpm", "thermal.limit"):
+    for word in (
+        "thermal_runaway: no steady state",
+        "thermal.limit",
+        "hottest node, the ",
+        "in bearing A",
+    ):
         assert word in fast.failure()
     thermal = [one.solution.thermal for one in fast.bearings.values()]
     results = [fast.thermal, fast.torque, *([one.flows, one.heat_to_oil, one.temperatures] for one in thermal)]

@@ -167,7 +167,7 @@ def require_oil(
         expected = "a temperature, which [contact] needs, e.g. '100 degC'"
         yield refusal_at("operation.oil_temperature", expected, "nothing")
     if oil is None:
-        yield refusal_at("oil", "an oil, which [contact] needs: a table [oil] with a 'name'", "nothing")
+        yield refusal_at("oil", "an oil, which [contact] needs: a table [oil] with a 'name' or a 'grade'", "nothing")
         return
     thermal, traction = law_in_words(contact, "thermal"), law_in_words(contact, "traction")
     heating = law_in_words(contact, "rolling_heating") if contact.rolling_heating == AIHARA else ""
