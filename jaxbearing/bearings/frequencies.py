@@ -47,22 +47,19 @@ def frequencies_of_motion(
 
     $f_c = |\omega_c|/2\pi$, $f_o = Z|\omega_c - \omega_o|/2\pi$, $f_i = Z|\omega_i - \omega_c|/2\pi$,
     $f_s = |s|/2\pi$. Without a cage $\omega_c$ is the mean orbital speed. It and the spin s, which counts relative to
-    the orbit, are means over the elements, each weighted by its loads on both raceways: what is heard comes from
-    loaded elements.
+    the orbit, are means over the elements, each weighted by its load on the inner raceway: what is heard comes from
+    elements that carry load, while centrifugal forces press all of them outwards.
 
     **Arguments:** `operation`, `elements`, `cage`: those of a solution, or of a batch of them; `cage` is `None` where
     the scene has none.
     """
-    others = (getattr(elements, f"load_{race}_second", None) for race in ("inner", "outer"))
-    second = tuple(load for load in others if load is not None)
-    given = (elements.load_inner, elements.load_outer, elements.orbital_speed, elements.spin_speed)
+    second = getattr(elements, "load_inner_second", None)
+    given = (elements.load_inner, elements.orbital_speed, elements.spin_speed)
     speeds = (operation.inner_speed, operation.outer_speed)
-    (inner_load, outer_load, orbit, spin), rings, cage_speed, second = known_numbers(
+    (load, orbit, spin), rings, cage_speed, second = known_numbers(
         (given, speeds, None if cage is None else cage.speed, second)
     )
-    load = inner_load + outer_load + NO_LOAD
-    for more in second:
-        load = load + more
+    load = load + NO_LOAD if second is None else load + second + NO_LOAD
     mean = lambda speed: (load * speed).sum(axis=-1) / load.sum(axis=-1)
     with np.errstate(all="ignore"):  # those of a solve that failed need not be numbers
         turning = mean(orbit) if cage_speed is None else cage_speed

@@ -24,7 +24,7 @@ def ball_scene(inner=HERTZ, outer=0.0, **changes):
 def moving(loads, orbits, spins):
     """Elements of which the frequencies need to know no more."""
     loads, orbits, spins = (jnp.asarray(one, dtype=float) for one in (loads, orbits, spins))
-    return SimpleNamespace(load_inner=loads, load_outer=loads, orbital_speed=orbits, spin_speed=spins)
+    return SimpleNamespace(load_inner=loads, load_outer=loads + 5.0, orbital_speed=orbits, spin_speed=spins)
 
 
 def test_published_factors_of_a_6205():
@@ -64,8 +64,9 @@ def test_a_contact_angle_makes_the_cage_faster():
 
 
 def test_loaded_elements_and_the_cage_are_heard():
-    """Means are weighted by load; a cage that is modelled says its speed itself."""
-    elements = moving([3.0, 1.0, *[0.0] * 7], [40.0, 44.0, *[0.0] * 7], [200.0, 240.0, *[0.0] * 7])
+    """Means are weighted by the load on the inner raceway: elements that only centrifugal forces press outwards do not
+    count. A cage that is modelled says its speed itself."""
+    elements = moving([3.0, 1.0, *[0.0] * 7], [40.0, 44.0, *[20.0] * 7], [200.0, 240.0, *[90.0] * 7])
     alone = frequencies_of_motion(ball_scene(100.0).operation, elements, None)
     np.testing.assert_allclose(alone.cage, 41.0 / HERTZ, rtol=1e-14)
     np.testing.assert_allclose(alone.element_spin, 210.0 / HERTZ, rtol=1e-14)

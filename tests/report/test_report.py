@@ -19,6 +19,7 @@ from jaxbearing.bearings.solution import CageState, RingDisplacement, Solution
 from jaxbearing.bearings.tapered.solution import TaperedPowerLoss
 from jaxbearing.life.result import Life
 from jaxbearing.numerics.status import Status
+from jaxbearing.report.bearing.summary import _loaded_zone
 from jaxbearing.report.display import bar, digits, with_unit
 from jaxbearing.report.json_report import solution_to_dict
 from jaxbearing.report.summary import print_summary
@@ -308,6 +309,16 @@ def test_small_powers_keep_their_digits(scale, total, pocket):
     assert f" {total} " in text.split("Drive power")[0]
     assert f" {pocket} " in text
     assert f"{total} W" in text
+
+
+def test_the_loaded_zone_goes_round_the_back():
+    for azimuth, loaded, words in (
+        ([-45.0, 0.0, 45.0, 90.0, 135.0, 180.0, -135.0, -90.0], [4, 5, 6], "135 to 225 deg"),
+        ([-45.0, 0.0, 45.0, 90.0, 135.0, 180.0, -135.0, -90.0], [0, 1, 2], "-45 to 45 deg"),
+        ([0.0, 120.0, -120.0], [1], "120 to 120 deg"),
+    ):
+        mask = np.isin(np.arange(len(azimuth)), loaded)
+        assert _loaded_zone(np.asarray(azimuth), mask, "ball").endswith(words)
 
 
 def test_summary_of_a_failure_prints_no_result():

@@ -25,7 +25,7 @@ from jaxbearing.report.plots import plot_solution, save_plot
 from jaxbearing.report.ross import TESTED
 from jaxbearing.report.shaft.bending import bending_line, cut_loads
 from jaxbearing.report.shaft.drawn import svg
-from jaxbearing.report.shaft.facts import life_columns
+from jaxbearing.report.shaft.facts import life_columns, shaft_warnings
 from jaxbearing.report.shaft.modes import natural_frequencies
 from jaxbearing.report.shaft.picture import Area, Pointer, pictures
 from jaxbearing.report.shaft.ross import ross_rotor, write_ross_rotor
@@ -134,6 +134,32 @@ def test_a_duty_cycle_with_a_state_that_yields_has_no_life_of_the_system(filled)
         assert shown.count("System life at 90 %") == (0 if yields else 2)
         assert ("pair.1 at 90 % reliability" in shown) != yields
         assert "pair.2 at 90 % reliability" in shown
+
+
+def test_a_duty_cycle_shows_its_least_safety_and_the_states_of_its_warnings(filled):
+    life = filled.bearings["pair.1"].life
+    states = [
+        dataclasses.replace(
+            filled,
+            bearings={
+                name: _with_life(one, dataclasses.replace(life, static_load=life.static_capacity / safety))
+                for name, one in filled.bearings.items()
+            },
+            checks={"too light": jnp.asarray(safety > 5.0), "in all": jnp.asarray(True)},
+        )
+        for safety in (9.0, 4.0)
+    ]
+    stacked = jax.tree.map(lambda *leaves: jnp.stack(leaves), *states)
+    lives = dict.fromkeys(filled.bearings)
+    duty = DutyResult(lives, None, jnp.asarray([0.9, 0.1]), stacked, ("idle", "peak"))
+    checks = {"too light": jnp.asarray(True), "in all": jnp.asarray(True)}
+    found = dataclasses.replace(states[0], duty=duty, checks=checks)
+    assert life_columns(states[0])["safety\nC0/P0"] == ["9.00"] * 2
+    assert life_columns(found)["least\nC0/P0"] == ["4.00"] * 2
+    assert [one for one in shaft_warnings(found) if one in ("in all", "too light (in idle)")] == [
+        "too light (in idle)",
+        "in all",
+    ]
 
 
 def _with_life(one, life):

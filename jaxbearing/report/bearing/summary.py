@@ -213,7 +213,11 @@ def _loaded_zone(azimuth: np.ndarray, loaded: np.ndarray, element: str) -> str:
     count = f"{int(np.sum(loaded))} of {loaded.size} {element}s above {100.0 * LOADED:.0f} % of the largest load"
     if np.all(loaded) or not np.any(loaded):
         return count
-    return f"{count}, {np.min(azimuth[loaded]):.0f} to {np.max(azimuth[loaded]):.0f} deg"
+    # the zone goes from behind the widest gap to before it
+    around = np.sort(azimuth[loaded])
+    gaps = np.diff(around, append=around[0] + 360.0)
+    begin = around[(np.argmax(gaps) + 1) % around.size]
+    return f"{count}, {begin:.0f} to {begin + 360.0 - np.max(gaps):.0f} deg"
 
 
 def _range(values: np.ndarray, unit: str) -> str:

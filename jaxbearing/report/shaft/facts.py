@@ -79,15 +79,23 @@ def life_columns(solution: ShaftSolution, wide: bool = True) -> dict[str, list[s
     if rated_for != "h, 90 %":
         columns |= {f"{name}\n{rated_for}": hours(AT_RELIABILITY[name][0]) for name in ("Ln", "Lnr")}
     columns |= {f"Lnmr\n{rated_for}": hours("Lnmr_hours"), "kappa": of("viscosity_ratio")}
-    columns["safety\nC0/P0"] = of("static_safety")
+    which = "safety" if solution.duty is None else "least"
+    columns[f"{which}\nC0/P0"] = _safeties(solution, "static_safety")
     if wide:
-        columns["safety\ncontact"] = of("contact_static_safety")
+        columns[f"{which}\ncontact"] = _safeties(solution, "contact_static_safety")
     columns["clearance\num"] = [_clearance(one) for one in bearings]
     if wide:
         columns["rings\ndegC"] = [_temperatures(one) for one in bearings]
     columns["loss\nW"] = [text(loss_of(one)) for one in bearings]
     kept = {heading: texts for heading, texts in columns.items() if set(texts) != {"-"}}
     return {NAMES: [one.name for one in bearings]} | kept if kept else {}
+
+
+def _safeties(solution: ShaftSolution, name: str) -> list[str]:
+    """A static safety of each bearing, the least one of all states of a duty cycle."""
+    bearings = (solution if solution.duty is None else solution.duty.states).bearings.values()
+    values = [None if one.life is None else getattr(one.life, name) for one in bearings]
+    return ["-" if value is None else text(np.min(np.asarray(value)), 3) for value in values]
 
 
 def _of_life(life: Life | None, name: str, significant: int) -> str:
@@ -143,7 +151,7 @@ def _power_of_ten(value: float) -> str:
 def life_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     """Name and text of the life of the system, and of what the narrow table of `life_columns` leaves out."""
     yield from system_facts(solution)
-    safeties = {name: _of_life(one.life, "contact_static_safety", 3) for name, one in solution.bearings.items()}
+    safeties = dict(zip(solution.bearings, _safeties(solution, "contact_static_safety"), strict=True))
     degrees = {name: _temperatures(one) for name, one in solution.bearings.items()}
     for title, texts in (("Static, contact", safeties), ("Rings, degC", degrees)):
         said = ", ".join(f"{name} {own}" for name, own in texts.items() if own != "-")
@@ -269,13 +277,23 @@ def _thermal_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
 
 
 def shaft_warnings(solution: ShaftSolution) -> list[str]:
-    """The warnings of the shaft; of several bearings with the same one there is one, with all of their names."""
+    """The warnings of the shaft; of several bearings with the same one there is one, with all of their names. Under a
+    duty cycle they say in which states they hold, if not in all."""
     names: dict[str, list[str]] = {}
-    for text in solution.warnings:
+    for text in [_with_states(solution, warning) for warning in solution.warnings]:
         name, _, rest = text.partition(": ")
         own = name in solution.bearings and rest
         names.setdefault(type(text)(rest) if own else text, []).extend([name] if own else [])
     return [about(", ".join(bearings), text) if bearings else text for text, bearings in names.items()]
+
+
+def _with_states(solution: ShaftSolution, text: str) -> str:
+    duty = solution.duty
+    if duty is None or text not in duty.states.range_checks:
+        return text
+    holds = np.asarray(duty.states.range_checks[text])
+    states = [name for name, own in zip(duty.names, holds, strict=True) if own]
+    return text if np.all(holds) else type(text)(f"{text} (in {', '.join(states)})")
 
 
 def _moved(value: float) -> float:
