@@ -288,6 +288,10 @@ def _notes(
     if np.any(held.free) and not np.isfinite(spread.quantile):
         notes.append(f"No intervals: {ALL_USED}.")
     notes += said_of(spread, held.free, fields)
+    assumed = sorted({name for data in search.rigs for name in data.measured if name not in data.deviations})
+    if search.options.known_errors and assumed:
+        size = f"{100.0 * search.options.relative_error:g} % of the value"
+        notes.append(f"The errors of {', '.join(assumed)} are not in the data; as known ones {size} are taken.")
     for one in misfits:
         if one.points >= FEWEST and abs(one.mean) > BIAS * one.rms:
             side = "above" if one.mean > 0.0 else "below"

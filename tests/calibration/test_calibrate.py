@@ -250,6 +250,7 @@ def test_weights_and_known_deviations(bearing, noisy):
         options=Options(known_errors=True),
     )
     np.testing.assert_allclose(twice.covariance, 4.0 * known.covariance, rtol=1e-4)
+    assert not any("not in the data" in note for note in known.notes)
     half = np.log(known[MODULUS].upper / known[MODULUS].value)
     np.testing.assert_allclose(half, stats.norm.ppf(0.975) * np.sqrt(known.covariance[1, 1]), rtol=1e-9)
 
@@ -292,6 +293,7 @@ def test_fields_that_no_value_tells_have_the_right_reason(bearing, noisy):
     found = jb.calibrate(bearing, one, [CLEARANCE], options=Options(known_errors=True))
     assert found[CLEARANCE].lower < found[CLEARANCE].value < found[CLEARANCE].upper
     assert not any("No intervals" in note for note in found.notes)
+    assert "The errors of ring.radial are not in the data; as known ones 2 % of the value are taken." in found.notes
     found = jb.calibrate(bearing, one, FREE)
     assert "a combination of" in found[MODULUS].reason
     with pytest.raises(ValueError, match="held_back: found every measured value"):

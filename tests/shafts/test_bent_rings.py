@@ -136,7 +136,8 @@ def test_a_preloaded_pair_meets_its_preload():
         jb.solve(pair(preload=Preload(force=180.0), scene=scene, **load)) for load in ({}, {"axial": 100.0})
     )
     np.testing.assert_allclose(loose.sets["set"].preload, 180.0, rtol=1e-11)
-    np.testing.assert_allclose(axial_forces(loose), 180.0, rtol=1e-9)
+    # balls of the loaded set have up to 1e-3 N outwards (`core.FORCE_FLOOR`), which those of the mounted one lack
+    np.testing.assert_allclose(axial_forces(loose), 180.0, rtol=2e-6)
     np.testing.assert_allclose(np.diff(axial_forces(loaded)), -100.0, rtol=1e-9)
     # rings that yield take a larger closure
     rigid = jb.solve(pair(preload=Preload(force=180.0)))
