@@ -106,12 +106,12 @@ def check_fits(scene: AbstractMovingBearing, last: object) -> None:
     """
     if not isinstance(last, LastState):
         raise ValueError(f"restart: a state of a {getattr(last, 'of', type(last).__name__)}, for a scene of a bearing")
-    count, found = scene.n_elements, np.shape(last.elements)[-1]
-    if found != count:
-        raise ValueError(f"restart: a state of {found} {scene.element}s, for a scene with {count}")
     wanted = scene.motion.instant
     if np.shape(last.elements)[0] != len(wanted.element_state) or np.shape(last.cage) != (len(wanted.cage_state),):
         raise ValueError(f"restart: a state of another kind of bearing, for a scene of a {type(scene).__name__}")
+    count, found = scene.n_elements, np.shape(last.elements)[-1]
+    if found != count:
+        raise ValueError(f"restart: a state of {found} {scene.element}s, for a scene with {count}")
     if last.has_cage != (scene.cage is not None):
         has = lambda cage: "with a cage" if cage else "without a cage"
         raise ValueError(f"restart: a state {has(last.has_cage)}, for a scene {has(scene.cage is not None)}")

@@ -24,7 +24,7 @@ _ARROWS = (
     "Arrows outside and inside the rings: normal force of each {name} on the outer and on the inner ring, all at one "
     "scale, so that their lengths are proportional to the loads. In the middle: what acts on the inner ring. "
     "Diameters and positions are to scale; clearances and films are not (micrometres beside millimetres: they are "
-    "drawn closed), nor are {rings}, which a scene does not have."
+    "drawn closed), nor are {rings}, which have usual proportions."
 )
 _SECTION = (
     "Forces of the {name} on the rings, lengths proportional to the loads{angles}. The axis of the bearing lies below. "

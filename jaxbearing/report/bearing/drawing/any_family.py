@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 _CAPTION = (
     "Names as in --set and in Python; those without a dot belong to geometry. To scale, except for bore, outside "
-    "diameter and width\nof the rings, which a scene does not have. The section shows the unloaded bearing, its axis "
+    "diameter and width\nof the rings, which have usual proportions. The section shows the unloaded bearing, its axis "
     "below."
 )
 Label = tuple[str, tuple[float, float]]
