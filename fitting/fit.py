@@ -51,6 +51,9 @@ def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None =
 
     **Raises:** `ValueError` for options that make no sense, and where the scene's oil has no rheology.
     """
+    for name, value, kind in (("measurements", measurements, Measurements), ("scene", scene, TwoDisk)):
+        if not isinstance(value, kind):
+            raise TypeError(f"fit: {name} must be {kind.__name__}, got {type(value).__name__}")
     options = FitOptions() if options is None else options
     options.check()
     if scene.oil.rheology is None:

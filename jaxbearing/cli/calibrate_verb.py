@@ -170,7 +170,7 @@ def calibrate(
             )
             plain = lambda: _print(found, label, given.notes, ranked, None, None, {}, as_json)
             files = outputs(None, None) if found.converged else ()
-            with kept_if_interrupted(plain, files, "without what comes after the fit"):
+            with kept_if_interrupted(plain, files, "without what comes after the fit", tell.stop):
                 if sampling is not None:
                     tell("sampling the posterior")
                 drawn, again = _sampled(found, sampling)

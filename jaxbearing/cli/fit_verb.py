@@ -174,7 +174,7 @@ def fit(
             )
             show = lambda drawn, again: _print(result, rows, data, label, notes, out, as_json, drawn, again)
             plain = outputs(None, None) if result.converged else ()
-            with kept_if_interrupted(lambda: show(None, None), plain, "without the posterior"):
+            with kept_if_interrupted(lambda: show(None, None), plain, "without the posterior", tell.stop):
                 if sampling is not None:
                     tell("sampling the posterior")
                 drawn, again = _sampled(result, sampling)

@@ -3,8 +3,9 @@
 import os
 import sys
 import tempfile
+import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Annotated, NamedTuple
 
@@ -125,26 +126,36 @@ def deliver(show: Callable[[], None], files: Sequence[Output] = (), notes_to_std
 
 
 @contextmanager
-def kept_if_interrupted(show: Callable[[], None], files: Sequence[Output], without: str) -> Iterator[None]:
-    """Ctrl-C inside the block shows the results that are there already, and writes their files.
+def kept_if_interrupted(
+    show: Callable[[], None], files: Sequence[Output], without: str, stop: Callable[[], None]
+) -> Iterator[None]:
+    """Ctrl-C inside the block shows the results that are there already, and writes their files, but for the long ones.
 
-    **Arguments:** `show`: prints them; `files`: the long ones among them are left out; `without`: what is not there.
+    **Arguments:** `show`: prints them; `without`: what is not there; `stop`: takes the line of progress away.
     """
+    ending = threading.Lock()
 
     def words() -> str:
-        show()
-        sys.stdout.flush()
+        ending.acquire()  # for good: the process ends, and the block must not deliver the same again
+        left = [file for file in files if file.path is not None and file.long]
+        with suppress(Exception):
+            stop()
+            show()
+            sys.stdout.flush()
         for file in files:
             if file.path is not None and not file.long:
-                file.write(file.path)
-        left = [file for file in files if file.path is not None and file.long]
+                try:
+                    file.write(file.path)
+                except (OSError, MemoryError):
+                    left.append(file)
         return f"{without}; not written: {_named(left)}" if left else without
 
     if_interrupted(words)
     try:
         yield
     finally:
-        if_interrupted(NOTHING)
+        with ending:
+            if_interrupted(NOTHING)
 
 
 def _write(left: list[Output], written: list[Output]) -> int:

@@ -4,7 +4,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -22,15 +22,25 @@ def console() -> "Console":
     return Console(highlight=False, width=said or (None if sys.stdout.isatty() else PIPE_WIDTH))
 
 
+class Working(NamedTuple):
+    """A line on the terminal. A call changes its text, and `stop` takes it away."""
+
+    change: Callable[[str], None]
+    stop: Callable[[], None]
+
+    def __call__(self, text: str) -> None:
+        self.change(text)
+
+
 @contextmanager
-def working(text: str, as_json: bool) -> Iterator[Callable[[str], None]]:
-    """A line with what is being done and since when, on a terminal only; what it returns changes the text."""
+def working(text: str, as_json: bool) -> Iterator[Working]:
+    """A line with what is being done and since when, on a terminal only."""
     if as_json or not sys.stdout.isatty():
-        yield lambda _: None
+        yield Working(lambda _: None, lambda: None)
         return
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
     columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False), TimeElapsedColumn())
     with Progress(*columns, console=console(), transient=True) as line:
         task = line.add_task(text, total=None)
-        yield lambda changed: line.update(task, description=changed)
+        yield Working(lambda changed: line.update(task, description=changed), line.stop)

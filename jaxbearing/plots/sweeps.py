@@ -10,6 +10,7 @@ from ..report.backends.matplotlib.sheet import grid_lines
 from ..report.colours import INK
 from ..report.display import axis_unit, tick
 from ..report.panels import log_ticks
+from ..report.sweep_table import without_lives_that_yield
 from .style import COLOURS, LINES, axis_name, finish, logarithmic, prepare, scale_of, shown
 
 if TYPE_CHECKING:
@@ -384,8 +385,10 @@ def _entries(axes: "matplotlib.axes.Axes", reverse: bool = False) -> "tuple[list
 
 
 def _results(sweep: "xr.Dataset", result: str) -> "xr.DataArray":
-    """A result, NaN where the case failed, whatever is stored there."""
-    return sweep[result].where(sweep["failure"] == "") if "failure" in sweep else sweep[result]
+    """A result, NaN where the case failed, whatever is stored there, and for lives where the bearing yields."""
+    if "failure" not in sweep:
+        return sweep[result]
+    return without_lives_that_yield(sweep)[result].where(sweep["failure"] == "")
 
 
 def failed_note(sweep: "xr.Dataset", mark: str) -> str:

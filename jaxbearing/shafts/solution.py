@@ -8,7 +8,9 @@ from collections.abc import Mapping
 from typing import Any
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractSolution, label
@@ -242,7 +244,11 @@ class ShaftSolution(AbstractSolution):
         return f"{status.text} after {steps} steps: scaled residual {float(self.residual_norm):.3g}"
 
     def _runaway(self) -> str:
-        """One sentence on temperatures beyond their limit: the hottest node of all bearings."""
+        """One sentence on temperatures beyond their limit: the hottest node of all, of the first state with such ones."""
+        if self.duty is not None:
+            lane = int(np.argmax(np.asarray(self.duty.states.status) == Status.THERMAL_RUNAWAY))
+            state = jax.tree.map(lambda leaf: leaf[lane], self.duty.states)
+            return f"{state._runaway()}, in state {self.duty.names[lane]}"
         own = {name: one.solution for name, one in self.bearings.items()}
         warm = {name: one for name, one in own.items() if one is not None and one.thermal is not None}
         name, hottest = max(warm.items(), key=lambda one: float(jnp.max(one[1].thermal.last)))

@@ -58,7 +58,8 @@ def over_columns(path: str, unit: str, values: Sequence[float], found: Sequence[
     kinds = {"Lnmr": found[0].life.reliability, "L10r": 0.90, "L10m": 0.90, "L10": 0.90}
     none = ["-" if one.failures else "yields" if overloads(one) else "" for one in found]
     for kind, reliability in kinds.items():
-        texts = [why or _text(getattr(one.life, IN_HOURS[kind])) for why, one in zip(none, found, strict=True)]
+        lives = [getattr(one.life, IN_HOURS[kind]) for one in found]
+        texts = ["-" if life is None else why or _text(life) for why, life in zip(none, lives, strict=True)]
         if set(texts) != {"-"}:
             columns[f"{kind}\nh, {percent(reliability)}"] = texts
     loads = ["-" if one.failures else _text(1e-3 * np.asarray(one.life.equivalent_load)) for one in found]

@@ -25,7 +25,7 @@ from jaxbearing.report.plots import plot_solution, save_plot
 from jaxbearing.report.ross import TESTED
 from jaxbearing.report.shaft.bending import bending_line, cut_loads
 from jaxbearing.report.shaft.drawn import svg
-from jaxbearing.report.shaft.facts import life_columns, shaft_warnings
+from jaxbearing.report.shaft.facts import life_columns, shaft_notes, shaft_warnings, with_states
 from jaxbearing.report.shaft.modes import natural_frequencies
 from jaxbearing.report.shaft.picture import Area, Pointer, pictures
 from jaxbearing.report.shaft.ross import ross_rotor, write_ross_rotor
@@ -156,6 +156,8 @@ def test_a_duty_cycle_shows_its_least_safety_and_the_states_of_its_warnings(fill
     found = dataclasses.replace(states[0], duty=duty, checks=checks)
     assert life_columns(states[0])["safety\nC0/P0"] == ["9.00"] * 2
     assert life_columns(found)["least\nC0/P0"] == ["4.00"] * 2
+    assert [with_states(found, text) for text in checks] == ["too light (in idle)", "in all"]
+    assert not any("too light" in note for note in shaft_notes(found))
     assert [one for one in shaft_warnings(found) if one in ("in all", "too light (in idle)")] == [
         "too light (in idle)",
         "in all",

@@ -10,7 +10,7 @@ from shaft_cases import DEEP_GROOVE, RPM
 
 import jaxbearing as jb
 from jaxbearing.materials import Material
-from jaxbearing.shafts import MountedBearing, PointLoad, Section, Shaft, ShaftSystem, ShaftThermal
+from jaxbearing.shafts import DutyResult, MountedBearing, PointLoad, Section, Shaft, ShaftSystem, ShaftThermal
 from jaxbearing.shafts.heat import between_neighbours, flows_along, gap_conductances, growth_along
 
 STEEL = Material(206e9, 0.3, 7850.0, thermal_expansion=12e-6, conductivity=46.0)
@@ -147,3 +147,7 @@ def test_a_runaway_has_its_status_and_names_the_place():
     thermal = [one.solution.thermal for one in fast.bearings.values()]
     results = [fast.thermal, fast.torque, *([one.flows, one.heat_to_oil, one.temperatures] for one in thermal)]
     assert all(np.all(np.isnan(leaf)) for leaf in jax.tree.leaves(results) if jnp.issubdtype(leaf.dtype, jnp.floating))
+    states = jax.tree.map(lambda *leaves: jnp.stack(leaves), slow, fast)
+    duty = DutyResult({}, None, jnp.asarray([0.5, 0.5]), states, ("slow", "fast"))
+    told = dataclasses.replace(slow, status=fast.status, duty=duty).failure()
+    assert told == f"{fast.failure()}, in state fast"

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ..._checks import about
+from ..._checks import about, as_note, in_groups
 from ...bearings.solution import RING_FREEDOMS
 from ...life.duty import IN_HOURS
 from ...life.result import AtReliability, Life
@@ -153,7 +153,8 @@ def life_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     yield from system_facts(solution)
     safeties = dict(zip(solution.bearings, _safeties(solution, "contact_static_safety"), strict=True))
     degrees = {name: _temperatures(one) for name, one in solution.bearings.items()}
-    for title, texts in (("Static, contact", safeties), ("Rings, degC", degrees)):
+    static = "Static, contact" if solution.duty is None else "Least, contact"
+    for title, texts in ((static, safeties), ("Rings, degC", degrees)):
         said = ", ".join(f"{name} {own}" for name, own in texts.items() if own != "-")
         if said:
             yield title, said
@@ -279,15 +280,26 @@ def _thermal_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
 def shaft_warnings(solution: ShaftSolution) -> list[str]:
     """The warnings of the shaft; of several bearings with the same one there is one, with all of their names. Under a
     duty cycle they say in which states they hold, if not in all."""
+    return _merged(solution, [with_states(solution, warning) for warning in solution.warnings])
+
+
+def shaft_notes(solution: ShaftSolution) -> list[str]:
+    """Broken rules and notes, merged as `shaft_warnings`: the warnings that are about no range of a law."""
+    act, assumed, information = in_groups([*solution.broken_rules, *map(as_note, solution.notes)])
+    return _merged(solution, [*act, *assumed, *information])
+
+
+def _merged(solution: ShaftSolution, texts: Sequence[str]) -> list[str]:
     names: dict[str, list[str]] = {}
-    for text in [_with_states(solution, warning) for warning in solution.warnings]:
+    for text in texts:
         name, _, rest = text.partition(": ")
         own = name in solution.bearings and rest
         names.setdefault(type(text)(rest) if own else text, []).extend([name] if own else [])
     return [about(", ".join(bearings), text) if bearings else text for text, bearings in names.items()]
 
 
-def _with_states(solution: ShaftSolution, text: str) -> str:
+def with_states(solution: ShaftSolution, text: str) -> str:
+    """A warning with the states of a duty cycle in which it holds, if these are not all."""
     duty = solution.duty
     if duty is None or text not in duty.states.range_checks:
         return text

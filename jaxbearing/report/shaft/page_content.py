@@ -27,9 +27,10 @@ from .facts import (
     overloads,
     set_facts,
     shaft_facts,
-    shaft_warnings,
+    shaft_notes,
     stiffness_rows,
     system_facts,
+    with_states,
 )
 from .panels import shaft_panels
 from .picture import pictures
@@ -57,8 +58,8 @@ def page_content(scene: ShaftSystem, solution: ShaftSolution) -> Content:
             ("unknowns of the shaft", str(solution.unknowns)),
             ("largest scaled residual", f"{float(solution.residual_norm):.1e}"),
         ],
-        checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],
-        notes=[text for text in shaft_warnings(solution) if text not in solution.range_checks],
+        checks=[(with_states(solution, text), bool(broken)) for text, broken in solution.range_checks.items()],
+        notes=shaft_notes(solution),
         results=list(_results(solution)),
     )
 
