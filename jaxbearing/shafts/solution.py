@@ -244,7 +244,7 @@ class ShaftSolution(AbstractSolution):
         return f"{status.text} after {steps} steps: scaled residual {float(self.residual_norm):.3g}"
 
     def _runaway(self) -> str:
-        """One sentence on temperatures beyond their limit: the hottest node of all, of the first state with such ones."""
+        """One sentence on temperatures beyond their limit, with the hottest node of the first state that has such."""
         if self.duty is not None:
             lane = int(np.argmax(np.asarray(self.duty.states.status) == Status.THERMAL_RUNAWAY))
             state = jax.tree.map(lambda leaf: leaf[lane], self.duty.states)
