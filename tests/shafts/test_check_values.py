@@ -96,7 +96,8 @@ def test_a_rigid_pair_at_speed():
 
 @pytest.mark.slow
 def test_a_pair_with_springs():
-    """B4, B5; the sheet's 180 N of B5 at rest are the force at no displacement, 148.535 N mounted."""
+    """B4, B5, to the sheet's 1e-5: balls under small loads have less than its 1e-3 N outwards (`core.FLOOR_SHARE`), and
+    their stiffness at speed is soft. The sheet's 180 N of B5 at rest are the force at no displacement, 148.535 N mounted."""
     spring = Preload(spring_force=180.0, spring_stiffness=0.0)
     for rpm, axial, radial in (
         (10000, 2.327814e7, 2.071476e8),
@@ -106,12 +107,12 @@ def test_a_pair_with_springs():
         solved = jb.solve(pair(rpm=rpm, preload=spring))
         close(axial_forces(solved), [180.0, 180.0], 1e-9)
         stiffness = pair_stiffness(solved)
-        close(np.asarray(solved.bearings["set.1"].stiffness)[0, 0], axial, 3e-7)
-        close(stiffness[1], radial, 3e-7)
+        close(np.asarray(solved.bearings["set.1"].stiffness)[0, 0], axial, 1e-5)
+        close(stiffness[1], radial, 1e-5)
     for load, first, axial in ((200.0, 380.0, 4.16763e7), (-150.0, 30.0, 1.822622e6)):
         solved = jb.solve(pair(rpm=10000, preload=spring, axial=load))
         close(axial_forces(solved), [first, 180.0], 1e-9)
-        close(np.asarray(solved.bearings["set.1"].stiffness)[0, 0], axial, 1e-6)
+        close(np.asarray(solved.bearings["set.1"].stiffness)[0, 0], axial, 1e-5)
     stiff = dataclasses.replace(spring, spring_force=148.535, spring_stiffness=2e6)
     solved = jb.solve(pair(preload=stiff, axial=200.0))
     close(axial_forces(solved), [338.661387, 138.661387], 3e-6)
@@ -304,7 +305,9 @@ def test_a_third_bearing_that_is_lifted():
 def test_a_gear_shaft():
     """C4 of section 8: forces, lives, and what strain and expansion do."""
     solved = jb.solve(gear_shaft())
-    close(solved.sets["front"].closure, 2.58120936e-6, 1e-7)
+    # as in B1: two contacts with a ball between them are the sheet's to 7e-9 with 1e-3 N outwards, and this without
+    close(solved.sets["front"].closure, 2.58120936e-6, 1e-5)
+    close(solved.sets["front"].closure, 2.5812150646e-6, 1e-8)
     close(on_shaft(solved, "front.1"), [-1259.7992, 332.7613, -420.0330, 7.179772, -9.243949], 1e-5)
     close(on_shaft(solved, "front.2")[:3], [723.9008, 438.0098, -373.1699], 1e-5)
     close(on_shaft(solved, "rear")[:3], [0.0, 939.8115, -562.0381], 1e-5, 1e-9)
