@@ -97,7 +97,8 @@ def test_a_rigid_pair_at_speed():
 @pytest.mark.slow
 def test_a_pair_with_springs():
     """B4, B5, to the sheet's 1e-5: balls under small loads have less than its 1e-3 N outwards (`core.FLOOR_SHARE`), and
-    their stiffness at speed is soft. The sheet's 180 N of B5 at rest are the force at no displacement, 148.535 N mounted."""
+    their stiffness at speed is soft. The sheet's 180 N of B5 at rest are the force at no displacement, 148.535 N
+    mounted."""
     spring = Preload(spring_force=180.0, spring_stiffness=0.0)
     for rpm, axial, radial in (
         (10000, 2.327814e7, 2.071476e8),
@@ -457,5 +458,5 @@ def test_mirrored():
 @pytest.mark.slow
 def test_class_force_of_a_pair_is_its_preload():
     solved = jb.solve(pair(scene=P, preload=Preload(class_force=180.0)))
-    close(solved.sets["set"].closure, 8.87786930e-6, 1e-8)
+    close(solved.sets["set"].closure, 8.87787020639e-6, 1e-8)  # B1 without the floor of the reference code
     close(solved.sets["set"].preload, 180.0, 1e-9)
