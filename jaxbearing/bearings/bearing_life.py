@@ -85,12 +85,13 @@ def with_life(scene: AbstractScene, solution: AnySolution) -> AnySolution:
     """The solution of a bearing with the life in it where the scene has a rating; any other as it is."""
     if not isinstance(scene, AbstractBearing) or not isinstance(solution, Solution) or scene.rating is None:
         return solution
+    by_class = scene.rating.cleanliness is not None
     scene = scene.settled(solution)
     life = bearing_life(scene, solution)
     checks = dict(solution.checks)
     if life.modification_factor is not None and life.viscosity_ratio is not None:
         checks[THIN_WARNING] = life.viscosity_ratio < KAPPA_RANGE[0]
-        if scene.rating.cleanliness is not None:
+        if by_class:
             checks[THICK_WARNING] = life.viscosity_ratio > KAPPA_RANGE[1]
     if life.static_safety is not None:
         checks[UNSAFE] = life.static_safety < 1.0

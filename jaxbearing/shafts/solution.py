@@ -249,7 +249,7 @@ class ShaftSolution(AbstractSolution):
             lane = int(np.argmax(np.asarray(self.duty.states.status) == Status.THERMAL_RUNAWAY))
             state = jax.tree.map(lambda leaf: leaf[lane], self.duty.states)
             return f"{state._runaway()}, in state {self.duty.names[lane]}"
-        own = {name: one.solution for name, one in self.bearings.items()}
-        warm = {name: one for name, one in own.items() if one is not None and one.thermal is not None}
-        name, hottest = max(warm.items(), key=lambda one: float(jnp.max(one[1].thermal.last)))
-        return f"{hottest.thermal.ending(Status.THERMAL_RUNAWAY)}, in bearing {name}"
+        solved = {name: one.solution for name, one in self.bearings.items() if one.solution is not None}
+        warm = {name: one.thermal for name, one in solved.items() if one.thermal is not None}
+        name, hottest = max(warm.items(), key=lambda one: float(jnp.max(one[1].last)))
+        return f"{hottest.ending(Status.THERMAL_RUNAWAY)}, in bearing {name}"
