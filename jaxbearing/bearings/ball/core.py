@@ -39,6 +39,8 @@ FORCE_FLOOR = 1e-3
 FLOOR_SHARE = 1e-4
 """Part of a ball's share of the load that the addition does not exceed: balls at rest would roll down the outer groove
 under it, and move the ring along its axis by 20 um where it carries 0.01 N."""
+CENTRIFUGAL_SHARE = 1e-3
+"""Part of the centrifugal force that the addition may have besides: balls that turn are pressed outwards anyhow."""
 
 ESTIMATES = 3
 """Passes between centrifugal forces and contact angles in the first guess."""
@@ -352,7 +354,8 @@ class BallCore(AbstractBallSystem):
     def with_floor(self) -> "BallCore":
         """These equations with the addition to the centrifugal force for the load on the ring."""
         share = FLOOR_SHARE * self.load_scale() / self.ball_count
-        return dataclasses.replace(self, floor=jnp.minimum(FORCE_FLOOR, share))
+        turning = CENTRIFUGAL_SHARE * self.centrifugal(self.free_orbit())
+        return dataclasses.replace(self, floor=jnp.minimum(FORCE_FLOOR, share + turning))
 
     def at(self, point: ArrowPoint) -> BallState:
         return self.balls(point.elements, seen_by_elements(self, point))
