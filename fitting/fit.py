@@ -49,7 +49,8 @@ def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None =
     cannot tell are held at the scene's values and said so: by rule before (one pressure, one temperature, viscous
     only), by their uncertainty after. Several starts run at once; everything is compiled once for a number of points.
 
-    **Raises:** `ValueError` for options that make no sense, and where the scene's oil has no rheology.
+    **Raises:** `TypeError` for arguments of another kind; `ValueError` for options that make no sense, and where the
+    scene's oil has no rheology.
     """
     for name, value, kind in (("measurements", measurements, Measurements), ("scene", scene, TwoDisk)):
         if not isinstance(value, kind):

@@ -54,10 +54,10 @@ def frequencies_of_motion(
     the scene has none.
     """
     second = getattr(elements, "load_inner_second", None)
-    given = (elements.load_inner, elements.orbital_speed, elements.spin_speed)
+    motion = (elements.load_inner, elements.orbital_speed, elements.spin_speed)
     speeds = (operation.inner_speed, operation.outer_speed)
     (load, orbit, spin), rings, cage_speed, second = known_numbers(
-        (given, speeds, None if cage is None else cage.speed, second)
+        (motion, speeds, None if cage is None else cage.speed, second)
     )
     load = load + NO_LOAD if second is None else load + second + NO_LOAD
     mean = lambda speed: (load * speed).sum(axis=-1) / load.sum(axis=-1)

@@ -138,7 +138,7 @@ def kept_if_interrupted(
     def words() -> str:
         ending.acquire()  # for good: the process ends, and the block must not deliver the same again
         left = [file for file in files if file.path is not None and file.long]
-        with suppress(Exception):
+        with suppress(Exception):  # a pipe that has gone must not cost the files
             stop()
             show()
             sys.stdout.flush()

@@ -45,12 +45,12 @@ def failures(dataset: xr.Dataset) -> np.ndarray:
 def yielding(dataset: xr.Dataset) -> xr.DataArray:
     """True for each case whose elements and races yield: one of its static safeties is below 1."""
     cases = dataset["failure"]
-    found = xr.zeros_like(cases, dtype=bool)
+    yields = xr.zeros_like(cases, dtype=bool)
     for name in dataset.data_vars:
         if str(name).endswith("static_safety"):
             low = dataset[name] < 1.0
-            found |= low.any([dim for dim in low.dims if dim not in cases.dims])
-    return found
+            yields |= low.any([dim for dim in low.dims if dim not in cases.dims])
+    return yields
 
 
 def without_lives_that_yield(dataset: xr.Dataset) -> xr.Dataset:
@@ -93,7 +93,7 @@ def print_cases(dataset: xr.Dataset, names: Iterable[str], console: Console) -> 
     words = ["" if end == CONVERGED else end if end == YIELDS else "failed" for end in ends(dataset)]
     if any(words):
         first["case"] = words
-    print_columns(first, columns, console, full=False, left=("case",), way="--table FILE")
+    print_columns(first, columns, console, full=False, named="case", way="--table FILE")
 
 
 def write_table(path: Path, file: str | os.PathLike[str]) -> None:

@@ -36,7 +36,7 @@ def print_over(
     print_rule("Life under the load spectrum", console)
     columns = over_columns(path, unit, values, found)
     own = next(iter(columns))
-    print_columns({own: columns.pop(own)}, columns, console, full, left=(_GOVERNS,))
+    print_columns({own: columns.pop(own)}, columns, console, full, named=_GOVERNS)
     said = [
         f"{with_unit(value, unit)}, {name}: {text}"
         for value, one in zip(values, found, strict=True)
@@ -56,10 +56,10 @@ def over_columns(path: str, unit: str, values: Sequence[float], found: Sequence[
     largest = max(map(abs, values))
     columns = {f"{own}\n{display_unit(unit, largest)}": [number(value, unit, largest=largest) for value in values]}
     kinds = {"Lnmr": found[0].life.reliability, "L10r": 0.90, "L10m": 0.90, "L10": 0.90}
-    none = ["-" if one.failures else "yields" if overloads(one) else "" for one in found]
+    endings = ["-" if one.failures else "yields" if overloads(one) else "" for one in found]
     for kind, reliability in kinds.items():
         lives = [getattr(one.life, IN_HOURS[kind]) for one in found]
-        texts = ["-" if life is None else why or _text(life) for why, life in zip(none, lives, strict=True)]
+        texts = ["-" if life is None else why or _text(life) for why, life in zip(endings, lives, strict=True)]
         if set(texts) != {"-"}:
             columns[f"{kind}\nh, {percent(reliability)}"] = texts
     loads = ["-" if one.failures else _text(1e-3 * np.asarray(one.life.equivalent_load)) for one in found]

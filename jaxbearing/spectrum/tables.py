@@ -43,7 +43,7 @@ def print_spectrum(
     headings, rows = spectrum_rows(found)
     columns = {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
     first = {"state": columns.pop("state")}
-    print_columns(first, columns, console, full, left=("state",))
+    print_columns(first, columns, console, full, named="state")
     for name, text in spectrum_facts(found):
         print_line(name, text, console)
     print_warnings([*(f"{name}: {text}" for name, text in failures.items()), *_warnings(found)], console, full)
@@ -77,8 +77,8 @@ def spectrum_rows(found: Spectrum) -> tuple[list[str], list[list[str]]]:
 
 def overloads(found: Spectrum) -> str:
     """The states in which elements and races yield, in words; "" where none does."""
-    told = zip(found.names, map(overload, found.solutions), strict=True)
-    return "; ".join(f"{name}: {text}" for name, text in told if text)
+    by_state = zip(found.names, map(overload, found.solutions), strict=True)
+    return "; ".join(f"{name}: {text}" for name, text in by_state if text)
 
 
 def spectrum_facts(found: Spectrum) -> Iterator[tuple[str, str]]:

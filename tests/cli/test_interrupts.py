@@ -149,7 +149,7 @@ def test_any_moment_of_long_work(moment, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(not available(), reason="the sampler is an extra")
+@pytest.mark.skipif(not available(), reason="NumPyro, an extra of the package, is not installed")
 def test_a_posterior_that_is_interrupted_leaves_the_fit(tmp_path):
     fit = ("fit", str(MEDIAN), "--scene", "two_disk_etm", "--starts", "1", "--posterior", "--out", "a.toml")
     done, seconds, place = pressed(tmp_path, (*fit, "--plot-posterior", "a.png"), "numpyro.infer", 0.5)

@@ -27,11 +27,11 @@ def test_sixteen_times_the_cases_take_the_memory_of_few(tmp_path):
     """The first run compiles the program, which takes memory too, and keeps it for the others."""
     runs = (("compiled", 256), ("few", 256), ("many", 4096))
     over = {name: ("--over", f"operation.radial_load=1 kN:20 kN:{cases}") for name, cases in runs}
-    found = {name: peak(tmp_path, *CASES, *one, "--out", f"{name}.nc") for name, one in over.items()}
-    assert found["many"] < found["few"] + 60.0
+    memory = {name: peak(tmp_path, *CASES, *one, "--out", f"{name}.nc") for name, one in over.items()}
+    assert memory["many"] < memory["few"] + 60.0
 
 
 @pytest.mark.slow
 def test_two_weeks_take_the_memory_of_two_hours(tmp_path):
-    found = [peak(tmp_path, *WARM_UP, "--duration", f"{hours} h", "--out", f"{hours}.nc") for hours in (2, 336)]
-    assert found[1] < found[0] + 60.0
+    memory = [peak(tmp_path, *WARM_UP, "--duration", f"{hours} h", "--out", f"{hours}.nc") for hours in (2, 336)]
+    assert memory[1] < memory[0] + 60.0

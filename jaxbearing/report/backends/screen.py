@@ -1,7 +1,7 @@
 """Parts of a summary on the screen: headline, lines, tables with bars, warnings. Tables come in pieces where a terminal
 is too narrow: numbers are never cut."""
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 from rich import box
@@ -94,7 +94,7 @@ def print_table(
         table.add_column("", width=room)
     for i, fraction in enumerate(fractions):
         bars = [_bar(fraction, room, style, console)] if room >= _SHORTEST_BAR else []
-        table.add_row(*(texts[i] for texts in columns.values()), *bars)
+        table.add_row(*(Text(texts[i]) for texts in columns.values()), *bars)
     console.print(Padding(table, (0, 1)))
 
 
@@ -141,18 +141,14 @@ def print_columns(
     columns: dict[str, list[str]],
     console: Console,
     full: bool,
-    left: Collection[str] = (),
+    named: str,
     way: str = "--full",
 ) -> None:
-    """A row for each text of the columns, under their titles, with the columns that the width has room for
-    (`shown_pieces`). **Arguments:** `left`: titles of columns of words, which begin at the left."""
+    """A table without bars, with the columns that the width has room for (`shown_pieces`).
+
+    **Arguments:** `named`: title of a column of words."""
     for piece in shown_pieces(first, columns, console, full, way):
-        table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
-        for title in piece:
-            table.add_column(title, justify="left" if title in left else "right", no_wrap=True)
-        for row in zip(*piece.values(), strict=True):
-            table.add_row(*map(Text, row))
-        console.print(Padding(table, (0, 1)))
+        print_table(piece, [0.0] * len(piece[next(iter(first))]), 0, "", console, named)
 
 
 def column(values: np.ndarray, unit: str) -> list[str]:
