@@ -1,13 +1,12 @@
-"""Tables, deviations and verdicts of the page "Beside measurements", from the data.
+"""Table of the page "Beside measurements", and the comparisons with data on which it rests.
 
-    python docs/generate/measurements.py             # all: some minutes
+    python docs/generate/measurements.py             # computes all: some minutes
     python docs/generate/measurements.py hertz films # these
     python docs/generate/measurements.py --kept      # none: the page from the kept numbers
+    python docs/generate/measurements.py --show hertz # prints a comparison as it was last computed
 
-What is computed is kept in `beside/computed.json`, and text between the marks `<!-- NAME -->` and `<!-- end NAME -->`
-of docs/measurements.md is made of that; the rest is written by hand. Both tables at the top are made of the texts of
-all comparisons, also of those that are not computed again. One test compares the page with the kept numbers, and
-another computes them again.
+What is computed is kept in `beside/computed.json`. Text between the marks `<!-- NAME -->` and `<!-- end NAME -->` of
+docs/measurements.md is made of the comparisons. One test compares the page with them, and another computes them again.
 """
 
 import json
@@ -27,8 +26,8 @@ KEPT = Path(__file__).parent / "beside" / "computed.json"
 COMPARISONS: dict[str, Comparison] = {
     one.name: one for module in (heat, torque, catalogues, contacts, source, prediction) for one in module.COMPARISONS
 }
-KIND, ANSWERS, SUMMARY = "kinds", "answers", "summary"
-DEVIATION = "**Deviation:** "
+KIND, ANSWERS = "kinds", "answers"
+OPTIONS = ("--kept", "--show")
 
 
 def kept() -> dict[str, Found]:
@@ -45,17 +44,18 @@ def keep(name: str, found: Found) -> None:
 
 
 def block(one: Comparison, found: Found) -> str:
-    """The text between the marks of a comparison."""
+    """A comparison in words, with the table of its points."""
     said = (
-        f"**Kind of data:** {one.kind}.",
-        f"**Conditions:** {one.conditions}",
-        f"{DEVIATION}{found.deviation}.",
-        f"**Fitted or chosen:** {' '.join(filter(None, (one.free, found.told)))}",
-        f"**Not known and assumed:** {one.assumed}",
-        f"**Not reproduced:** {one.missed}",
-        f"**Verdict:** {one.sentence}",
+        f"{one.quantity}: {one.data}",
+        f"Kind of data: {one.kind}.",
+        f"Conditions: {one.conditions}",
+        f"Deviation: {found.deviation}.",
+        f"Fitted or chosen: {' '.join(filter(None, (one.free, found.told)))}",
+        f"Not known and assumed: {one.assumed}",
+        f"Not reproduced: {one.missed}",
+        f"Verdict: {one.sentence}",
     )
-    return "\n\n".join((found.table, "\\\n".join(said)))
+    return "\n".join((*said, "", found.table))
 
 
 def place(name: str) -> re.Pattern[str]:
@@ -77,33 +77,15 @@ def written(page: str, name: str, text: str) -> str:
     return place(name).sub(lambda found: f"{found[1]}\n{text}\n\n{found[3]}", page)
 
 
-def deviation_of(page: str, name: str) -> str:
-    """The deviation that the page states; "-" where the comparison was never computed."""
-    found = re.search(rf"^{re.escape(DEVIATION)}(.*)\.\\?$", shown(page, name), flags=re.MULTILINE)
-    return "-" if found is None else found[1]
-
-
-def summary(page: str, comparisons: Mapping[str, Comparison]) -> str:
-    """The table of all comparisons."""
-    lines = ["| quantity | data | kind | deviation | believe to | verdict |", "|---|---|---|---|---|---|"]
-    lines += [
-        f"| [{one.quantity}](#{anchor(page, name)}) | {one.data} | {one.kind} | {deviation_of(page, name)} | "
-        f"{one.believed}{one.beyond} | "
-        f"{one.sentence if deviation_of(page, name) != '-' else 'not computed yet'} |"
-        for name, one in comparisons.items()
-    ]
-    return "\n".join(lines)
-
-
-def answers(page: str, comparisons: Mapping[str, Comparison]) -> str:
-    """The table at the top: what to believe of each quantity that a user may want."""
-    lines = ["| quantity | for which bearing, oil and range | believe | grounds | section |", "|---|---|---|---|---|"]
-    places = {name: anchor(page, name) for name in comparisons} | {guide.NOWHERE: guide.UNCHECKED}
+def answers(comparisons: Mapping[str, Comparison]) -> str:
+    """The table: what to believe of each quantity that a user may want."""
+    lines = ["| result | bearing, oil and range | believe | data | comparison |", "|---|---|---|---|---|"]
     for row in guide.ROWS:
-        link = f"[{'not checked' if row.comparison == guide.NOWHERE else 'data'}](#{places[row.comparison]})"
-        grounds = "no data" if row.comparison == guide.NOWHERE else comparisons[row.comparison].kind
+        kind, name = (
+            ("-", "-") if row.comparison == guide.NOWHERE else (comparisons[row.comparison].kind, row.comparison)
+        )
         belief = row.belief.format(**{name: one.believed for name, one in comparisons.items()})
-        lines.append(f"| {row.quantity} | {row.case} | {belief} | {grounds} | {link} |")
+        lines.append(f"| {row.quantity} | {row.case} | {belief} | {kind} | {name} |")
     return "\n".join(lines)
 
 
@@ -112,32 +94,27 @@ def kinds() -> str:
     return "\n".join(f"* **{name}**: {meaning}" for name, meaning in KINDS.items())
 
 
-def anchor(page: str, name: str) -> str:
-    """Anchor of the heading that stands above the marks of a name."""
-    before = page.partition(f"<!-- {name} -->")[0]
-    heading = re.findall(r"^## (.+)$", before, flags=re.MULTILINE)[-1]
-    return re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", heading).strip().lower())
-
-
-def show(page: str, name: str, found: Found) -> str:
-    """The page with this comparison, and with the summary of all."""
-    page = written(page, name, block(COMPARISONS[name], found))
-    page = written(written(page, KIND, kinds()), ANSWERS, answers(page, COMPARISONS))
-    return written(page, SUMMARY, summary(page, COMPARISONS))
+def show(page: str) -> str:
+    """The page with the texts of the comparisons."""
+    return written(written(page, KIND, kinds()), ANSWERS, answers(COMPARISONS))
 
 
 def main(names: Sequence[str]) -> None:
-    """Computes the comparisons of these names, of all if there is none, and writes the page after each."""
-    anew = list(names) != ["--kept"]
-    unknown = [name for name in names if anew and name not in COMPARISONS]
+    """Computes the comparisons of these names, of all if there is none, and writes the page."""
+    options, names = [name for name in names if name.startswith("--")], [name for name in names if name[:2] != "--"]
+    unknown = [name for name in names if name not in COMPARISONS] + [one for one in options if one not in OPTIONS]
     if unknown:
-        raise SystemExit(f"found {', '.join(unknown)}; expected names among {', '.join(COMPARISONS)}")
-    for name in names if anew and names else COMPARISONS:
+        raise SystemExit(
+            f"found {', '.join(unknown)}; expected {', '.join(OPTIONS)} or names among {', '.join(COMPARISONS)}"
+        )
+    if "--show" in options:
+        print("\n\n".join(block(COMPARISONS[name], kept()[name]) for name in names or COMPARISONS))
+        return
+    for name in () if "--kept" in options else names or COMPARISONS:
         begin = time.monotonic()
-        if anew:
-            keep(name, COMPARISONS[name].compute())
-        PAGE.write_text(show(PAGE.read_text(encoding="utf-8"), name, kept()[name]), encoding="utf-8")
+        keep(name, COMPARISONS[name].compute())
         print(f"{name}: {time.monotonic() - begin:.1f} s", flush=True)
+    PAGE.write_text(show(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
     pictures.draw(COMPARISONS, kept())
 
 

@@ -43,7 +43,7 @@ class Found(NamedTuple):
 
 
 KINDS = {
-    "measured": "Somebody measured it. Unless the section says otherwise, a third party read the numbers off a "
+    "measured": "Somebody measured it. Unless the comparison says otherwise, a third party read the numbers off a "
     "printed figure.",
     "computed": "Somebody else computed it. No measurement is behind it.",
     "catalogue": "A maker prints it. The catalogue does not say whether it was measured or computed.",
@@ -67,7 +67,6 @@ class Comparison:
     - `verdict`: short sentences; `{believe}` stands for the number.
     - `compute`: the table and the deviations.
     - `dear`: whether that takes more than some seconds.
-    - `beyond`: what the summary says beside the number, of points that are left out of it.
     """
 
     name: str
@@ -83,7 +82,6 @@ class Comparison:
     verdict: str
     compute: Callable[[], Found]
     dear: bool = True
-    beyond: str = ""
 
     @property
     def believed(self) -> str:

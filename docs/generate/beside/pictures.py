@@ -1,29 +1,24 @@
-"""Pictures of the page, from the kept numbers: how far each comparison lies from its data, two of them over the speed,
-and the predicted loss of `turbine_roller`."""
+"""Picture of the page, from the kept numbers: how far each comparison lies from its data."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
 from jaxbearing.report.backends.matplotlib.page import Page
 from jaxbearing.report.backends.matplotlib.sheet import grid_lines
-from jaxbearing.report.colours import CURVES, FAINT, INK
+from jaxbearing.report.colours import CURVES, INK
 from jaxbearing.report.plots import save_plot
 
 from .common import DOCS, Comparison, Found
 
-OVERVIEW, PREDICTION = (DOCS / "pictures" / f"measurements_{name}.png" for name in ("overview", "prediction"))
+OVERVIEW = DOCS / "pictures" / "measurements_overview.png"
 TICKS = (0.5, 0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75)
 
 
 def draw(comparisons: Mapping[str, Comparison], kept: Mapping[str, Found]) -> None:
-    """Writes both pictures."""
-    save_plot(
-        overview({one.quantity: (one, kept[name]) for name, one in comparisons.items() if name in kept}), OVERVIEW
-    )
-    if "turbine_roller" in kept:
-        save_plot(prediction(kept["turbine_roller"]), PREDICTION)
+    """Writes it."""
+    shown = {one.quantity: (one, kept[name]) for name, one in comparisons.items() if name in kept}
+    save_plot(overview(shown), OVERVIEW)
 
 
 def overview(found: Mapping[str, tuple[Comparison, Found]]) -> Page:
@@ -47,26 +42,5 @@ def overview(found: Mapping[str, tuple[Comparison, Found]]) -> Page:
     axes.set_ylim(len(shown) - 0.4, -0.6)
     axes.tick_params(axis="y", length=0)
     axes.set_xlabel("model over measurement or print; band: within the per cent of the verdict", fontsize=9)
-    grid_lines(axes)
-    return figure
-
-
-def prediction(found: Found) -> Page:
-    """Total loss of `turbine_roller` with its intervals of 90 %."""
-    labels = [f"{row[0]}:\n{row[1]}" for row in found.rows]
-    value, low, high = (np.array([float(row[place]) for row in found.rows]) for place in (4, 5, 6))
-    figure = Page(9.6, 0.55 * len(labels) + 1.0)
-    axes: Any = figure.add_axes((0.36, 0.62 / (0.55 * len(labels) + 1.0), 0.6, 1.0 - 0.85 / (0.55 * len(labels) + 1.0)))
-    place = np.arange(len(labels))
-    axes.errorbar(value, place, xerr=[value - low, high - value], fmt="o", color=CURVES[0], capsize=4, lw=1.6)
-    for row, (middle, end) in enumerate(zip(value, high, strict=True)):
-        axes.annotate(
-            f"{middle:.0f} W", (end, row), xytext=(6, 0), textcoords="offset points", va="center", fontsize=8.5
-        )
-    axes.set_yticks(place, labels, fontsize=9)
-    axes.set_ylim(len(labels) - 0.5, -0.5)
-    axes.set_xlim(0.0, 1.15 * float(np.max(high)))
-    axes.set_xlabel("total loss of turbine_roller, W; interval of 90 % from drag and supply alone", fontsize=9)
-    axes.axvline(value[0], color=FAINT, linewidth=0.9, zorder=0)
     grid_lines(axes)
     return figure

@@ -136,7 +136,6 @@ COMPARISONS = (
         "(5 K lower the torque by 14 %), a shorter effective length of the crowned rollers (20 % less length lowers "
         "it by 20 %), and less oil at the inlets than assumed. Palmgren's formula is nearer without any fit.",
         believe=75.0,
-        beyond="; with Figure 7 a factor of 2.8",
         data_error=5.0,
         verdict='With `contact.supply.level = "bath"` the torque of Figures 5 and 6 is met to {believe} per cent, '
         "and it is always too high. Figure 7 of the same bearing, left out of this number, makes it up to "
