@@ -114,11 +114,18 @@ def page():
     """Markdown."""
     status = "| value | name |\n|---|---|\n" + "".join(f"| {int(one)} | `{one.text}` |\n" for one in Status)
     parts = [HEAD + status.rstrip("\n")]
+    earlier = {}
     for title, classes in SECTIONS.items():
-        parts.append(f"## {title}")
         rows = [row for path, one in classes.items() for row in rows_of(one, path)]
-        head = "| result | unit | what it is |\n|---|---|---|\n"
-        parts.append(head + "\n".join(f"| `{path}` | {unit} | {text} |" for path, unit, text in rows))
+        table = [f"| `{path}` | {unit} | {text} |" for path, unit, text in rows if (path, unit, text) not in earlier]
+        again = {}
+        for row in rows:
+            if row in earlier:
+                again.setdefault(earlier[row], []).append(f"`{row[0]}`")
+        parts += [f"## {title}", *(f'As under "{other}": {", ".join(names)}.' for other, names in again.items())]
+        if table:
+            parts.append("\n".join(["| result | unit | what it is |", "|---|---|---|", *table]))
+        earlier |= {row: earlier.get(row, title) for row in rows}
     return "\n\n".join(parts) + "\n"
 
 

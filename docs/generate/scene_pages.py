@@ -1,8 +1,10 @@
 """The page of scene files: every table and field with its unit, range, default and meaning, from the schemas."""
 
 import itertools
+import re
 import typing
 from pathlib import Path
+from types import MappingProxyType
 
 from jaxbearing.scenes.field_list import class_of, class_of_table, fields
 from jaxbearing.scenes.fields import tables_at
@@ -14,8 +16,9 @@ FILE = Path(__file__).parents[1] / "scene_files.md"
 HEAD = """# Scene files
 
 A scene file is TOML: `kind`, and one table for each part. A table that is left out is not modelled: it adds no unknown
-and no run time. A dimensional field takes a text with a unit (`"12 mm"`, `"60degC"`); a bare number is refused with the
-unit that it wants. Python takes the same names with SI numbers. A field that is one number may be a distribution,
+and no run time. A field with an SI unit takes a text with any unit of its kind (`"12 mm"`, `"60degC"`); a bare number
+is refused with the unit that it wants. A field without one takes a bare number. Python takes the same names with SI
+numbers. A field that is one number may be a distribution,
 `{mean = "12 um", deviation = "2 um"}` or `{low = "5 um", high = "20 um"}`: see [Tolerances](tolerances.md).
 The tables `[[state]]` are states of a [load spectrum](spectrum.md), with a share of the time and changes of any field.
 The lists `[[bearing]]`, `[[set]]` and `[[force]]` of a [shaft](shafts.md) are found by their names in paths.
@@ -26,7 +29,7 @@ it.
 This page is made from the schemas that read the files.
 
 `required`: the field must be there when its table is. `optional`: what it stands for is then not modelled, computed
-from the rest, or assumed, which the solution's notes say.
+from the rest, or assumed, which the solution's notes say. A table of the catalogue may be given by name: `"52100"`.
 
 `jb.save_scene(scene, "mine.toml")` writes any scene, `jaxbearing scenes --copy SCENE --set ... --to mine.toml`
 one with changes. What is read from the file is the same scene, every number to the last bit
@@ -41,7 +44,7 @@ def page():
     """Markdown."""
     scenes = "".join(f"| `{name}` | {summary(name)} |\n" for name in builtin_names())
     parts = [HEAD + "| scene | what it is |\n|---|---|\n" + scenes]
-    shared = _shared()
+    shared, earlier = _shared(), {}
     for kind in KINDS:
         model, scene = schema_of_kind(kind)
         parts.append(f'## `kind = "{kind}"`')
@@ -51,10 +54,12 @@ def page():
                     link = f"[{shared[table]}](#{_anchor(table)})"
                     parts.append(f"`[{name}]`: {link}." if name == shared[table] else "")
                 else:
-                    parts.append(_table(f"[{name}]", table, class_of(scene, name, table)))
+                    rows = _rows(table, class_of(scene, name, table))
+                    parts.append(_section(f"[{name}]", rows, _anchor(table), earlier.setdefault(name, {})))
+                    earlier[name] |= {row: earlier[name].get(row, kind) for row in rows.values()}
     parts.append("## Tables that several kinds have")
     for table, name in shared.items():
-        parts.append(_table(_title(name, table), table, class_of_table(table), _anchor(table)))
+        parts.append(_section(_title(name, table), _rows(table, class_of_table(table)), _anchor(table)))
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
@@ -115,21 +120,44 @@ def _title(name, table):
     return f"{name}" + (f', law = "{words[0]}"' if len(words) == 1 else "")
 
 
-def _table(title, model, scene_class, anchor=""):
-    rows = [
-        f"| `{f.name}` | {f.unit} | {_takes(f)} | {f.default} | {_cell(f.description)} |"
+def _rows(model, scene_class):
+    """Field -> its line."""
+    return {
+        f.name: f"| `{f.name}` | {f.unit} | {_takes(f)} | {f.default} | {_meaning(f)} |"
         for f in fields(model, scene_class)
-    ]
-    head = f"### `{title}`" + (f" {{ #{anchor} }}" if anchor else "")
+    }
+
+
+def _section(title, rows, anchor, earlier=MappingProxyType({})):
+    """A heading and the lines below it. **Arguments:** `earlier`: lines that a kind above has -> this kind."""
+    head = f"### `{title}` {{ #{anchor} }}"
     if not rows:
         return f"{head}\n\nNo fields but `law`."
-    return "\n".join([head, "", "| field | SI unit | takes | default | what it is |", "|---|---|---|---|---|", *rows])
+    again = {}
+    for name, row in rows.items():
+        if row in earlier:
+            again.setdefault(earlier[row], []).append(f"`{name}`")
+    own = [row for row in rows.values() if row not in earlier]
+    same = [f"As in `{kind}`: {', '.join(names)}." for kind, names in again.items()]
+    table = ["| field | SI unit | takes | default | what it is |", "|---|---|---|---|---|", *own] if own else []
+    return "\n\n".join(filter(None, [head, "\n".join(table), *same]))
 
 
 def _takes(field):
+    """Range and words, without what the head of the page says of all fields."""
     links = [f"[{one.tag.strip('<>') or 'table'}](#{_anchor(one)})" for one in field.tables]
-    words = [_cell(field.expected)] if field.expected else []
-    return " or ".join([*words, *([f"a table: {', '.join(links)}"] if links else [])])
+    text = re.sub(
+        r"^(a|an) | (with|without) a unit, e\.g\. '[^']*'(?=$| or|, or)|,? ?without a unit|( and|,) without quotes",
+        "",
+        field.expected or "",
+    )
+    text = re.sub(r"^material of the catalogue \(.*\) or a table with .*", "material of the catalogue", text)
+    return " or ".join([*([_cell(text)] if text else []), *([", ".join(links)] if links else [])])
+
+
+def _meaning(field):
+    """What it is; nothing where its name says as much."""
+    return "" if field.description == field.name.replace("_", " ") else _cell(field.description)
 
 
 def _cell(text):
