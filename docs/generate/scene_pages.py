@@ -55,7 +55,7 @@ def page():
                     parts.append(f"`[{name}]`: {link}." if name == shared[table] else "")
                 else:
                     rows = _rows(table, class_of(scene, name, table))
-                    parts.append(_section(f"[{name}]", rows, _anchor(table), earlier.setdefault(name, {})))
+                    parts.append(_section(f"[{name}]", rows, "", earlier.setdefault(name, {})))
                     earlier[name] |= {row: earlier[name].get(row, kind) for row in rows.values()}
     parts.append("## Tables that several kinds have")
     for table, name in shared.items():
@@ -130,7 +130,7 @@ def _rows(model, scene_class):
 
 def _section(title, rows, anchor, earlier=MappingProxyType({})):
     """A heading and the lines below it. **Arguments:** `earlier`: lines that a kind above has -> this kind."""
-    head = f"### `{title}` {{ #{anchor} }}"
+    head = f"### `{title}`" + (f" {{ #{anchor} }}" if anchor else "")
     if not rows:
         return f"{head}\n\nNo fields but `law`."
     again = {}
