@@ -8,7 +8,6 @@ import re
 import typing
 
 import equinox as eqx
-import pytest
 
 PACKAGES = ("lubricants", "contacts", "gaps", "bearings", "life", "machines", "ehl", "thermal")
 MODULES = ("materials", "time_laws", "sensitivity")
@@ -83,17 +82,16 @@ def said(kind, name):
 CLASSES = public_classes()
 
 
-@pytest.mark.parametrize("name", CLASSES)
-def test_fields(name):
-    kind, wrong = CLASSES[name], []
-    for field in numbers(kind):
-        found = said(kind, field.name)
+def test_fields():
+    wrong = []
+    for name, field in ((name, field) for name, kind in CLASSES.items() for field in numbers(kind)):
+        found = said(CLASSES[name], field.name)
         if found is None:
-            wrong.append(f"{field.name}: nothing says what it is")
+            wrong.append(f"{name}.{field.name}: nothing says what it is")
             continue
         unit, text = found
         if not unit and not UNIT.search(text) and not PLAIN.search(text):
-            wrong.append(f"{field.name}: no unit in {text!r}")
+            wrong.append(f"{name}.{field.name}: no unit in {text!r}")
         if "clearance" in field.name and not KINDS.search(f"{field.name} {text}"):
-            wrong.append(f"{field.name}: diametral, radial or total? {text!r}")
+            wrong.append(f"{name}.{field.name}: diametral, radial or total? {text!r}")
     assert not wrong

@@ -19,7 +19,6 @@ from beside import common, guide, heat, pictures, torque  # noqa: E402
 PAGE = measurements.PAGE.read_text(encoding="utf-8")
 COMPARISONS = measurements.COMPARISONS
 KEPT = measurements.kept()
-every = pytest.mark.parametrize("name", COMPARISONS)
 each = pytest.mark.parametrize(
     "name",
     [pytest.param(name, marks=pytest.mark.slow) if one.dear else name for name, one in COMPARISONS.items()],
@@ -62,17 +61,17 @@ def test_comparisons_are_printed(capsys):
             measurements.main(wrong)
 
 
-@every
-def test_verdicts_are_borne_out(name):
+def test_verdicts_are_borne_out():
     """A verdict covers its largest deviation and the error of the data, and is not more generous than it must be."""
-    one, deviations = COMPARISONS[name], KEPT[name].deviations
-    if one.believe is None:
-        assert not deviations
-        return
-    largest = 100.0 * max(map(abs, deviations.values()))
-    assert largest <= one.believe
-    assert one.believe <= MOST_GENEROUS * max(largest, one.data_error)
-    assert one.believe >= one.data_error
+    for name, one in COMPARISONS.items():
+        deviations = KEPT[name].deviations
+        if one.believe is None:
+            assert not deviations, name
+            continue
+        largest = 100.0 * max(map(abs, deviations.values()))
+        assert largest <= one.believe, name
+        assert one.believe <= MOST_GENEROUS * max(largest, one.data_error), name
+        assert one.believe >= one.data_error, name
 
 
 def test_nothing_else_is_kept():
@@ -295,15 +294,14 @@ LONGEST = 40
 """Words of a sentence."""
 
 
-@every
-def test_texts_are_short_sentences(name):
-    one = COMPARISONS[name]
-    assert one.kind in common.KINDS
-    for text in (one.conditions, one.free, one.assumed, one.missed, one.sentence):
-        assert text.endswith("."), text
-        for sentence in re.split(r"[.:;] ", text):
-            assert 2 <= len(sentence.split()) <= LONGEST, sentence
-    assert re.search("fitted|chosen|reproduce", one.free), one.free
+def test_texts_are_short_sentences():
+    for one in COMPARISONS.values():
+        assert one.kind in common.KINDS
+        for text in (one.conditions, one.free, one.assumed, one.missed, one.sentence):
+            assert text.endswith("."), text
+            for sentence in re.split(r"[.:;] ", text):
+                assert 2 <= len(sentence.split()) <= LONGEST, sentence
+        assert re.search("fitted|chosen|reproduce", one.free), one.free
 
 
 def test_kinds_are_explained():

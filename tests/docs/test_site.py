@@ -30,17 +30,18 @@ import name_pages  # noqa: E402
 import result_pages  # noqa: E402
 import scene_pages  # noqa: E402
 
-each_page = pytest.mark.parametrize("path", PAGES, ids=lambda path: str(path.relative_to(DOCS)))
 
-
-@each_page
-def test_links_of_a_page_lead_to_files(path):
-    text = re.sub(r"```.*?```", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
-    for target in re.findall(r"\]\(([^)\s#]+)", text):
-        if "://" not in target:
-            assert (path.parent / target).exists(), target
-    for target, place in re.findall(r"\]\(([^)\s#:]*)#([^)\s]+)\)", text):
-        assert place in anchors(path.parent / target if target else path), f"{target}#{place}"
+def test_links_of_pages_lead_to_files():
+    dead = []
+    for path in PAGES:
+        text = re.sub(r"```.*?```", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
+        targets = [one for one in re.findall(r"\]\(([^)\s#]+)", text) if "://" not in one]
+        dead += [(path.name, target) for target in targets if not (path.parent / target).exists()]
+        for target, place in re.findall(r"\]\(([^)\s#:]*)#([^)\s]+)\)", text):
+            page = path.parent / target if target else path
+            if not page.exists() or place not in anchors(page):
+                dead.append((path.name, f"{target}#{place}"))
+    assert not dead
 
 
 @functools.cache
@@ -86,24 +87,30 @@ def test_start_page_leads_to_every_page():
     assert pages - linked == {(DOCS / "index.md").resolve()}
 
 
-@each_page
-def test_references_of_a_page_are_public_names(path):
-    for name in re.findall(r"\]\[((?:jaxbearing|fitting)[\w.]*)\]", path.read_text(encoding="utf-8")):
-        module, _, member = name.rpartition(".")
-        try:
-            importlib.import_module(name)
-        except ModuleNotFoundError:
-            assert hasattr(importlib.import_module(module), member), name
+def test_references_of_pages_are_public_names():
+    missing = []
+    for path in PAGES:
+        for name in re.findall(r"\]\[((?:jaxbearing|fitting)[\w.]*)\]", path.read_text(encoding="utf-8")):
+            module, _, member = name.rpartition(".")
+            try:
+                importlib.import_module(name)
+            except ModuleNotFoundError:
+                if not hasattr(importlib.import_module(module), member):
+                    missing.append((path.name, name))
+    assert not missing
 
 
-@each_page
-def test_fields_that_a_page_names_exist(path):
+def test_fields_that_pages_name_exist():
     models = [schema_of_kind(kind)[0] for kind in KINDS]
     tables = {name for model in models for name in model.model_fields if tables_at(model, (name,))}
-    for field in re.findall(r"`(\w+(?:\.\w+)+)(?: = [^`]*)?`", path.read_text(encoding="utf-8")):
-        names = field.split(".")
-        if names[0] in tables and names[0] != "cage" and path.stem != "results":
-            assert any(is_known(model, names) for model in models), field
+    missing = []
+    for path in PAGES:
+        for field in re.findall(r"`(\w+(?:\.\w+)+)(?: = [^`]*)?`", path.read_text(encoding="utf-8")):
+            names = field.split(".")
+            asked = names[0] in tables and names[0] != "cage" and path.stem != "results"
+            if asked and not any(is_known(model, names) for model in models):
+                missing.append((path.name, field))
+    assert not missing
 
 
 def test_links_of_the_readme_become_pages():

@@ -205,7 +205,9 @@ def test_plot(whole, tmp_path):
 
 def test_letters_of_an_animation_can_be_read(scene, whole):
     """12 pixels and more; no text lies on another."""
-    moving = animate_history(whole, scene, "a bearing")  # kept: Matplotlib warns of one that is dropped before it is drawn
+    moving = animate_history(
+        whole, scene, "a bearing"
+    )  # kept: Matplotlib warns of one that is dropped before it is drawn
     figure = moving._fig
     figure.canvas.draw()
     sizes = [text.get_fontsize() for text in figure.findobj(Text) if text.get_visible() and text.get_text()]
