@@ -1,5 +1,5 @@
 """Identity of a scene: the parts that it has and the numbers that describe them, by the
-dotted paths of scene files, in SI units. A state of a run in time carries it, so that no other bearing goes on from
+dotted paths of scene files, in SI units. A state of a transient run carries it, so that no other bearing goes on from
 there."""
 
 import dataclasses

@@ -28,7 +28,7 @@ SIMULATED = (
     "a bearing with [thermal], a ball or cylindrical roller bearing with contact.traction (laws = 'best' has it), or a "
     "line contact"
 )
-"""Scenes with a run in time, in words."""
+"""Scenes with a transient run, in words."""
 OF_A_BATCH = "this is a batch of solutions: take one lane of it first, jax.tree.map(lambda leaf: leaf[lane], solution)"
 
 
@@ -67,17 +67,17 @@ class AbstractScene(Shown):
         raise TypeError(f"cannot solve a {type(self).__name__}: its class has no method steady_solution")
 
     runs_in_programs: ClassVar[bool] = False
-    """True if a run in time can be a part of a program, see `jaxbearing.simulate_batch`."""
+    """True if a transient run can be a part of a program, see `jaxbearing.simulate_batch`."""
 
     def simulated(self, duration: float | None, **settings: Any) -> "AbstractHistory":
-        """A run in time; `jaxbearing.simulate` says what it takes, and checks the scene.
+        """A transient run; `jaxbearing.simulate` says what it takes, and checks the scene.
 
         **Raises:** `TypeError` for a kind of scene that does not move.
         """
         raise TypeError(f"cannot simulate a {type(self).__name__}: its class has no method simulated")
 
     def simulated_batch(self, duration: float, over: Mapping[str, object], **settings: Any) -> "AbstractHistory":
-        """Many runs in time; `jaxbearing.simulate_batch` says what it takes.
+        """Many transient runs; `jaxbearing.simulate_batch` says what it takes.
 
         **Raises:** `TypeError` for a kind of scene whose runs are no programs.
         """
@@ -211,8 +211,8 @@ def _with_rules(
 
 
 class AbstractHistory(AbstractSolution):
-    """Interface of all results of a run in time. `time`: times of the stored instants, s; `stop`: time at which the run
-    was to end, s; `accepted`: number of steps taken; `interrupted`: True if a person ended it."""
+    """Interface of all results of a transient run. `time`: times of the stored instants, s; `stop`: time at which the
+    run was to end, s; `accepted`: number of steps taken; `interrupted`: True if a person ended it."""
 
     time: eqx.AbstractVar[Float[Array, " time"]]
     stop: eqx.AbstractVar[Float[Array, ""]]

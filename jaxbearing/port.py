@@ -75,7 +75,7 @@ def reaction(
       standard where `rating.tilt` is "iso".
     - `closure`: added to the axial displacement, m: of a bearing that is adjusted against another one. `ring` does not
       hold it.
-    - `expansion`: growth of the inner raceway's radius less that of the outer one, m.
+    - `expansion`: expansion of the inner raceway's radius less that of the outer one, m.
     - `throw`, `options`: of `solve`.
 
     **Raises:** `SolveError` where the solve fails; `TypeError` for another kind of scene; `ValueError` for what are not

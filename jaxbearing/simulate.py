@@ -1,4 +1,4 @@
-"""The verb for runs in time: a scene and a duration in, a history out."""
+"""The verb for transient runs: a scene and a duration in, a history out."""
 
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, overload
@@ -199,7 +199,7 @@ def simulate(
     instead = f"use {_PURE} there, or " if scene.runs_in_programs else ""
     require_outside(
         "simulate",
-        f"a run in time goes on piece by piece, by what it finds; {instead}call simulate outside, with plain numbers",
+        f"a transient run goes on piece by piece, by what it finds; {instead}call simulate outside, with plain numbers",
         (scene, duration, simulation, interval, restart),
     )
     if interval is None and getattr(scene, "thermal", None) is None:

@@ -1,4 +1,4 @@
-"""Runs in time: energy, steadiness, early stops, orders of the solvers."""
+"""Transient runs: energy, steadiness, early stops, orders of the solvers."""
 
 import ast
 import dataclasses

@@ -63,7 +63,8 @@ def assemble(
 
     **Arguments:**
     - `scene`: the bearing; `result`: result of Newton's iteration; `results`: what the family computed.
-    - `port`: load and stiffness of the ring in all five freedoms, and the names of the freedoms that were unknowns.
+    - `port`: load and stiffness of the ring in all five degrees of freedom, and the names of the degrees of freedom
+      that were unknowns.
     - `ring`: displacement of the inner ring that results show.
     - `iterations`: steps of all solves that this bearing needed; by default those of `result`.
     - `failure_causes`: possible causes of a failed solve (`Solution.failure_causes`).

@@ -1,6 +1,6 @@
 """Base class of all bearing scenes. It defines what a bearing family implements, and which degrees of freedom (short:
-freedoms) of the inner ring are unknown. A family is a kind of bearing, such as ball or cylindrical roller bearings; a
-folder beside this file holds it.
+degrees of freedom) of the inner ring are unknown. A family is a kind of bearing, such as ball or cylindrical roller
+bearings; a folder beside this file holds it.
 
 Terms: a *scene* is the complete description of a problem. The *port* is the point of the inner ring at which loads and
 displacements are exchanged with a shaft (see `ring`). The *row* of a bearing is the simplified model of its rolling
@@ -50,7 +50,7 @@ Bearing = TypeVar("Bearing", bound="AbstractBearing")
 
 
 class AbstractBearing(AbstractScene):
-    """Base of all bearings, whose inner ring has the freedoms of `solution.RING_FREEDOMS`, or some of them.
+    """Base of all bearings, whose inner ring has the degrees of freedom of `solution.RING_FREEDOMS`, or some of them.
 
     A family is a folder beside this file. Its scene class implements the solve, under given loads or with a ring that
     is held (`solve_ring`), the range checks of the family, and the inputs of the life.
@@ -173,7 +173,7 @@ class AbstractBearing(AbstractScene):
         """The frictionless model of the bearing for a given displacement of the inner ring, from which the solve of a
         shaft starts. Centrifugal forces act at the speeds of the bearing.
 
-        **Arguments:** `expansion`: growth of the inner raceway's radius less that of the outer one, m.
+        **Arguments:** `expansion`: expansion of the inner raceway's radius less that of the outer one, m.
         """
 
     @abc.abstractmethod
@@ -279,7 +279,7 @@ class AbstractBearing(AbstractScene):
 
     @property
     def modelled_freedoms(self) -> tuple[str, ...]:
-        """Freedoms of the inner ring that the bearing resists."""
+        """Degrees of freedom of the inner ring that the bearing resists."""
         return RING_FREEDOMS
 
     @property
@@ -290,7 +290,7 @@ class AbstractBearing(AbstractScene):
 
     @property
     def unknown_freedoms(self) -> tuple[str, ...]:
-        """Freedoms of the inner ring that are unknowns of a solve, under given loads.
+        """Degrees of freedom of the inner ring that are unknowns of a solve, under given loads.
 
         A freedom that the bearing does not resist (`modelled_freedoms`) is left out, and so is one whose displacement
         is given or that symmetry keeps at 0. If all rolling elements are loaded alike, only the axial one of the three
@@ -307,7 +307,7 @@ class AbstractBearing(AbstractScene):
 
     @property
     def shown_freedoms(self) -> tuple[str, ...]:
-        """Freedoms whose displacement is a result or was given."""
+        """Degrees of freedom whose displacement is a result or was given."""
         operation: AbstractOperation = self.operation
         free = self.unknown_freedoms
         return tuple(name for name in RING_FREEDOMS if name in free or operation.held_at(name) is not None)

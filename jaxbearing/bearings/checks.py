@@ -41,7 +41,7 @@ THICK_RIM = 0.2
 """Thickness over the radius of the centroid circle from which on an outer ring is no thin ring: the curvature of its
 neutral fibre changes the stiffness by about the square of this, 4 %."""
 MORE_THAN_WALL = 1.01
-"""Thickness of a ring that bends over the wall between its raceway and its seat, which a warning allows."""
+"""Thickness of a flexible ring over the wall between its raceway and its seat, which a warning allows."""
 LARGEST_INTERFERENCE, LARGEST_CLEARANCE = 1e-3, 1e-2
 """Limits over the pitch diameter: rings that are stretched by a thousandth carry 0.2 GPa; the widest classes of
 clearance are about a thousandth."""
@@ -61,7 +61,7 @@ def result_excess(
 
 
 def input_excess(scene: AbstractBearing, held: bool = False) -> Excess:
-    """Like `result_excess`, of the scene itself: to be said of failed solves, and of runs in time, too."""
+    """Like `result_excess`, of the scene itself: to be said of failed solves, and of transient runs, too."""
     own, found = scene.range_checks(), {}
     for check in (*(() if held else own.loads), *own.inputs, *INPUT_CHECKS):
         found |= check(scene)

@@ -165,7 +165,7 @@ class BentRings(eqx.Module):
 
     @property
     def each(self) -> tuple[ElasticRing, ...]:
-        """The rings that bend, the outer one first."""
+        """The flexible rings, the outer one first."""
         return tuple(ring for ring in (self.outer, self.inner) if ring is not None)
 
     def __bool__(self) -> bool:
@@ -194,7 +194,7 @@ class BentRings(eqx.Module):
         return [ring.opening(part) for ring, part in self.of_each(amplitudes)]
 
     def pick(self, outer: Array, inner: Array) -> list[Array]:
-        """Selects the values of the rings that bend."""
+        """Selects the values of the flexible rings."""
         return [value for ring, value in ((self.outer, outer), (self.inner, inner)) if ring is not None]
 
     def pressed(self, loads: Sequence[Float[Array, " element"]]) -> Float[Array, " mode"]:
@@ -231,7 +231,7 @@ class BentRings(eqx.Module):
         return sum(others, first)
 
     def results(self, amplitudes: Float[Array, " mode"]) -> dict[str, AbstractRingDeflection]:
-        """The results of the rings that bend, by their names in a solution."""
+        """The results of the flexible rings, by their names in a solution."""
         return {
             "inner_ring" if ring.inner else "outer_ring": ring.shape(part) for ring, part in self.of_each(amplitudes)
         }

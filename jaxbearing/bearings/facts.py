@@ -80,7 +80,7 @@ class Facts(NamedTuple):
     - `contacts`: kinds of contacts.
     - `traction_reserve`: of tapered rollers that roll by constraint, what the films could carry less what it takes, N.
     - `roller_tilt`: of rollers that may tilt, rad.
-    - `stiffness`: tangent stiffness of a ring that is free to tilt, of its freedoms counted as lengths, N/m.
+    - `stiffness`: tangent stiffness of a ring that is free to tilt, of its degrees of freedom counted as lengths, N/m.
     """
 
     contacts: tuple[Contacts, ...]

@@ -63,8 +63,8 @@ class FitResult(eqx.Module):
     by_speed: Float[Array, ""] = eqx.field(
         metadata=label("m", "change of clearance, or axial shift, by the rotation of the rings")
     )
-    growth_inner: Float[Array, ""] = eqx.field(metadata=label("m", "growth of the diameter of the inner raceway"))
-    growth_outer: Float[Array, ""] = eqx.field(metadata=label("m", "growth of the diameter of the outer raceway"))
+    growth_inner: Float[Array, ""] = eqx.field(metadata=label("m", "expansion of the diameter of the inner raceway"))
+    growth_outer: Float[Array, ""] = eqx.field(metadata=label("m", "expansion of the diameter of the outer raceway"))
     interference_inner: Float[Array, ""] | None = eqx.field(
         metadata=label("m", "interference of inner ring and shaft in operation; negative: a gap")
     )

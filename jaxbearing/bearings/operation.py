@@ -17,7 +17,7 @@ from ..numerics.safe import safe_norm
 
 
 class HeldDisplacement(Checked):
-    """Displacements at which the inner ring is held, m; where one is left out a load says where the ring goes.
+    """Prescribed displacements of the inner ring, m; along a degree of freedom without one a load acts.
 
     They count from where `ring` of the solution counts. `radial` is along azimuth 0, `lateral` along 90 degrees.
     """
@@ -74,8 +74,9 @@ SETS_FREE = {
 class AbstractOperation(Checked):
     """Operating point of a bearing: the batched part of a sweep.
 
-    Each of the ring's five freedoms has a load or a given displacement, not both. A force that is not given is 0, and
-    the ring goes where it balances; a tilt without a moment is held at its misalignment, 0 where that is not given.
+    Each of the ring's five degrees of freedom has a load or a given displacement, not both. A force that is not given
+    is 0, and the ring goes where it balances; a tilt without a moment is held at its misalignment, 0 where that is not
+    given.
 
     **Arguments:**
     - `inner_speed`, `outer_speed`: absolute speeds of the rings, rad/s, counter-clockwise positive.
@@ -83,8 +84,8 @@ class AbstractOperation(Checked):
       azimuth 90 degrees, N.
     - `moment`, `moment_lateral`: on the inner ring, N m (also 0): its tilt is free. A positive one moves azimuth 0, or
       azimuth 90 degrees, along the axis.
-    - `misalignment`, `misalignment_lateral`: tilt at which the inner ring is held, rad, of the same signs.
-    - `displacement`: where the inner ring is held instead of being loaded.
+    - `misalignment`, `misalignment_lateral`: prescribed tilt of the inner ring, rad, of the same signs.
+    - `displacement`: prescribed displacements of the inner ring, instead of loads.
     - `oil_temperature`: inlet temperature, K; every interaction uses it unless it computes its own.
     - `oil_flow`: supplied to the bearing, m^3/s.
     """
@@ -125,11 +126,11 @@ class AbstractOperation(Checked):
         return part
 
     def load(self, freedom: str) -> Scalar | None:
-        """The load on a freedom of the inner ring, N or N m, where one is given."""
+        """The load on a degree of freedom of the inner ring, N or N m, where one is given."""
         return self._field(LOAD_FIELDS[freedom])
 
     def held_at(self, freedom: str) -> Scalar | None:
-        """The displacement at which a freedom of the inner ring is held, m or rad, where one is given."""
+        """The prescribed displacement of a degree of freedom of the inner ring, m or rad, where there is one."""
         return self._field(HELD_FIELDS[freedom])
 
     def _given(self, *freedoms: str) -> bool:

@@ -1,8 +1,8 @@
-"""The inner ring of a bearing: its five degrees of freedom (short: freedoms), its given loads and displacements, and
-its port.
+"""The inner ring of a bearing: its five degrees of freedom (`freedoms`), its given loads and
+displacements, and its port.
 
 Each unknown freedom has a load, 0 if none is given. Each other freedom is *held* at a displacement, 0 if none is given;
-a ring is held if all of its freedoms are. The *port* is the point of the ring
+a ring is held if all of its degrees of freedom are. The *port* is the point of the ring
 at which loads and displacements are exchanged with a shaft. A *family* is a kind of bearing: ball, cylindrical roller,
 tapered roller. The *reference point* is the point whose displacements the results show: the port if a shaft holds the
 ring, otherwise the point at which the family writes its equations. The class `Port` contains the load that keeps the
@@ -50,7 +50,7 @@ class Port(NamedTuple):
     """The load that keeps the inner ring at a displacement, with its derivatives. It acts at the reference point of the
     results (see the module), which is the port only if a shaft holds the ring.
 
-    - `force`: loads on its five freedoms that balance the forces of the rolling elements, N and N m.
+    - `force`: loads on its five degrees of freedom that balance the forces of the rolling elements, N and N m.
     - `stiffness`: derivatives of `force` with respect to the displacements, with all else in equilibrium, N/m, N/rad,
       N m/m and N m/rad. Centrifugal forces, gyroscopic couples and friction make it unsymmetric.
     """
@@ -58,18 +58,18 @@ class Port(NamedTuple):
     force: Float[Array, "5"]
     stiffness: Float[Array, "5 5"]
     free: tuple[str, ...]
-    """Names of the freedoms that are unknowns of the solve, under given loads; none if the ring is held."""
+    """Names of the degrees of freedom that are unknowns of the solve, under given loads; none if the ring is held."""
 
 
 class InnerRing(eqx.Module):
     """Loads and given displacements of the inner ring. Tilts are kept as lengths, moments as forces.
 
     **Arguments:**
-    - `load`: loads on the unknown freedoms, N.
-    - `held`: displacements of all five freedoms, m; 0 for the unknown ones.
+    - `load`: loads on the unknown degrees of freedom, N.
+    - `held`: displacements of all five degrees of freedom, m; 0 for the unknown ones.
     - `lever`: length by which a tilt is multiplied, m.
-    - `freedoms`: names of the unknown freedoms, in the order of `RING_FREEDOMS`.
-    - `expansion`: growth of the inner raceway's radius less that of the outer one, m; `None` if there is none.
+    - `freedoms`: names of the unknown degrees of freedom, in the order of `RING_FREEDOMS`.
+    - `expansion`: expansion of the inner raceway's radius less that of the outer one, m; `None` if there is none.
     - `distance`: axial distance from the reference point of the results to the point whose displacements are used here,
       m; `None` if they are the same point.
     - `closure`: axial displacement that mounting has given the ring, m, of a bearing that is preloaded or adjusted. The
@@ -92,7 +92,7 @@ class InnerRing(eqx.Module):
 
     @property
     def places(self) -> np.ndarray:
-        """Indices of the unknown freedoms in `RING_FREEDOMS`."""
+        """Indices of the unknown degrees of freedom in `RING_FREEDOMS`."""
         return np.asarray([RING_FREEDOMS.index(name) for name in self.freedoms], int)
 
     @property
@@ -106,7 +106,7 @@ class InnerRing(eqx.Module):
         return jnp.broadcast_to(held, (5, *shift.shape[1:])).at[self.places].set(LENGTH_UNIT * shift)
 
     def of_unknown(self, every: Float[Array, "5 ..."]) -> Float[Array, "freedom ..."]:
-        """Selects the rows of the unknown freedoms from an array with a row for each of the five freedoms."""
+        """Selects the rows of the unknown degrees of freedom from an array with a row for each of the five freedoms."""
         return every if self.freedoms == RING_FREEDOMS else every[self.places]
 
     def of_each(self, value: Callable[[str], Scalar]) -> Float[Array, " freedom"]:
@@ -152,11 +152,12 @@ class InnerRing(eqx.Module):
         return size if self.held_load is None else size + self.held_load
 
     def equation_names(self) -> tuple[str, ...]:
-        """Names of the equations of the unknown freedoms, for messages."""
+        """Names of the equations of the unknown degrees of freedom, for messages."""
         return tuple(f"{name} load balance of the ring" for name in self.freedoms)
 
     def released(self, size: Float[Array, ""]) -> "InnerRing":
-        """The ring with all five freedoms unknown, under a load of this size, N, which only scales the equations."""
+        """The ring with all five degrees of freedom unknown, under a load of this size, N, which only scales the
+        equations."""
         load, held = jnp.full(5, size / jnp.sqrt(5.0)), jnp.zeros(5)
         return dataclasses.replace(
             self, load=load, held=held, freedoms=RING_FREEDOMS, held_load=None, needs_held_load=False
@@ -173,8 +174,9 @@ class InnerRing(eqx.Module):
         """Load and stiffness of a `released` ring, at the reference point of the results.
 
         **Arguments:**
-        - `jacobian`: Jacobian of residuals that are forces over `scale`; the ring's freedoms are the first globals.
-        - `force`: loads on the five freedoms that balance the rolling elements, N.
+        - `jacobian`: Jacobian of residuals that are forces over `scale`; the ring's degrees of freedom are the first
+          globals.
+        - `force`: loads on the five degrees of freedom that balance the rolling elements, N.
         - `scale`: force by which the residuals were divided, N.
         - `free`: see `Port`.
         """

@@ -118,7 +118,7 @@ class AbstractBendingRing(_Lists):
 
 
 class FlexibleRing(AbstractBendingRing):
-    """An outer ring that bends in its plane, with what surrounds it.
+    """An outer ring that is flexible in its plane, with what surrounds it.
 
     Without a housing and supports nothing holds the ring: the loads from outside must then balance those of the rolling
     elements, as on a planet gear, whose rim is the ring.
@@ -187,7 +187,7 @@ class FlexibleRing(AbstractBendingRing):
 
 
 class FlexibleInnerRing(AbstractBendingRing):
-    r"""An inner ring that bends in its plane, on a hollow or soft shaft.
+    r"""An inner ring that is flexible in its plane, on a hollow or soft shaft.
 
     Its section reaches from the bore to the raceway. The shaft is a bed of springs under the ring and the only thing
     that holds it. The deflected shape stands still relative to the load, and the ring turns through it: this holds far
@@ -312,20 +312,20 @@ def moving_problems(scene: _Shaped, round_races: bool) -> Iterator[str]:
     """
     for name in shaped_parts(scene):
         if round_races or name.endswith("_ring"):
-            yield f"{name}: a run in time has rigid{', round' if round_races else ''} rings in this version"
+            yield f"{name}: a transient run has rigid{', round' if round_races else ''} rings in this version"
 
 
 def bending_problems(
     scene: _Shaped, operation: AbstractOperation, inner_diameter: Callable[[], Values], width: Values | None
 ) -> Iterator[str | ValueError]:
-    """Refusals of rings that bend. The scene may be a stack of scenes, as those of a shaft are.
+    """Refusals of flexible rings. The scene may be a stack of scenes, as those of a shaft are.
 
     **Arguments:** `inner_diameter`: returns that of the inner raceway, m; `width`: of a ring for which the scene gives
     none, m.
     """
     for ring in (scene.outer_ring, scene.inner_ring):
         if ring is not None and ring.harmonics and ring.width is None and width is None:
-            yield f"{ring.part}.width: a ring that bends needs a width, here or as geometry.width"
+            yield f"{ring.part}.width: a flexible ring needs a width, here or as geometry.width"
     yield from _unheld_problems(scene.outer_ring, operation)
     ring = scene.inner_ring
     if ring is not None and ring.harmonics:
@@ -367,11 +367,11 @@ def _unheld_problems(ring: FlexibleRing | None, operation: AbstractOperation) ->
 
 
 def said_of_bending(scene: _Shaped) -> list[str]:
-    """Notes for the user on rings that bend."""
+    """Notes for the user on flexible rings."""
     housing = "a housing is uncertain by a factor of 2 to 10, which moves the largest load by up to some 20 %"
     doubts = ((scene.outer_ring, housing), (scene.inner_ring, "a shaft under its ring is known by an estimate only"))
     return [
-        f"{ring.part}: a thin ring that bends in its plane; the stiffness of {doubt}"
+        f"{ring.part}: a thin ring, flexible in its plane; the stiffness of {doubt}"
         for ring, doubt in doubts
         if ring is not None and ring.harmonics
     ]

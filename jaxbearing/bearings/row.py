@@ -3,7 +3,7 @@ r"""A bearing without friction whose ring is held: one convex energy, whose grad
 Centrifugal forces are those of the unloaded bearing's contact angle, so that force and stiffness come of an energy.
 Shafts on bearings begin their search with it, and find the preload of bearings at rest, where it is exact.
 
-Rings that bend are in equilibrium too: the energy is the minimum over their amplitudes $a$ as well. Near the
+Flexible rings are in equilibrium too: the energy is the minimum over their amplitudes $a$ as well. Near the
 minimum one Newton step leads there: with the derivatives $r$ of the energy by the amplitudes, and its second
 derivatives $K$, the force is $F_q - K_{qa}K_{aa}^{-1}r$, the energy lower by $\frac12r^TK_{aa}^{-1}r$ and the
 stiffness $K_{qq} - K_{qa}K_{aa}^{-1}K_{aq}$. An error of the amplitudes therefore shows in its square only.
@@ -25,7 +25,7 @@ from .rings import AbstractBetweenRings
 from .solution import RING_FREEDOMS
 
 BENDING_TOLERANCE = 1e-8
-"""Scaled residual of the amplitudes of rings that bend at which the search for them ends; the force is then exact to
+"""Scaled residual of the amplitudes of flexible rings at which the search for them ends; the force is then exact to
 round-off, see the module."""
 BENDING_TRIALS = 80
 """Most trials of that search."""
@@ -35,7 +35,7 @@ class RowState(NamedTuple):
     """State of a row, to begin the next search with, in units of the family.
 
     - `elements`: of the rolling elements.
-    - `amplitudes`: of rings that bend; `None` if both are rigid.
+    - `amplitudes`: of flexible rings; `None` if both are rigid.
     """
 
     elements: Float[Array, "m element"]
@@ -47,7 +47,7 @@ class HeldRow(NamedTuple):
 
     - `energy`: J, up to a constant.
     - `force`, `stiffness`: as `ring.Port`; the stiffness is symmetric.
-    - `state`: of the rolling elements and of rings that bend.
+    - `state`: of the rolling elements and of flexible rings.
     """
 
     energy: Float[Array, ""]
@@ -78,7 +78,7 @@ class AbstractRow(eqx.Module):
 class AbstractRowSystem(AbstractBetweenRings, AbstractConvexArrow):
     """Equations of a row of rollers that are the gradient of one potential.
 
-    Its globals are the freedoms of the inner ring and the amplitudes of rings that bend, and nothing else.
+    Its globals are the degrees of freedom of the inner ring and the amplitudes of flexible rings, and nothing else.
     """
 
     @abc.abstractmethod
@@ -86,13 +86,13 @@ class AbstractRowSystem(AbstractBetweenRings, AbstractConvexArrow):
         """Force by which the residuals of the rings are divided, N."""
 
     def work(self, globals_):
-        """Work of the loads on the rings less the energy of rings that bend, J."""
+        """Work of the loads on the rings less the energy of flexible rings, J."""
         work = LENGTH_UNIT * jnp.sum(self.ring.load * self.of_freedoms(globals_))
         return work - self.bent.energy(LENGTH_UNIT * self.amplitudes(globals_)) if self.bent else work
 
 
 def free_ring(lever: Array, distance: Array, expansion: Array | None) -> InnerRing:
-    """A ring with five unknown freedoms and no load. **Arguments:** as `InnerRing`."""
+    """A ring with five unknown degrees of freedom and no load. **Arguments:** as `InnerRing`."""
     return InnerRing(jnp.zeros(5), jnp.zeros(5), jnp.asarray(lever), RING_FREEDOMS, expansion, distance)
 
 
@@ -107,10 +107,10 @@ def settled_row(held: AbstractRowSystem, full: AbstractRowSystem, state: RowStat
 
     **Arguments:**
     - `held`: the equations with the ring held at the displacement.
-    - `full`: with all five freedoms of the ring, which begin the globals.
+    - `full`: with all five degrees of freedom of the ring, which begin the globals.
     - `state`: first guess.
     """
-    # the search with the ring held has fewer derivatives than one with the five freedoms
+    # the search with the ring held has fewer derivatives than one with the five degrees of freedom
     if state.amplitudes is None:
         state = RowState(settle(held, ArrowPoint(state.elements, jnp.zeros(0))).elements)
     else:
@@ -134,7 +134,7 @@ def settled_row(held: AbstractRowSystem, full: AbstractRowSystem, state: RowStat
 
 def settled_force(ring: InnerRing, full: AbstractRowSystem, state: RowState) -> Float[Array, "5"]:
     """The force of `settled_row` with its first derivatives: one Newton step of the elements, and of the amplitudes of
-    rings that bend, which does not move them.
+    flexible rings, which does not move them.
 
     **Arguments:** `ring`: held at the displacement; `full`: as in `settled_row`; `state`: the one that it found.
     """
@@ -149,7 +149,7 @@ def settled_force(ring: InnerRing, full: AbstractRowSystem, state: RowState) -> 
 
 
 def _coordinates(ring: InnerRing, state: RowState) -> Float[Array, " g"]:
-    """The globals of the equations with all five freedoms of a ring that is held."""
+    """The globals of the equations with all five degrees of freedom of a ring that is held."""
     at = ring.held / LENGTH_UNIT
     return at if state.amplitudes is None else jnp.concatenate([at, state.amplitudes])
 

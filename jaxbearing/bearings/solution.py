@@ -30,7 +30,7 @@ failure names the nested solve as its cause."""
 RING_FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
 """Degrees of freedom of the inner ring, in the order of `ring` and `stiffness`."""
 TILTS = ("tilt", "tilt_lateral")
-"""Freedoms among `RING_FREEDOMS` that are angles."""
+"""Degrees of freedom among `RING_FREEDOMS` that are angles."""
 
 _CONJUGATE = {"m": "N", "rad": "N m"}
 """Unit of a displacement of the ring -> unit of its load."""
@@ -175,8 +175,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     - `worst_equation`: index in `equation_names`; `worst_element`: index of the rolling element, without meaning if the
       worst equation belongs to no single element.
     - `force`: loads that must act on the ring from outside, positive along its displacements.
-    - `ring_freedom`: freedoms of the ring whose displacement is a result, and those, also named in `held_freedom`,
-      whose displacement was given.
+    - `ring_freedom`: degrees of freedom of the ring whose displacement is a result, and those, also named in
+      `held_freedom`, whose displacement was given.
     - `equation_names`: equations of one rolling element, then those that belong to no single element.
     - `global_equations`: number of equations that belong to no single rolling element.
     - `notes`: what the model assumes or leaves out.
@@ -204,14 +204,14 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
         metadata=label(
             "mixed",
             "loads that hold the inner ring where it is, friction along the raceways left out: axial, radial, lateral, "
-            "about tilt and tilt_lateral, in N and N m; freedoms that are not modelled are 0",
+            "about tilt and tilt_lateral, in N and N m; degrees of freedom that are not modelled are 0",
         )
     )
     stiffness: Float[Array, "freedom freedom_displaced"] = eqx.field(
         metadata=label(
             "mixed",
             "d load / d displacement of the inner ring: rows and columns axial, radial, lateral, tilt, tilt_lateral, "
-            "in N/m, N/rad, N m/m and N m/rad; freedoms that are not modelled are 0",
+            "in N/m, N/rad, N m/m and N m/rad; degrees of freedom that are not modelled are 0",
         )
     )
     checks: Mapping[str, Bool[Array, ""]]
@@ -221,13 +221,13 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     unknowns: int = eqx.field(static=True, metadata=label("1", "unknowns of the equations"))
     notes: tuple[str, ...] = eqx.field(static=True, default=())
     stiffness_freedom: tuple[str, ...] | None = eqx.field(static=True, default=None)
-    """Freedoms whose rows and columns of `stiffness` are modelled; the others are 0. `None`: those of
+    """Degrees of freedom whose rows and columns of `stiffness` are modelled; the others are 0. `None`: those of
     `ring_freedom`."""
     element_name: str = eqx.field(static=True, default="roller")
     raceway_power: RacewayPower | None = None
     laminae: LaminaLoads | None = None
     held_freedom: tuple[str, ...] = eqx.field(static=True, default=())
-    """Modelled freedoms of the ring whose displacement is held and not solved for."""
+    """Modelled degrees of freedom of the ring whose displacement is held and not solved for."""
     fit: FitResult | None = None
     thermal: ThermalResult | None = None
     failure_causes: dict[str, FailureCause] = eqx.field(default_factory=dict)
@@ -251,8 +251,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
 
     @property
     def freedoms_of_stiffness(self) -> tuple[str, ...]:
-        """Freedoms whose rows and columns of `stiffness` are modelled, in the order of `RING_FREEDOMS`. The entries of
-        the others are 0, which says nothing about the bearing."""
+        """Degrees of freedom whose rows and columns of `stiffness` are modelled, in the order of `RING_FREEDOMS`. The
+        entries of the others are 0, which says nothing about the bearing."""
         found = self.ring_freedom if self.stiffness_freedom is None else self.stiffness_freedom
         return tuple(name for name in RING_FREEDOMS if name in found)
 

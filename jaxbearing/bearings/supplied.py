@@ -88,7 +88,7 @@ def supply_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
 
 
 def supply_notes(scene: AbstractBearing) -> tuple[str, ...]:
-    """The supply in words, for the notes of a run in time."""
+    """The supply in words, for the notes of a transient run."""
     if scene.contact is None:
         return ()
     supply = scene.contact.supply

@@ -2,8 +2,8 @@
 
 "At once" is without unwinding: Python's own handler would wait until the compiler returns, up to half a minute, and
 its exception would leave threads of XLA at work in a process that ends, which crashes it (`numerics.interrupts`). What
-is written is written whole or not at all, so nothing is lost by it. A run in time that has results, and the writing of
-results, are not ended but told: see `deferred_interrupts`.
+is written is written whole or not at all, so nothing is lost by it. A transient run that has results, and the writing
+of results, are not ended but told: see `deferred_interrupts`.
 """
 
 import contextlib

@@ -1,4 +1,4 @@
-"""`jaxbearing simulate`: a run in time on the screen, as JSON, as a picture, as a file."""
+"""`jaxbearing simulate`: a transient run on the screen, as JSON, as a picture, as a file."""
 
 import json
 import shutil
@@ -79,9 +79,9 @@ def simulate(
     animation: AnimationOption = None,
     restart: RestartOption = None,
 ) -> None:
-    """A run in time, from the steady state of the operating point: motion of rolling elements and cage, shocks between
-    them, power; of a bearing with [thermal], its temperatures from cold; of a line contact, the film while its speed
-    changes. Ctrl-C ends the run and keeps what was computed."""
+    """A transient run, from the steady state of the operating point: motion of rolling elements and cage, shocks
+    between them, power; of a bearing with [thermal], its temperatures from cold; of a line contact, the film while its
+    speed changes. Ctrl-C ends the run and keeps what was computed."""
     with bad_input():
         from .._scene import SIMULATED
         from ..ehl import EHLLineContact
@@ -148,7 +148,7 @@ def simulate(
 
 
 def _warms(model: object) -> bool:
-    """True for a bearing with a thermal network; that of a shaft has no run in time."""
+    """True for a bearing with a thermal network; that of a shaft has no transient run."""
     from ..bearings.bearing import AbstractBearing
 
     return isinstance(model, AbstractBearing) and model.thermal is not None

@@ -99,7 +99,8 @@ def _page(found: "xr.Dataset", label: str, point: "Mapping[str, float]") -> "mat
 
 
 def with_stiffness(found: "xr.Dataset") -> "xr.Dataset":
-    """The data set with the diagonal of the stiffness, of freedoms that the model has, as results of their own."""
+    """The data set with the diagonal of the stiffness, of degrees of freedom that the model has, as results of their
+    own."""
     if "stiffness" not in found:
         return found
     for freedom in ("radial", "axial"):

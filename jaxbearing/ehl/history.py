@@ -1,4 +1,4 @@
-"""Results of a run in time of a line contact, labelled."""
+"""Results of a transient run of a line contact, labelled."""
 
 from collections.abc import Mapping
 from typing import ClassVar
@@ -39,7 +39,7 @@ class ProfileHistory(eqx.Module):
 
 
 class LineContactHistory(AbstractHistory):
-    """Result of a run in time: the steady start and every accepted step, also where the run ended early.
+    """Result of a transient run: the steady start and every accepted step, also where the run ended early.
 
     A run whose film falls below `contact.film_limit` has come to the end of what the model describes: it is completed,
     and a warning says so. `last_state` is where it stands: `simulate(scene, ..., restart=history)` goes on from there.

@@ -1,4 +1,4 @@
-"""State of a line contact's run in time, in SI units, from which another run continues."""
+"""State of a line contact's transient run, in SI units, from which another run continues."""
 
 from typing import ClassVar
 

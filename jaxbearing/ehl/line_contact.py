@@ -57,7 +57,7 @@ class FilmModel(Checked):
       doubling, and more under heavier loads (`resolution.mesh_error`).
     - `inlet`: length of the domain upstream of the centre, half widths; light loads need more than 4
       (`resolution.cut_error`); below 2 the contact is starved, with its meniscus there.
-    - `film_limit`: a run in time ends where the film is thinner, m: below about 0.5 nm a continuum means nothing.
+    - `film_limit`: a transient run ends where the film is thinner, m: below about 0.5 nm a continuum means nothing.
     - `accuracy`: relative error of the steady films that was asked for, > 0: where mesh or inlet leave more, a warning
       says so. `None`: it warns from 5 % by the mesh, and from 0.5 % by the inlet.
     """
@@ -121,7 +121,7 @@ class EHLLineContact(AbstractScene):
     smooth; cavitation as P >= 0 with the Swift-Stieber condition (oil that cavitates is not conserved there).
 
     **Arguments:** `geometry`; `materials`; `oil`, whose law of viscosity counts; `contact`: model and mesh;
-    `operation`; `simulation`: what a run in time does.
+    `operation`; `simulation`: what a transient run does.
     """
 
     kind: ClassVar[str] = "line_contact"
@@ -231,7 +231,7 @@ class EHLLineContact(AbstractScene):
         return MeshKey(self.contact.nodes, self.contact.inlet, OUTLET)
 
     def run_mesh(self, reverses: bool) -> MeshKey:
-        """Mesh of a run in time; one that reverses has an inlet on both sides."""
+        """Mesh of a transient run; one that reverses has an inlet on both sides."""
         outlet = self.contact.inlet if reverses else STOP_OUTLET
         return MeshKey(self.contact.nodes, self.contact.inlet, outlet, stop=True)
 

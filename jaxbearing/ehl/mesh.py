@@ -10,7 +10,7 @@ INLET = 4.0
 OUTLET = 1.5
 """Half widths from the centre to the end of the outlet, steady running."""
 STOP_OUTLET = 2.5
-"""The same for runs in time: the pressure of a stop becomes symmetric, and the outlet must not cut it."""
+"""The same for transient runs: the pressure of a stop becomes symmetric, and the outlet must not cut it."""
 FINE = 2_000
 """Intervals a half width in the cumulative integral of the node density."""
 
@@ -38,7 +38,7 @@ class Mesh(NamedTuple):
 class MeshKey(NamedTuple):
     """Static description of a mesh.
 
-    `nodes`: n; `inlet`, `outlet`: length of the domain to both sides, half widths; `stop`: graded for a run in time
+    `nodes`: n; `inlet`, `outlet`: length of the domain to both sides, half widths; `stop`: graded for a transient run
     (wider bumps, the left one at the Hertz edge), or for steady running.
     """
 

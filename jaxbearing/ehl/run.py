@@ -1,4 +1,4 @@
-"""A run in time of a line contact: from the steady film, segment after segment."""
+"""A transient run of a line contact: from the steady film, segment after segment."""
 
 import contextlib
 import dataclasses

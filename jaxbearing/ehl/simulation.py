@@ -1,4 +1,4 @@
-"""Settings of a line contact's run in time."""
+"""Settings of a line contact's transient run."""
 
 from typing import ClassVar
 
@@ -11,7 +11,7 @@ DEFAULT_TOLERANCE = 1e-4
 
 
 class FilmSimulation(Checked):
-    """A run in time, from the steady film of the speed at its start.
+    """A transient run, from the steady film of the speed at its start.
 
     **Arguments:**
     - `duration`: s; `None`: it must be given with the run.

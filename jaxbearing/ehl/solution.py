@@ -89,8 +89,9 @@ class LineContactSolution(AbstractSolution):
         status, speed, load = Status(int(self.status)).text, float(self.speed_number), float(self.moes_load)
         if not speed >= SMALLEST_WEDGE:
             return (
-                f"{status}: the surfaces do not carry oil into the contact (speed number {speed:.3g}, at least "
-                f"{SMALLEST_WEDGE:g} needed): at rest there is no steady film; a run in time (simulate) can stop there"
+                f"{status}: the surfaces do not carry oil into the contact (speed number {speed:.3g}, "
+                f"at least {SMALLEST_WEDGE:g} needed): at rest there is no steady film; a transient run (simulate) can "
+                "stop there"
             )
         if not load >= SMALLEST_MOES_LOAD:
             martin = 2.447 / load

@@ -1,4 +1,4 @@
-r"""A thin ring that bends in its plane, in harmonics of its circumference.
+r"""A thin ring, flexible in its plane, in harmonics of its circumference.
 
 The outward deflection of the centroid circle is $w(\psi) = \sum_n a_n\cos n\psi + b_n\sin n\psi$. A radial load
 $q_n\cos n\psi$ per length of circumference deflects the ring by $w_n = c_nq_n$ with

@@ -10,7 +10,7 @@ class Status(enum.IntEnum):
     NOT_CONVERGED = 1
     """The steps ran out, or a nested solve failed."""
     DIVERGED = 2
-    """A value was not finite, or a run in time needed a step below the smallest one that is allowed."""
+    """A value was not finite, or a transient run needed a step below the smallest one that is allowed."""
     NO_EQUILIBRIUM = 3
     """There is no steady state: no position balances the loads, or there is too little entrainment for a film."""
     INVALID_INPUT = 4
@@ -28,7 +28,7 @@ class Status(enum.IntEnum):
 
 
 class SolveError(RuntimeError):
-    """A solve or a run in time failed; the message gives the status and the reason, where known."""
+    """A solve or a transient run failed; the message gives the status and the reason, where known."""
 
     def __init__(self, message: str, status: Status = Status.NOT_CONVERGED):
         super().__init__(message)

@@ -15,4 +15,4 @@ INNER, OUTER, RIB = CURVES[:3]
 INNER_SECOND, OUTER_SECOND = CURVES[4:6]
 """Results at the second flanks of the raceways, of rings with two groove arcs."""
 LOSS = "#56789A"
-"""Bars of power losses, and single curves of a run in time."""
+"""Bars of power losses, and single curves of a transient run."""

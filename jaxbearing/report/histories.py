@@ -1,4 +1,4 @@
-"""A run in time on the screen, as numbers, as a data set, as a page of plots and in motion, whatever its kind."""
+"""A transient run on the screen, as numbers, as a data set, as a page of plots and in motion, whatever its kind."""
 
 from typing import TYPE_CHECKING, Any
 

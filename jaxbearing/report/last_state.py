@@ -28,7 +28,7 @@ def read_last_state(path: object) -> LastState | FilmState | WarmState:
     The run may be of a bearing, of its temperatures or of a line contact, and may have been interrupted or have stopped
     early.
 
-    **Raises:** `OSError` for a file that cannot be read, `ValueError` for one that is not of a run in time.
+    **Raises:** `OSError` for a file that cannot be read, `ValueError` for one that is not of a transient run.
     """
     if not isinstance(path, str | os.PathLike):
         raise TypeError(f"read_last_state takes the path of a file, got {path!r}")
@@ -45,7 +45,7 @@ def read_last_state(path: object) -> LastState | FilmState | WarmState:
                 return _warm_state(dataset)
             return _bearing_state(dataset)
     except _Other as error:
-        raise ValueError(f"{name} is not a run in time that can be continued: {error}") from None
+        raise ValueError(f"{name} is not a transient run that can be continued: {error}") from None
     # what is no NetCDF file, or half of one, fails in many ways
     except Exception as error:
         raise ValueError(f"{name} is not a NetCDF file that can be read: {_first_line(error)}") from None
@@ -126,7 +126,7 @@ def _require(dataset: xr.Dataset, fields: Sequence[str]) -> None:
 
 
 class _Other(Exception):
-    """Error of a file that holds no run in time."""
+    """Error of a file that holds no transient run."""
 
 
 def _first_line(error: Exception) -> str:

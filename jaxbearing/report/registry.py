@@ -26,7 +26,7 @@ RUNS = {
     "jaxbearing.bearings.warming.history.WarmUpHistory": "bearing.warming",
     "jaxbearing.ehl.history.LineContactHistory": "line_contact.run",
 }
-"""Kinds of runs in time."""
+"""Kinds of transient runs."""
 _FUNCTIONS = {
     "summary": "print_summary",
     "json_report": "to_dict",

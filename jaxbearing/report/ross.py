@@ -5,8 +5,9 @@ too, radial along the load line. So z is the axial direction, and one angle, `lo
 turns radial and lateral into x and y. ROSS usually has the weight along -y: the default.
 
 **What the coefficients are.** Tangent stiffness of the inner ring at the shaft speeds of the table, each with all other
-freedoms of the ring held; the element of ROSS has no tilt and no coupling of z with x and y, so these are left out. The
-damping is 0 because the model is quasi-static: rolling bearings damp little, but not nothing, so add what you know.
+degrees of freedom of the ring held; the element of ROSS has no tilt and no coupling of z with x and y, so these are
+left out. The damping is 0 because the model is quasi-static: rolling bearings damp little, but not nothing, so add
+what you know.
 
 **The axis of the table.** The coefficients belong to a shaft speed. ROSS 3 has `speed` for that, and reads `frequency`
 as the whirl frequency. ROSS 2 knows `frequency` only, and looks the table up at the frequency that it analyses; in a
@@ -76,7 +77,7 @@ def ross_bearing(
 def element_of(
     speed: np.ndarray, stiffness: np.ndarray, load_direction: float, node: int, tag: str, version: Version = NEWEST
 ) -> dict[str, object]:
-    """Arguments of `ross.BearingElement` from stiffnesses of the five freedoms; axes: speed, row, column."""
+    """Arguments of `ross.BearingElement` from stiffnesses of the five degrees of freedom; axes: speed, row, column."""
     axial, *across = (RING_FREEDOMS.index(name) for name in ("axial", "radial", "lateral"))
     cosine, sine = math.cos(load_direction), math.sin(load_direction)
     # its columns: the radial and the lateral direction in x and y
@@ -109,7 +110,7 @@ def ross_text(
         *([f"Scene: {one_line(scene_label)}"] if scene_label else []),
         f"{AXES[version]}: speed of the shaft, which carries the inner ring, rad/s; ROSS 2 calls it frequency, ROSS 3 "
         "speed.",
-        "k..: N/m, tangent stiffness under the scene's loads, other freedoms of the ring held.",
+        "k..: N/m, tangent stiffness under the scene's loads, other degrees of freedom of the ring held.",
         "n: node of the rotor, and tag: change them to yours; no two elements of a rotor may have one tag.",
         "c.. = 0: the model is quasi-static and has no damping; put in what you know.",
         f"Load line of the bearing: {math.degrees(load_direction):.6g} deg from x towards y; z along the shaft.",

@@ -49,7 +49,7 @@ _DIAGNOSTICS = ("residual_norm", "inner_residual")
 
 
 def without_round_off(result: Result) -> Result:
-    """A copy of a solution, or of a run in time, whose numbers below their resolution are 0."""
+    """A copy of a solution, or of a transient run, whose numbers below their resolution are 0."""
     largest: dict[str, float] = {}
     for part in _parts(result):
         for _, value, metadata in labelled(part):

@@ -1,5 +1,5 @@
-"""Statistics of a run in time: loads, motion of the cage, variation of the speeds, energy that sliding takes, skidding,
-and stresses of the cage. Shocks and peaks turn by turn are in `history_shocks`."""
+"""Statistics of a transient run: loads, motion of the cage, variation of the speeds, energy that sliding takes,
+skidding, and stresses of the cage. Shocks and peaks turn by turn are in `history_shocks`."""
 
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple

@@ -22,8 +22,8 @@ class StiffnessTable(NamedTuple):
     """Tangent stiffness of the inner ring at each shaft speed, everything inside the bearing in equilibrium.
 
     - `speed`: of the inner ring, rad/s.
-    - `stiffness`: d load / d displacement of all five freedoms, N/m, N/rad, N m/m and N m/rad; axes: speed, row,
-      column. Entries of a freedom that the model does not have are 0.
+    - `stiffness`: d load / d displacement of all five degrees of freedom, N/m, N/rad, N m/m and N m/rad; axes: speed,
+      row, column. Entries of a freedom that the model does not have are 0.
     - `freedom`: names of its rows and columns.
     - `modelled`: those that the model has.
     - `warnings`: what left the range of a law at some speed, and what the model assumed.
@@ -37,8 +37,8 @@ class StiffnessTable(NamedTuple):
 
 
 def at_speeds(scene: AbstractScene, speeds: "npt.ArrayLike") -> list[AbstractBearing]:
-    """The scene at each speed of the inner ring, rad/s, with the freedoms of the ring that its stiffness needs: where
-    the ring of a roller bearing moves along the load line only, it is given the lateral freedom too.
+    """The scene at each speed of the inner ring, rad/s, with the degrees of freedom of the ring that its stiffness
+    needs: where the ring of a roller bearing moves along the load line only, it is given the lateral freedom too.
 
     **Raises:** `TypeError` for a scene of something else than a bearing; `ValueError` for speeds that are not finite,
     >= 0 and increasing, or that the scene refuses.
@@ -92,7 +92,7 @@ def stiffness_over_speed(
 
 
 def stiffness_to_dict(table: StiffnessTable) -> dict[str, Any]:
-    """The table as JSON has it: SI units and radians; numbers that are not finite, and entries of freedoms that are not
-    modelled, are `None`."""
+    """The table as JSON has it: SI units and radians; numbers that are not finite, and entries of degrees of freedom
+    that are not modelled, are `None`."""
     found = {name: plain(value) for name, value in table._asdict().items()}
     return found | {"stiffness": modelled_only(table.stiffness, table.modelled)}

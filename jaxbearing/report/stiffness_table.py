@@ -29,7 +29,7 @@ def print_stiffness(table: StiffnessTable, scene_label: str, console: Console, f
 
 
 def _meanings(table: StiffnessTable) -> Iterable[tuple[str, str]]:
-    yield "Stiffness", "d load / d displacement of the inner ring, its other freedoms held"
+    yield "Stiffness", "d load / d displacement of the inner ring, its other degrees of freedom held"
     yield "Radial, lateral", "along the load line (azimuth 0), and 90 deg on in the sense of rotation"
     if "tilt" in table.modelled:
         yield "Tilt", "moves azimuth 0 along the axis; tilt_lateral turns about the load line"

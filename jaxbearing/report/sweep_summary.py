@@ -88,7 +88,7 @@ def _yield(dataset: xr.Dataset) -> Iterator[str]:
 
 
 def _held(dataset: xr.Dataset) -> dict[str, str]:
-    """Loads that the freedoms need whose displacement the scene gives."""
+    """Loads that the degrees of freedom need whose displacement the scene gives."""
     found = {}
     for freedom, load in LOAD_FIELDS.items():
         given = f"operation_{HELD_FIELDS[freedom].replace('.', '_')}"

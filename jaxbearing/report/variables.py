@@ -89,7 +89,7 @@ def attributes(solution: AbstractSolution, title: str) -> dict[str, str]:
 NODES = "nodes"
 """Attribute of the file of a run of temperatures: names of the nodes, with commas between them."""
 IDENTITY = "scene_identity"
-"""Attribute of the file of a run in time: which bearing or contact it is, as JSON."""
+"""Attribute of the file of a transient run: which bearing or contact it is, as JSON."""
 
 
 def identity_text(identity: Identity | None) -> dict[str, str]:

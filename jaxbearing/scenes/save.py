@@ -127,5 +127,5 @@ def _require_readable(text: str) -> None:
     except UnicodeEncodeError:
         raise unwritable("oil.notes", "characters that UTF-8 does not have", "a text in UTF-8") from None
     if size > LARGEST_TEXT:
-        expected = f"a scene of at most {LARGEST_TEXT >> 20} MiB; tables of a run in time are shorter as CSV files"
+        expected = f"a scene of at most {LARGEST_TEXT >> 20} MiB; tables of a transient run are shorter as CSV files"
         raise SceneError(SCENE, "", f"{size >> 20} MiB of text", expected)

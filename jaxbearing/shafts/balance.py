@@ -193,8 +193,8 @@ def axis_of(system: ShaftSystem) -> Axis:
 
 
 def support_matrix(support: Support | None) -> tuple[Float[Array, "5 5"], np.ndarray]:
-    """Stiffness of the support of an outer ring, and which of its freedoms are elastic; the others have 1 on the
-    diagonal."""
+    """Stiffness of the support of an outer ring, and which of its degrees of freedom are elastic; the others have 1 on
+    the diagonal."""
     if support is None:
         return jnp.eye(5), np.zeros(5, bool)
     if support.matrix is not None:

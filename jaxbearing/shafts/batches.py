@@ -38,7 +38,7 @@ approach."""
 def on_shaft(scene: AbstractBearing, speed: Array) -> AbstractBearing:
     """The scene with the speed of the shaft and without loads: its ring is held.
 
-    Its ring tilts to first order, with the lever that `rating.tilt` says. A run in time is no concern of a shaft.
+    Its ring tilts to first order, with the lever that `rating.tilt` says. A transient run is no concern of a shaft.
     """
     axial = "axial" in scene.modelled_freedoms
     held = HeldDisplacement(axial=0.0 if axial else None, radial=0.0, lateral=0.0)

@@ -19,8 +19,8 @@ from ..numerics.structure import switch
 
 
 class ActingForce(NamedTuple):
-    """Loads on the five freedoms of a point of the shaft, N and N m, and the torque, N m, in the sense of positive
-    speed."""
+    """Loads on the five degrees of freedom of a point of the shaft, N and N m, and the torque, N m, in the sense of
+    positive speed."""
 
     load: Float[Array, "5"]
     torque: Float[Array, ""]

@@ -117,7 +117,7 @@ class MountedBearing(Checked):
     - `position`: of its row (middle of the rollers, plane of the unloaded balls), m.
     - `thrust`: where an axial force on the inner ring presses it together, "+x" or "-x".
     - `closure`: added to the axial displacement in the bearing's own frame, m: of a bearing that is adjusted.
-    - `expansion`: growth of the inner raceway's radius less that of the outer one, m.
+    - `expansion`: expansion of the inner raceway's radius less that of the outer one, m.
     - `support`: of the outer ring; `None` for a rigid one.
     """
 
@@ -157,7 +157,7 @@ class MatchedSet(Checked):
     - `distance`: of neighbouring rows, m; or one for each gap, shape (n - 1,).
     - `preload`: `None` if there is none: all bearings then touch and carry nothing.
     - `mismatch`: additional closure of each bearing, m, shape (n,); `None` for 0.
-    - `expansion`: growth of the inner raceways' radius less that of the outer ones, m.
+    - `expansion`: expansion of the inner raceways' radius less that of the outer ones, m.
     - `support`: of each outer ring; `None` for rigid ones.
     """
 

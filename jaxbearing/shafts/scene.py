@@ -84,13 +84,13 @@ class ShaftSystem(AbstractScene):
     - `sets`, `bearings`: on the shaft. `places` has all bearings, those of the sets first.
     - `forces`: that act on the shaft.
     - `housing`: stiffness of a housing that holds all outer rings, shape (5 n, 5 n) in the frame of the shaft, five
-      freedoms for each of the bearings in the order of `places`; `None`: each outer ring has its own support.
+      degrees of freedom for each of the bearings in the order of `places`; `None`: each outer ring has its own support.
     - `states`: of a duty cycle; without any there is one state, that of the scene.
     - `life`: inputs of the life of the system.
     - `thermal`: joins the thermal networks of the bearings along shaft and housing; `None`: each has its own.
 
     **Raises:** `ValueError` for names that are given twice, for no bearing, for positions beyond the ends of the shaft,
-    for outer rings that bend and that nothing holds, for shares that do not add up to 1, and for a state whose scene
+    for flexible outer rings and that nothing holds, for shares that do not add up to 1, and for a state whose scene
     would be refused; `AttributeError` for a state that changes what is not there.
     """
 
@@ -177,7 +177,7 @@ class ShaftSystem(AbstractScene):
             yield from refusals_of(demand, f"{path} must lie within the length of the shaft", inside, message)
 
     def _shapes(self) -> Iterator[str]:
-        """Problems of outer rings that bend: something must hold each of them in its place, and loads from outside must
+        """Problems of flexible outer rings: something must hold each of them in its place, and loads from outside must
         not act on what holds it."""
         found = []
         for place in self.places:

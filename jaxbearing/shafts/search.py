@@ -69,7 +69,7 @@ MOST_ROUNDED = 1e-7
 class Problem(eqx.Module):
     """Everything that the equilibrium depends on.
 
-    **Arguments:** `expansion`: growth of the inner raceway's radius less that of the outer one, m, of each bearing.
+    **Arguments:** `expansion`: expansion of the inner raceway's radius less that of the outer one, m, of each bearing.
     """
 
     balance: Balance

@@ -1,8 +1,8 @@
 """The shaft: a row of cylinders, its speed and its weight.
 
 Frame of a shaft: X along it, Y at azimuth 0, Z at azimuth 90 degrees. The speed is positive from Y to Z. A point of the
-shaft has the five freedoms of a bearing's ring (`bearings.ring`) in this frame: axial, radial (Y), lateral (Z), and two
-tilts, with which azimuth 0 and azimuth 90 degrees move along +X.
+shaft has the five degrees of freedom of a bearing's ring (`bearings.ring`) in this frame: axial, radial (Y), lateral
+(Z), and two tilts, with which azimuth 0 and azimuth 90 degrees move along +X.
 """
 
 from typing import ClassVar

@@ -52,7 +52,7 @@ class BearingOnShaft(eqx.Module):
     )
     closure: _Number = eqx.field(metadata=label("m", "closure: axial displacement that mounting has given the ring"))
     expansion: _Number = eqx.field(
-        metadata=label("m", "growth of the inner raceway's radius less that of the outer one")
+        metadata=label("m", "expansion of the inner raceway's radius less that of the outer one")
     )
     largest_load: _Number = eqx.field(metadata=label("N", "largest load of a rolling element on the inner raceway"))
     pressure_centre: _Number = eqx.field(

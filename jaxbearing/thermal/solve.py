@@ -33,7 +33,7 @@ LIMIT = 523.15
 UNSTABLE = "unstable: a bearing would leave this state"
 """Warning of a steady state that is a root and no more."""
 START_NOTE = Information(
-    "a stable steady state need not be reached by a start at speed: only a run in time (simulate) says so"
+    "a stable steady state need not be reached by a start at speed: only a transient run (simulate) says so"
 )
 """Note beside margin and rate."""
 

@@ -51,7 +51,7 @@ AHEAD = 1e3
 
 
 class WarmUp(eqx.Module):
-    """Temperatures and heat flows of a run in time. Instants that it has not reached are NaN."""
+    """Temperatures and heat flows of a transient run. Instants that it has not reached are NaN."""
 
     nodes: tuple[str, ...] = eqx.field(static=True)
     status: Int[Array, ""] = eqx.field(metadata=label("1", "status of the run, index of the list of statuses"))

@@ -191,7 +191,7 @@ def _there(solution: Any, name: str, known: Mapping[str, Any]) -> bool:
 
 
 def _forces(solution: AbstractSolution) -> Iterator[str]:
-    """Loads that the freedoms need whose displacement is given: the preload."""
+    """Loads that the degrees of freedom need whose displacement is given: the preload."""
     operation = getattr(solution, "operation", None)
     for place, name in enumerate(LOAD_FIELDS):
         if isinstance(operation, AbstractOperation) and operation.held_at(name) is not None:

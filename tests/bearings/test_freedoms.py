@@ -59,7 +59,8 @@ def assert_alike(found, expected, tolerance=1e-9):
 
 
 def assert_held(scene, loaded, held):
-    """The ring of a scene held, in some freedoms, where loads brought it: the others stay, and the loads come back."""
+    """The ring of a scene held, in some degrees of freedom, where loads brought it: the others stay, and the loads
+    come back."""
     forces = [name for name in RING_FREEDOMS[:3] if name in scene.unknown_freedoms]
     places = {freedom: float(getattr(loaded.ring, freedom)) for freedom in held}
     found = jb.solve(scene.at_operation(displacement=places, **{LOAD_FIELDS[freedom]: None for freedom in held}))
@@ -216,7 +217,7 @@ def test_what_a_bearing_needs_and_does_not_have():
     with pytest.raises(ValueError, match=r"operation\.displacement must be"):
         BallOperation(100.0, displacement=1e-6)
     run = jb.load_scene("turbine_roller_dynamic")
-    with pytest.raises(ValueError, match=r"operation\.displacement: expected none in a run in time"):
+    with pytest.raises(ValueError, match=r"operation\.displacement: expected none in a transient run"):
         run.at_operation(radial_load=None, displacement={"radial": 1e-6})
 
 

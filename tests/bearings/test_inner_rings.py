@@ -1,4 +1,4 @@
-"""Inner rings that bend on their shaft, of all families: an independent solve, balances, limits, derivatives,
+"""Inner flexible rings on their shaft, of all families: an independent solve, balances, limits, derivatives,
 refusals."""
 
 import dataclasses
@@ -237,7 +237,7 @@ def test_reaction_is_the_load(name):
 
 
 def test_refusals():
-    with pytest.raises(ValueError, match=r"inner_ring\.width: a ring that bends needs a width"):
+    with pytest.raises(ValueError, match=r"inner_ring\.width: a flexible ring needs a width"):
         on_shaft(ball(), width=None).replace({"geometry.width": None})
     with pytest.raises(
         ValueError, match=r"inner_ring\.thickness: expected less than the radius of the inner raceway, 65"
@@ -253,9 +253,9 @@ def test_refusals():
         with pytest.raises(ValueError, match="inner_ring: "):
             on_shaft(jb.load_scene(name))
         still = on_shaft(jb.load_scene(name).replace({"simulation": None}))
-        with pytest.raises(ValueError, match="inner_ring: a run in time has rigid"):
+        with pytest.raises(ValueError, match="inner_ring: a transient run has rigid"):
             jb.simulate(still, 1e-4)
-        with pytest.raises(ValueError, match="inner_ring: a run in time has rigid"):
+        with pytest.raises(ValueError, match="inner_ring: a transient run has rigid"):
             jb.simulate_batch(still, 1e-4, {"operation.inner_speed": np.array([1e3])})
 
 

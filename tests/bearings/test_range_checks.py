@@ -59,7 +59,7 @@ OF_RACES |= {"slide ratio", "rough"}
 
 FAMILIES = {
     "dry balls": ("deep_groove_6205", {}, "yield behind", "", "tilt unstable clearance"),
-    "balls in a ring that bends": (
+    "balls in a flexible ring": (
         "deep_groove_6205",
         {"outer_ring": FlexibleRing(thickness=3e-3, width=15e-3, housing_stiffness=5e9)},
         "yield behind",
@@ -248,7 +248,7 @@ INPUTS = {
     "slow": ("operation.inner_speed", 10.0, ("balls", "rollers", "tilting rollers", "tapered rollers")),
     "wide land": ("cage.land_width", 0.05, ("balls", "rollers")),
     "apex": ("operation.load_position", 0.0, ("tapered rollers",)),
-    "thick rim": ("outer_ring.thickness", 8e-3, ("balls in a ring that bends",)),
+    "thick rim": ("outer_ring.thickness", 8e-3, ("balls in a flexible ring",)),
 }
 
 

@@ -156,7 +156,9 @@ def test_what_is_refused():
         ("axial_load", {"axial_load": 1.0}),
         (r"displacement\.axial", {"displacement": {"axial": 0.0}}),
     ):
-        with pytest.raises(ValueError, match=rf"operation\.{name}: a run in time moves the ring across the axis only"):
+        with pytest.raises(
+            ValueError, match=rf"operation\.{name}: a transient run moves the ring across the axis only"
+        ):
             run.at_operation(**wrong)
     given = jb.load_scene("reference_roller", {**DRY, **FLANGES})
     assert given.modelled_freedoms == RING_FREEDOMS

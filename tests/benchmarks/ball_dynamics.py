@@ -1,4 +1,5 @@
-"""Speed AND error of runs in time of balls, full against quasi-static meridian, beside scipy on the same vector field.
+"""Speed AND error of transient runs of balls, full against quasi-static meridian, beside scipy on the same vector
+field.
 
     python tests/benchmarks/ball_dynamics.py [--quick] [--meridian dynamic | quasi_static] [--spectra] [--scene]
 

@@ -1,4 +1,4 @@
-"""Speed AND error of runs in time, every solver that is offered, beside scipy's on the same vector field.
+"""Speed AND error of transient runs, every solver that is offered, beside scipy's on the same vector field.
 
     python tests/benchmarks/cage_dynamics.py [--quick] [--scenes]
 

@@ -1,4 +1,4 @@
-"""Runs in time where they are hard: each reaches its end with finite results and a closed energy balance."""
+"""Transient runs where they are hard: each reaches its end with finite results and a closed energy balance."""
 
 import jax
 import numpy as np

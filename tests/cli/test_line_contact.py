@@ -108,7 +108,7 @@ def test_restart_from_something_else_is_refused(jaxbearing_command, folder):
         ((*SIMULATE, "--set", "materials.body_2.density=8 g/cm^3"), "a.nc", "materials.body_2.density is 7850 there"),
         (SIMULATE, "half.nc", "not a NetCDF file that can be read"),
         (SIMULATE, "gone.nc", "cannot be read"),
-        (SIMULATE, "steady.nc", "not a run in time"),
+        (SIMULATE, "steady.nc", "not a transient run"),
     ]
     for arguments, path, reason in cases:
         result = jaxbearing_command(*arguments, "--restart", path)

@@ -152,9 +152,9 @@ REFUSED = {
         "films vanish",
     ),
     "balls without the mass of the ring": (("simulate", "turbine_ball", "--duration", "1 ms"), "simulation.ring_mass"),
-    "a ring that bends": (
+    "a flexible ring": (
         ("simulate", "reference_roller", "--duration", "1 ms", *(part for ring in BENT for part in ("--set", ring))),
-        "inner_ring: a run in time has rigid rings",
+        "inner_ring: a transient run has rigid rings",
     ),
 }
 

@@ -1,7 +1,7 @@
 """Every command line of README and docs runs as it is printed, page by page, as a reader would type it.
 
 With made up results (`filled_results`) all but the solvers is real: reading, `--set` paths, options, files, pictures,
-screen. The slow test has the solvers too; it shortens runs in time and sweeps.
+screen. The slow test has the solvers too; it shortens transient runs and sweeps.
 """
 
 import dataclasses
@@ -34,7 +34,7 @@ MANY = ("docs/sweeps.md", "docs/using.md", "docs/worked_examples.md")
 FEW = 12
 """Cases of a sweep that are solved here, at most; of a grid so many along each axis that it has not more."""
 SHORT = 2e-5
-"""Duration of a run in time with its solver, s."""
+"""Duration of a transient run with its solver, s."""
 
 
 def commands_of(text):
@@ -167,7 +167,7 @@ def made_up(monkeypatch, one_process):
 
 @pytest.fixture
 def shortened(monkeypatch, one_process):
-    """Solvers as they are; runs in time are short."""
+    """Solvers as they are; transient runs are short."""
     simulate = jb.simulate
     monkeypatch.setattr(jb, "simulate", simulate)
     short = lambda scene, duration, **more: simulate(scene, min(duration or SHORT, SHORT), **more)

@@ -1,4 +1,4 @@
-"""Runs in time: the stop, ramps, reversal, restart, balance of mass, what ends a run."""
+"""Transient runs: the stop, ramps, reversal, restart, balance of mass, what ends a run."""
 
 import tomllib
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Rings that bend in their plane: closed forms, check values of part B of the sheet, and a ring of straight beams."""
+"""Flexible rings in their plane: closed forms, check values of part B of the sheet, and a ring of straight beams."""
 
 import jax
 import jax.numpy as jnp

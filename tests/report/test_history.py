@@ -1,4 +1,5 @@
-"""A run in time as file, statistics, plots, moving pictures, and as the begin of another run; one compiled program."""
+"""A transient run as file, statistics, plots, moving pictures, and as the begin of another run; one compiled
+program."""
 
 import dataclasses
 import json

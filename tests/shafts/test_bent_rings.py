@@ -1,4 +1,4 @@
-"""Sets and shafts whose bearings have outer rings that bend and races that are not round."""
+"""Sets and shafts whose bearings have flexible outer rings and races that are not round."""
 
 import dataclasses
 

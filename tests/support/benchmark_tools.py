@@ -1,4 +1,4 @@
-"""Tools of the benchmarks: best of several times, errors, batches over all devices, runs in time beside scipy's."""
+"""Tools of the benchmarks: best of several times, errors, batches over all devices, transient runs beside scipy's."""
 
 import functools
 import sys

@@ -1,4 +1,4 @@
-"""Bearings with rings that bend and races that are not round, on shafts."""
+"""Bearings with flexible rings and races that are not round, on shafts."""
 
 import dataclasses
 

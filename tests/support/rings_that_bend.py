@@ -1,4 +1,4 @@
-"""What tests of rings that bend, or that are not round, have in common."""
+"""What tests of flexible rings, or that are not round, have in common."""
 
 from collections.abc import Callable
 

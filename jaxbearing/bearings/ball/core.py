@@ -89,9 +89,9 @@ class BallState(NamedTuple):
     balance: Float[Array, "2 ball"]
     """Left side minus right side of the ball's two force balances, N."""
     on_ring: Float[Array, "row ball"]
-    """Contributions of each ball to the forces on the ring's freedoms, N: of p_x, p_r, the force along the orbit where
-    the ring may tilt, and the moment about the tangent of the circle of groove centres; then the radial forces on
-    rings that bend."""
+    """Contributions of each ball to the forces on the ring's degrees of freedom, N: of p_x, p_r, the force along the
+    orbit where the ring may tilt, and the moment about the tangent of the circle of groove centres; then the radial
+    forces on flexible rings."""
 
 
 class BallCore(AbstractBallSystem):
@@ -266,7 +266,7 @@ class BallCore(AbstractBallSystem):
 
     def _directions_of_rings(self) -> Float[Array, "coordinate p ball"]:
         """Change of the coordinates of the inner groove, seen from the outer one, for a unit of each freedom of the
-        inner ring and of each amplitude of rings that bend, m."""
+        inner ring and of each amplitude of flexible rings, m."""
         if not self.bent:
             return self.directions
         p, count = self.arcs.coordinates, self.azimuth.shape[0]

@@ -16,7 +16,7 @@ The first-order form, in which the groove centre moves by $R_i\tau$ along the ax
 \theta_2\sin\psi$, leaves out the motion $R_i(1 - \cos t)\cos^2\psi$ towards the axis (of a tilt $\theta_1$): 0.4 um at
 6.5 mrad and $R_i$ = 19 mm, which is of the order of the deformation. The first-order form is used where the scene has
 neither a moment nor a misalignment, where the user chooses it (`tilt="linear"` of `reaction`; `rating.tilt = "iso"`,
-which also takes half the pitch diameter for $R_i$, in motion and moment, as ISO 16281 does), in runs in time and on
+which also takes half the pitch diameter for $R_i$, in motion and moment, as ISO 16281 does), in transient runs and on
 shafts. Without a tilt it leaves out $d_t^2/(2R_i)$ with the
 displacement $d_t$ of the ring along the orbit: 1 nm in the bearing `turbine_ball` at 20 kN axial and 8 kN radial load,
 6e-5 of a ball's load.
@@ -198,7 +198,8 @@ class RingMotion(NamedTuple):
         return ring_frame(self.held + LENGTH_UNIT * jnp.sum(self.directions * shift[None], axis=1))
 
     def on_freedoms(self, loads: Float[Array, "5 ball"]) -> Float[Array, "freedom ball"]:
-        """Contributions of every ball to the forces that hold the unknown freedoms, N, from `conjugate_loads`."""
+        """Contributions of every ball to the forces that hold the unknown degrees of freedom, N, from
+        `conjugate_loads`."""
         return jnp.sum(self.directions * loads[:, None], axis=0)
 
 

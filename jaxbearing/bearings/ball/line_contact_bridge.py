@@ -39,7 +39,7 @@ def line_contact_of(
     race). Left out: side leakage, spin, speeds across rolling, heating of the inlet.
 
     **Arguments:** `scene` and its converged `solution`; `race`; `ball`: its number; `model`: of the film and its mesh;
-    `simulation`: of a run in time.
+    `simulation`: of a transient run.
 
     **Raises:** `ValueError` for a scene without an oil, a solve that failed, or a ball that is not there or not loaded.
     """

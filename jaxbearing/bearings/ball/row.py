@@ -14,8 +14,8 @@ from .start import force_at, hold
 class BallRow(AbstractRow):
     """Balls in grooves that move to first order with the ring's tilts.
 
-    **Arguments:** `problem`: with all five freedoms, lengths; `lever`: of the tilts, m; `distance`: of the plane of the
-    inner groove centres from the port, m.
+    **Arguments:** `problem`: with all five degrees of freedom, lengths; `lever`: of the tilts, m; `distance`: of the
+    plane of the inner groove centres from the port, m.
     """
 
     problem: CentrifugalProblem

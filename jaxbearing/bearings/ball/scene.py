@@ -184,10 +184,10 @@ class BallBearing(AbstractMovingBearing):
       "outer" or "inner".
     - `contact.traction=None`: films too, and where named the rolling resistance; balls roll without sliding.
     - with traction the balls slide and spin; without a `cage` every ball has its own orbital speed.
-    - `outer_ring`: an outer ring that bends in its housing; `inner_ring`: an inner ring that bends on its shaft;
+    - `outer_ring`: a flexible outer ring in its housing; `inner_ring`: a flexible inner ring on its shaft;
       `None`: it is rigid. `inner_roundness`, `outer_roundness`: raceways that are not round, standing still relative to
       the load. Balls in motion have rigid, round rings.
-    - `simulation`: what a run in time does beyond the operating point; a steady solve does not look at it.
+    - `simulation`: what a transient run does beyond the operating point; a steady solve does not look at it.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
     """

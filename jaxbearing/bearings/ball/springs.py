@@ -22,8 +22,9 @@ class CentrifugalProblem(eqx.Module):
     """Balls between two grooves under given forces. Units m, N; (inner, outer) or (axial, radial) first.
 
     `groove`: coordinates of the inner groove at every ball with the ring at rest (`arcs`; of one arc its centre);
-    `directions`: their change for a unit of every coordinate of the rings: the freedoms of the inner one (a length
-    each), then the amplitudes of an `outer` and of an `inner` ring that bends; `ring_load`: on the freedoms;
+    `directions`: their change for a unit of every coordinate of the rings: the degrees of freedom of the inner one (a
+    length each), then the amplitudes of an `outer` and of an `inner` flexible ring; `ring_load`: on the degrees of
+    freedom;
     `held_load`: of `InnerRing`; `aligned`: axial displacement at which the planes of the grooves coincide;
     `multiplicity`: balls that each ball stands for.
     """
@@ -46,18 +47,18 @@ class CentrifugalProblem(eqx.Module):
 
     @property
     def bent(self) -> BentRings:
-        """The rings that bend."""
+        """The flexible rings."""
         return BentRings(self.outer, self.inner)
 
     def carried(self) -> Float[Array, " mode"]:
-        """Generalised loads of the centrifugal forces, which move with the outer groove, on the rings that bend, N."""
+        """Generalised loads of the centrifugal forces, which move with the outer groove, on the flexible rings, N."""
         return self.bent.pressed(self.bent.pick(self.centrifugal, jnp.zeros_like(self.centrifugal)))
 
     def groove_at(self, ring: Float[Array, " coordinate"]) -> Float[Array, "p ball"]:
         return self.groove + jnp.einsum("f,fcn->cn", ring, self.directions)
 
     def ring_work(self, ring: Float[Array, " coordinate"]) -> Array:
-        """Work of the loads on the rings at displacements, m, less the energy of rings that bend, J."""
+        """Work of the loads on the rings at displacements, m, less the energy of flexible rings, J."""
         if not self.bent:
             return jnp.sum(self.ring_load * ring)
         d = len(self.freedoms)

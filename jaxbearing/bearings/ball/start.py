@@ -28,7 +28,7 @@ from .springs import CentrifugalProblem, Forces, forces_at, inner_springs, toget
 RING_TOLERANCE = 2e-2
 """Tolerance of the ring's balance, relative to the load: sufficient for a start of the full equations."""
 BENDING_TOLERANCE = 1e-8
-"""The same of rings that bend, where the inner one is held: `hold` takes one Newton step from there."""
+"""The same of flexible rings, where the inner one is held: `hold` takes one Newton step from there."""
 BALL_TOLERANCE = 1e-9
 """Tolerance of a ball's balance, relative to its load scale."""
 RING_STEPS, BALL_STEPS = 40, 60
@@ -166,8 +166,8 @@ def _on_ring(problem: CentrifugalProblem, forces: Forces) -> tuple[Float[Array, 
 
 
 class HeldBalls(NamedTuple):
-    """Balls in equilibrium under an inner ring that is held: energy, J, forces on the ring's freedoms, N, and their
-    derivatives, N/m, the ball centres, m, and the amplitudes of rings that bend, m."""
+    """Balls in equilibrium under an inner ring that is held: energy, J, forces on the ring's degrees of freedom, N,
+    and their derivatives, N/m, the ball centres, m, and the amplitudes of flexible rings, m."""
 
     energy: Float[Array, ""]
     force: Float[Array, " freedom"]
@@ -184,7 +184,7 @@ def hold(
 ) -> HeldBalls:
     """The balls for a given displacement of the inner ring, m; not differentiated.
 
-    **Arguments:** `near`: ball centres under another displacement, m; `guess`: amplitudes of rings that bend, near
+    **Arguments:** `near`: ball centres under another displacement, m; `guess`: amplitudes of flexible rings, near
     those that are sought, m; see `row` on how exactly they are found.
     """
     problem, ring = jax.lax.stop_gradient((problem, ring))
@@ -233,8 +233,8 @@ def _pressed_scale(problem: CentrifugalProblem, groove: Float[Array, "p ball"]) 
 
 
 def _anchored(matrix: Float[Array, "coordinate coordinate"], count: int) -> Float[Array, "coordinate coordinate"]:
-    """The stiffness of both rings with a little on the amplitudes, which come after `count` freedoms: nothing holds an
-    outer ring that leans on no support and that no ball touches."""
+    """The stiffness of both rings with a little on the amplitudes, which come after `count` degrees of freedom:
+    nothing holds an outer ring that leans on no support and that no ball touches."""
     anchor = np.where(np.arange(matrix.shape[0]) < count, 0.0, 1e-3 * SOFTEST)
     return matrix + jnp.diag(jnp.asarray(anchor))
 

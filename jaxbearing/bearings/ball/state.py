@@ -41,7 +41,7 @@ class BallGuess(NamedTuple):
     angle: Float[Array, " ball"]
     attitude: Float[Array, " ball"]
     ring: Float[Array, " coordinate"]
-    """Displacements of the inner ring, m, then the amplitudes of rings that bend."""
+    """Displacements of the inner ring, m, then the amplitudes of flexible rings."""
 
 
 class BallPlaces(NamedTuple):
@@ -84,8 +84,8 @@ class BallsState(NamedTuple):
     rows: tuple[Array, ...]
     """Residuals of the ball's motion, in the order of its unknowns."""
     on_ring: Float[Array, "row ball"]
-    """Contributions of each ball to the forces on the inner ring's freedoms, N; then the radial forces on rings that
-    bend."""
+    """Contributions of each ball to the forces on the inner ring's degrees of freedom, N; then the radial forces on
+    rings that bend."""
     cage_moment: Float[Array, " ball"] | None
     cage_force: Float[Array, "2 ball"] | None
 

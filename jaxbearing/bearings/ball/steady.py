@@ -89,7 +89,8 @@ def solve_ball(
 def _of_lengths(
     stiffness: Float[Array, "5 5"], lever: Array, freedoms: tuple[str, ...]
 ) -> Float[Array, "freedom freedom"]:
-    """The stiffness of the unknown freedoms of a ring that may tilt, all displacements counted as lengths, N/m."""
+    """The stiffness of the unknown degrees of freedom of a ring that may tilt, all displacements counted as lengths,
+    N/m."""
     free = np.asarray([RING_FREEDOMS.index(name) for name in freedoms])
     unit = jnp.stack([1.0 / lever if name in TILTS else jnp.ones(()) for name in freedoms])
     return stiffness[free][:, free] * unit[:, None] * unit[None]
@@ -288,7 +289,7 @@ def _wide(values: Array, count: int) -> Array:
 
 
 def _dry_port(scene: BallBearing, system: BallCore, result: NewtonResult) -> tuple[Port, BallState]:
-    """The reaction and the stiffness of all five freedoms of the ring, and the state of all balls, from one
+    """The reaction and the stiffness of all five degrees of freedom of the ring, and the state of all balls, from one
     evaluation."""
     full, point = _released(scene, system, result)
     return _port_anew(full, point, full.seen, system.freedoms)
@@ -300,8 +301,8 @@ def _port_anew(
     element: Callable[[Array, Array], tuple[Array, Array, Seen]],
     freedoms: tuple[str, ...],
 ) -> tuple[Port, Seen]:
-    """The reaction and the stiffness of the ring with all its freedoms and all balls, from derivatives of `element`;
-    and the third result of that."""
+    """The reaction and the stiffness of the ring with all its degrees of freedom and all balls, from derivatives of
+    `element`; and the third result of that."""
     values, tangents, seen = element_tangents(element, point.elements, seen_by_elements(full, point))
     equations, jacobian = assembled(full, point, values, tangents, jnp.zeros(()))
     force = equations.residual.globals[:5] * full.load_scale() + full.ring.load
@@ -311,7 +312,7 @@ def _port_anew(
 def _port(
     scene: BallBearing, system: LubricatedBallSystem | ArchedBallSystem, result: NewtonResult, film: PointFilm
 ) -> Port:
-    """The reaction and the stiffness of all five freedoms of the ring."""
+    """The reaction and the stiffness of all five degrees of freedom of the ring."""
     if isinstance(system, ArchedBallSystem):
         every, point = _released(scene, system, result)
         return _port_anew(every, point, every.element, system.freedoms)[0]
@@ -332,11 +333,12 @@ def _all_freedoms(
     multiplicity: int,
     film: PointFilm | None,
 ) -> tuple[ArrowJacobian, Float[Array, "5"]]:
-    """The Jacobian with all five freedoms of the ring, from that of the solve, and the forces on them, N. Ring
-    displacements only move the groove centres, so the expensive friction derivatives of the solve can be reused; that a
-    tilt also turns the inner race under the sliding ball is left out here.
+    """The Jacobian with all five degrees of freedom of the ring, from that of the solve, and the forces on them, N.
+    Ring displacements only move the groove centres, so the expensive friction derivatives of the solve can be reused;
+    that a tilt also turns the inner race under the sliding ball is left out here.
 
-    **Arguments:** `full`: the equations of all balls with five freedoms; `solved`: of the solve, with this many
+    **Arguments:** `full`: the equations of all balls with five degrees of freedom; `solved`: of the solve, with this
+    many
     `freedoms`, every ball of it standing for `multiplicity`; `film`: where it does not depend on the ring.
     """
     m, count = point.elements.shape

@@ -7,7 +7,7 @@ place of the centre of its arc, or of the middle between the centres of its two 
 With two arcs there is a third one, $e\tau$, m, with the rotation $\tau$ of the groove in the half-plane, positive where
 it moves the arc at +e inwards. The dimension p of arrays counts these two or three coordinates, or the *shared*
 unknowns: those that all balls have in common, as each ball sees them (displacements of the ring first, then deflections
-of rings that bend). The grooves of an *exact* system move with the exact rotation of the ring (module `groove_motion`),
+of flexible rings). The grooves of an *exact* system move with the exact rotation of the ring (module `groove_motion`),
 otherwise with its first-order displacement. The *attitude* of a ball is the angle of its spin axis from the bearing
 axis, in the half-plane; `Attitude` names the hypothesis that gives it.
 """
@@ -118,9 +118,9 @@ class InnerArm(NamedTuple):
 OnRing: TypeAlias = Callable[
     [tuple[Float[Array, "component ball"], ...], Float[Array, " ball"] | None], Float[Array, "freedom ball"]
 ]
-"""Contributions of every ball to the forces that hold the ring's freedoms, N (moments are divided by R_i). They follow
-from the forces of the ring on the ball at each of its arcs, axial, outward and, in an `exact` system, along the orbit,
-N, and from the moment of friction in the half-plane, N m (`None`: no friction)."""
+"""Contributions of every ball to the forces that hold the ring's degrees of freedom, N (moments are divided by R_i).
+They follow from the forces of the ring on the ball at each of its arcs, axial, outward and, in an `exact` system,
+along the orbit, N, and from the moment of friction in the half-plane, N m (`None`: no friction)."""
 
 
 class Touch(NamedTuple):
@@ -146,8 +146,8 @@ class Push(NamedTuple):
     """Forces of the contacts, N.
 
     - `net`: of the ball on the outer ring less those of the inner ring on the ball, axial and outward.
-    - `on_ring`: contributions to the forces that hold the rings: the freedoms of the inner one, and the radial forces
-      on rings that bend (`AbstractBetweenRings`).
+    - `on_ring`: contributions to the forces that hold the rings: the degrees of freedom of the inner one, and the
+      radial forces on flexible rings (`AbstractBetweenRings`).
     """
 
     net: Float[Array, "2 ball"]

@@ -197,7 +197,7 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         return 0 if self.cage is None else 2
 
     def local_inputs(self, globals_):
-        """With rings that bend, returns the displacement of the rings towards each other at each roller and, with a
+        """With flexible rings, returns the displacement of the rings towards each other at each roller and, with a
         cage, the cage speed. Returns `None` if both rings are rigid."""
         if not self.bent:
             return None
@@ -397,7 +397,7 @@ class DryRollerSystem(AbstractInPlane):
         return self.approaching(point.globals) if self.bent else self.inward(point.globals[:, None])
 
     def local_inputs(self, globals_):
-        """With rings that bend, returns the displacement of the rings towards each other at each roller. Returns `None`
+        """With flexible rings, returns the displacement of the rings towards each other at each roller. Returns `None`
         if both rings are rigid."""
         return self.approaching(globals_)[None] if self.bent else None
 

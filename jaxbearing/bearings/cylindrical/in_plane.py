@@ -1,5 +1,5 @@
 """Base of the equations of cylindrical rollers that carry evenly along their length: displacements of the
-inner ring and amplitudes of rings that bend."""
+inner ring and amplitudes of flexible rings."""
 
 import dataclasses
 from typing import TypeVar
@@ -13,7 +13,7 @@ from ..rings import AbstractBetweenRings
 
 System = TypeVar("System", bound="AbstractInPlane")
 IN_PLANE = ("radial", "lateral")
-"""Freedoms of the inner ring in the model of rollers that carry evenly along their length."""
+"""Degrees of freedom of the inner ring in the model of rollers that carry evenly along their length."""
 
 
 def outward(azimuth: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
@@ -24,7 +24,7 @@ def outward(azimuth: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
 class AbstractInPlane(AbstractBetweenRings):
     """Base of the equations of rollers that carry evenly along their length.
 
-    - `directions`: outward unit vectors along the unknown freedoms of the `ring`.
+    - `directions`: outward unit vectors along the unknown degrees of freedom of the `ring`.
     - `held`: given part of the displacement of the inner ring towards each roller, m; `None` if none is given.
     - `out_of_round`: displacement towards each roller of races that are not round, m; `None` if they are round.
     - `outer`, `inner`: the rings if they bend; `None` if they are rigid. A roller feels their openings together, as a
@@ -48,7 +48,7 @@ class AbstractInPlane(AbstractBetweenRings):
         return shift
 
     def approaching(self, globals_: Float[Array, " g"]) -> Float[Array, " roller"]:
-        """Displacement of the rings towards each other at each roller, m, with rings that bend."""
+        """Displacement of the rings towards each other at each roller, m, with flexible rings."""
         shift = self.inward(globals_[: self.directions.shape[0], None])
         for opening in self.bent.openings(self.amplitudes(globals_)):
             shift = shift - opening
@@ -56,7 +56,7 @@ class AbstractInPlane(AbstractBetweenRings):
 
     def on_rings(self, load: Float[Array, "2 roller"]) -> Float[Array, " row"]:
         """Sums of the loads on both races, N, as they act on the displacements of the inner ring and on the amplitudes
-        of rings that bend."""
+        of flexible rings."""
         return jnp.concatenate([self.directions @ load[0], self.bent.pressed(self.bent.pick(load[1], load[0]))])
 
     def ring_rows(self, globals_: Float[Array, " g"], totals: Float[Array, " k"]) -> Float[Array, " row"]:
@@ -76,7 +76,7 @@ class AbstractInPlane(AbstractBetweenRings):
         return jnp.concatenate([ring + follow / weights, amplitudes])
 
     def in_plane(self: System) -> System:
-        """The equations with both freedoms of the ring unknown."""
+        """The equations with both degrees of freedom of the ring unknown."""
         ring, both = self.ring, outward(self.azimuth)
         free = InnerRing(jnp.full(2, ring.size() / jnp.sqrt(2.0)), jnp.zeros(5), ring.lever, IN_PLANE)
         held = None if ring.expansion is None else jnp.broadcast_to(ring.expansion, self.azimuth.shape)

@@ -175,8 +175,8 @@ class RaceLoads(AbstractArrowSystem):
 
 
 class Distribution(NamedTuple):
-    """Loads on both races, N, displacement of the inner ring along its freedoms, m, the scaled residual, and the
-    unknowns that were solved for: a guess for a bearing not far from this one."""
+    """Loads on both races, N, displacement of the inner ring along its degrees of freedom, m, the scaled residual, and
+    the unknowns that were solved for: a guess for a bearing not far from this one."""
 
     load: Float[Array, "2 roller"]
     ring: Float[Array, " freedom"]

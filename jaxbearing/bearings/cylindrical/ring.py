@@ -1,4 +1,4 @@
-"""The rings of a cylindrical roller bearing: the inner one from its operating point, and rings that bend."""
+"""The rings of a cylindrical roller bearing: the inner one from its operating point, and flexible rings."""
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -9,7 +9,7 @@ from .scene import CylindricalRollerBearing
 
 
 def roller_ring(scene: CylindricalRollerBearing, lever: Array) -> InnerRing:
-    """The ring of a scene, NaN where a traced radial load is not positive: a load factor of a run in time may bring
+    """The ring of a scene, NaN where a traced radial load is not positive: a load factor of a transient run may bring
     that about (a known one was refused when the scene was built). `lever`: of `InnerRing`, m."""
     ring, radial = inner_ring(scene, lever), scene.operation.radial_load
     if radial is None:

@@ -58,11 +58,11 @@ if TYPE_CHECKING:
     from .solution import RollerResults
 
 _ACROSS = ("radial", "lateral", "tilt", "tilt_lateral")
-"""Freedoms of the inner ring that the rollers feel."""
+"""Degrees of freedom of the inner ring that the rollers feel."""
 
 
 def _freedoms(value: object) -> tuple[str, ...]:
-    """**Raises:** `ValueError` for what are no freedoms of the ring."""
+    """**Raises:** `ValueError` for what are no degrees of freedom of the ring."""
     if isinstance(value, list | tuple) and tuple(map(str, value)) in (("radial",), ("radial", "lateral")):
         return tuple(map(str, value))
     raise ValueError(f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {value!r}")
@@ -80,10 +80,10 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae where they have a
       profile; with a `contact` without traction: films and what rolling costs, for rolling without sliding.
     - `geometry.flange_stiffness`: the ring's axial freedom, which nothing else depends on.
-    - `outer_ring`: an outer ring that bends in its housing; `inner_ring`: an inner ring that bends on its shaft;
+    - `outer_ring`: a flexible outer ring in its housing; `inner_ring`: a flexible inner ring on its shaft;
       `None`: it is rigid. `inner_roundness`, `outer_roundness`: raceways that are not round, standing still relative to
       the load. Rollers and cage in motion have rigid rings.
-    - `simulation`: what a run in time does beyond the operating point, a `WarmUpSimulation` with `thermal`; a steady
+    - `simulation`: what a transient run does beyond the operating point, a `WarmUpSimulation` with `thermal`; a steady
       solve does not look at it.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
@@ -192,7 +192,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
     @property
     def ring_width(self) -> Scalar:
-        """Width of rings that bend, where the scene gives none, m."""
+        """Width of flexible rings, where the scene gives none, m."""
         return self.geometry.roller_length if self.geometry.width is None else self.geometry.width
 
     def play(self, growth: Growth) -> Play:
@@ -322,14 +322,14 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
 
 def check_run(operation: Operation) -> None:
-    """**Raises:** `ValueError` where the operating point is none that a run in time can begin at."""
+    """**Raises:** `ValueError` where the operating point is none that a transient run can begin at."""
     if operation.displaced:
-        raise ValueError("operation.displacement: expected none in a run in time, where loads move the ring")
+        raise ValueError("operation.displacement: expected none in a transient run, where loads move the ring")
     if operation.axial_given:
         name = "displacement.axial" if operation.axial_load is None else "axial_load"
-        raise ValueError(f"operation.{name}: a run in time moves the ring across the axis only")
+        raise ValueError(f"operation.{name}: a transient run moves the ring across the axis only")
     if operation.radial_load is None:
-        raise ValueError("operation.radial_load: a run in time needs one")
+        raise ValueError("operation.radial_load: a transient run needs one")
 
 
 def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:

@@ -192,7 +192,7 @@ def _port(
 ) -> Port:
     """The reaction and the stiffness of the ring, everything else in equilibrium; `load`: on the inner race, N.
 
-    Of the unknown freedoms; where a displacement is given, of all that the model has.
+    Of the unknown degrees of freedom; where a displacement is given, of all that the model has.
     """
     jacobian, shown = result.jacobian, system
     if system.ring.needs_held_load:

@@ -10,7 +10,7 @@ $\delta_o = x + \phi s - h$, $\delta_i = d\cdot n - J_d/2 - \tau\cos\psi(s - \el
 roller: $Q_o - Q_i = F_c$, $M_o - M_i = F_c\ell/2$; ring: $\sum Q_in = F$, $-\sum(M_i - Q_i\ell/2)\cos\psi = M$. The
 gradient of one convex potential, with the springs of `ring.ANCHOR`.
 
-Rings that bend move outwards by $w_o$, $w_i$ at a roller, along the whole of its length: $w_o$ is taken from
+Flexible rings move outwards by $w_o$, $w_i$ at a roller, along the whole of its length: $w_o$ is taken from
 $\delta_o$, and the roller presses the outer ring by $Q_o$; $w_i$ is added to $\delta_i$, and the roller presses the
 inner ring by $-Q_i$. What races that are not round add to $\delta_i$ is alike along
 the roller too.

@@ -208,7 +208,7 @@ def _films(
 
 
 def _port(scene: CylindricalRollerBearing, system: TiltingRollers, point: ArrowPoint) -> Port:
-    """The reaction and the stiffness of the ring's freedoms, rollers in equilibrium."""
+    """The reaction and the stiffness of the ring's degrees of freedom, rollers in equilibrium."""
     full = build_tilting(scene, system.ring.released(system.load_scale()))
     place = ArrowPoint(point.elements, system.ring.released_unknowns(point.globals))
     equations, jacobian = linearize(full, place)

@@ -1,4 +1,4 @@
-"""Many runs in time of a bearing of any family at once, in one program."""
+"""Many transient runs of a bearing of any family at once, in one program."""
 
 from collections.abc import Mapping
 from typing import Any, Literal

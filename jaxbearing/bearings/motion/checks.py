@@ -1,4 +1,4 @@
-"""Range checks of a run in time: the largest excess of all its pieces."""
+"""Range checks of a transient run: the largest excess of all its pieces."""
 
 import jax
 import jax.numpy as jnp

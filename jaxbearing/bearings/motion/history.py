@@ -1,4 +1,4 @@
-"""Results of a run in time, labelled: every quantity carries its unit and description where it is defined.
+"""Results of a transient run, labelled: every quantity carries its unit and description where it is defined.
 
 The command line, JSON, files and plots read this metadata; nothing keeps a second list. A family derives its own
 classes of an instant and of the energy balance from `Instant` and `Energy`, with what only it has.
@@ -133,7 +133,7 @@ class Energy(eqx.Module):
 
 
 class History(AbstractHistory, Generic[Moment]):
-    """Result of a run in time: all instants up to the last good one, also where it stopped early.
+    """Result of a transient run: all instants up to the last good one, also where it stopped early.
 
     `instants` holds the results with the times in front: `history.instants.cage.speed` has the shape of `time`.
     """

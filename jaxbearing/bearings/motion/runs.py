@@ -1,4 +1,4 @@
-"""Runs in time of a bearing of any family: one at a time, and as a pure function. `batch` has many at once."""
+"""Transient runs of a bearing of any family: one at a time, and as a pure function. `batch` has many at once."""
 
 import contextlib
 import dataclasses

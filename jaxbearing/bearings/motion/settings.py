@@ -1,4 +1,4 @@
-"""Settings of a run in time: the same for all kinds of bearings."""
+"""Settings of a transient run: the same for all kinds of bearings."""
 
 from typing import ClassVar
 
@@ -14,7 +14,7 @@ DEFAULT_TOLERANCE = 1e-5
 
 
 class Simulation(Checked):
-    """A run in time, from the quasi-static state of the operating point.
+    """A transient run, from the quasi-static state of the operating point.
 
     **Arguments:**
     - `duration`: s; `None`: it must be given with the run.

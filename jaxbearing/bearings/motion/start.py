@@ -1,4 +1,4 @@
-"""The state that a run in time begins with, for every family."""
+"""The state that a transient run begins with, for every family."""
 
 import dataclasses
 from typing import TypeVar

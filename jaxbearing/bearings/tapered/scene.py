@@ -159,7 +159,7 @@ class TaperedRollerBearing(AbstractBearing):
 
     @property
     def ring_width(self) -> Scalar:
-        """Width of rings that bend, where the scene gives none, m."""
+        """Width of flexible rings, where the scene gives none, m."""
         return self.geometry.roller_length if self.geometry.width is None else self.geometry.width
 
     def play(self, growth: Growth) -> Play:

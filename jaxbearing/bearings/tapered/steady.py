@@ -356,7 +356,8 @@ def _end_reach(scene: TaperedRollerBearing, state: TaperedState) -> Array:
 
 
 def _port(scene: TaperedRollerBearing, system: TaperedSystem, result: NewtonResult) -> Port:
-    """The reaction and the stiffness of the cone's five freedoms at the reference point, rollers in equilibrium."""
+    """The reaction and the stiffness of the cone's five degrees of freedom at the reference point, rollers in
+    equilibrium."""
     full = build_tapered(scene, system.ring.released(system.load_scale()))
     elements = jnp.broadcast_to(result.point.elements, (3, scene.geometry.n_rollers))
     point = ArrowPoint(elements, system.ring.released_unknowns(result.point.globals))

@@ -70,7 +70,7 @@ def require_capacities(scene: AbstractBearing) -> None:
     unknown = unknown_capacities(scene)
     if unknown:
         names = ", ".join(f"thermal.capacity.{name}" for name in unknown)
-        raise ValueError(f"{names}: found nothing, expected a number, which a run in time needs, e.g. '500 J/K'")
+        raise ValueError(f"{names}: found nothing, expected a number, which a transient run needs, e.g. '500 J/K'")
 
 
 def identity(scene: AbstractBearing) -> Identity:

@@ -5,9 +5,9 @@ says: a new result appears here without a change. Names are the paths of the Pyt
 (`power_loss_total`, `ring_radial`), also kept in the attribute `path`; results of the rolling elements go without the
 prefix `elements_` (`load_inner`).
 
-The stiffness has all five freedoms of the ring in each kind of bearing. Its entries have four units, of which a
-variable can name one only: they stand in the coordinate `stiffness_units`. Freedoms that the model does not have are 0
-there, and `freedom_modelled` says which they are.
+The stiffness has all five degrees of freedom of the ring in each kind of bearing. Its entries have four units, of
+which a variable can name one only: they stand in the coordinate `stiffness_units`. Degrees of freedom that the model
+does not have are 0 there, and `freedom_modelled` says which they are.
 """
 
 from collections.abc import Sequence
@@ -93,7 +93,7 @@ def _with_coordinates(dataset: xr.Dataset, solution: Solution, dims: tuple[str, 
 
 
 def _of_stiffness(solution: Solution) -> dict[str, xr.Variable]:
-    """Units of the entries of the stiffness, and which freedoms the model has."""
+    """Units of the entries of the stiffness, and which degrees of freedom the model has."""
     units = [[udunits(unit) for unit in row] for row in stiffness_units()]
     modelled = np.asarray([name in solution.freedoms_of_stiffness for name in RING_FREEDOMS], dtype=np.int8)
     words = {

@@ -229,7 +229,7 @@ def _ring(solution: Solution) -> Iterator[str]:
 
 
 def _held(solution: Solution) -> Iterator[str]:
-    """The loads that freedoms which are held need, but for those that are 0."""
+    """The loads that degrees of freedom which are held need, but for those that are 0."""
     for name, unit, value in zip(RING_FREEDOMS, force_units(), np.asarray(solution.force), strict=True):
         if name in solution.held_freedom and value != 0.0:
             about = _point_of_moments(solution) if name.startswith("tilt") else ""

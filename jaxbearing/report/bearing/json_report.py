@@ -54,6 +54,7 @@ def to_dict(solution: Solution) -> dict[str, Any]:
 
 
 def modelled_only(stiffness: np.ndarray, freedoms: tuple[str, ...]) -> list[Any]:
-    """The stiffness of all five freedoms, of any number of bearings, `None` for those that the model does not have."""
+    """The stiffness of all five degrees of freedom, of any number of bearings, `None` for those that the model does
+    not have."""
     modelled = np.asarray([name in freedoms for name in RING_FREEDOMS])
     return finite(np.where(modelled[:, None] & modelled, stiffness, np.nan).tolist())

@@ -31,7 +31,7 @@ def ring_panels(solution: Solution, rigid: Solution | None = None) -> list[Polar
 
 
 def bent_rings(solution: Solution) -> list[AbstractRingDeflection]:
-    """Shapes of the rings that bend, that of the outer ring first."""
+    """Shapes of the flexible rings, that of the outer ring first."""
     return [ring for ring in (solution.outer_ring, solution.inner_ring) if ring is not None]
 
 

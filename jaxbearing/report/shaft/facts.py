@@ -314,7 +314,7 @@ def _moved(value: float) -> float:
 
 
 def stiffness_rows(one: BearingOnShaft) -> tuple[list[str], list[list[str]]]:
-    """Names of the freedoms, and rows of texts."""
+    """Names of the degrees of freedom, and rows of texts."""
     rows = [[digits(float(value), 5) for value in row] for row in np.asarray(one.stiffness)]
     return [name.replace("_", " ") for name in RING_FREEDOMS], rows
 

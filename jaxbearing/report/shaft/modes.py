@@ -25,7 +25,7 @@ def natural_frequencies(table: ShaftStiffness, scene: ShaftSystem, place: int = 
     """Natural frequencies, rad/s, in ascending order.
 
     **Arguments:** `place`: of the speed in the table whose stiffness counts; `tilting`: False leaves out the bearings'
-    stiffness against tilting and its coupling with the other freedoms, as ROSS does.
+    stiffness against tilting and its coupling with the other degrees of freedom, as ROSS does.
 
     **Raises:** `ValueError` as `ross.require_rotor`.
     """

@@ -128,7 +128,8 @@ def tangents(system: ShaftSystem, solution: ShaftSolution) -> dict[str, np.ndarr
 
 
 def _in_series(bearing: np.ndarray, support: Support | None) -> np.ndarray:
-    """A bearing whose outer ring is on an elastic support; freedoms of the support that are rigid hold the ring."""
+    """A bearing whose outer ring is on an elastic support; degrees of freedom of the support that are rigid hold the
+    ring."""
     if support is None:
         return bearing
     if support.matrix is not None:
@@ -200,6 +201,6 @@ def print_shaft_stiffness(table: ShaftStiffness, label: str, console: Console, f
         modes = table.natural_frequencies.T / (2.0 * np.pi)
         columns = {f"mode {place + 1}\nHz": [digits(float(one), 5) for one in mode] for place, mode in enumerate(modes)}
         print_table(first | columns, [0.0] * len(table.speed), 0, "", console)
-    print_line("Stiffness", "d load / d displacement of the inner ring, its other freedoms held", console)
+    print_line("Stiffness", "d load / d displacement of the inner ring, its other degrees of freedom held", console)
     print_line("Axes", "axial X, radial Y, lateral Z of the shaft; tilts move azimuth 0 and 90 deg along X", console)
     print_warnings(table.warnings, console, full)

@@ -102,11 +102,11 @@ class ThermalTable(table_of(Thermal)):
 
 
 class OuterRingTable(table_of(FlexibleRing)):
-    """An outer ring that bends; see `bearings.ring_shape.FlexibleRing`."""
+    """A flexible outer ring; see `bearings.ring_shape.FlexibleRing`."""
 
 
 class InnerRingTable(table_of(FlexibleInnerRing)):
-    """An inner ring that bends; see `bearings.ring_shape.FlexibleInnerRing`."""
+    """A flexible inner ring; see `bearings.ring_shape.FlexibleInnerRing`."""
 
 
 class InnerRoundnessTable(table_of(InnerRoundness)):

@@ -1,4 +1,4 @@
-"""The table [simulation] of a scene file: what a run in time does beyond the operating point.
+"""The table [simulation] of a scene file: what a transient run does beyond the operating point.
 
 A bearing with [thermal] runs in its temperatures, one without in the motion of its rolling elements.
 """

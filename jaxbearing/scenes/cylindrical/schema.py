@@ -138,7 +138,7 @@ class CylindricalRollerTable(Table):
     outer_roundness: OuterRoundnessTable | None = None
 
     def moves(self) -> bool:
-        """True if a run in time moves the rollers."""
+        """True if a transient run moves the rollers."""
         return self.simulation is not None and self.thermal is None
 
     @check
@@ -151,7 +151,7 @@ class CylindricalRollerTable(Table):
     @check
     def _run(self) -> Problems:
         if self.moves() and self.operation.radial_load is None:
-            yield refusal_at("operation.radial_load", "a force, which a run in time needs, e.g. '10 kN'", "nothing")
+            yield refusal_at("operation.radial_load", "a force, which a transient run needs, e.g. '10 kN'", "nothing")
 
     @check
     def _kind_of_run(self) -> Problems:

@@ -233,7 +233,7 @@ def merged(scene: Mapping[str, Any], own: Mapping[str, object], table: type[Base
 
 def without_loads(tables: Mapping[str, object]) -> dict[str, object]:
     """The tables of a bearing without loads and speeds, which a shaft gives it, and without what only a bearing that
-    stands alone has: runs in time and a load spectrum."""
+    stands alone has: transient runs and a load spectrum."""
     found = {name: value for name, value in tables.items() if name not in ("simulation", "state")}
     operation = found.get("operation")
     if isinstance(operation, Mapping):

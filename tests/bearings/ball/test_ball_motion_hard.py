@@ -24,8 +24,8 @@ FULL = (6.40406772e-05, 586.971646, 4355.18646, 2181.90913, -36.2951835, 4001.15
 def bearing(
     loads=(40e3, 0.0, 0.0), load=(1.0, 1.0), speed=(1.0, 1.0), time=1e-5, turning=0.0, clearance=300e-6, imbalance=0.0
 ):
-    """All balls of Table 15 with cage and a ring that moves in all freedoms; `load` and `speed`: first and last factor
-    of a ramp that lasts `time`."""
+    """All balls of Table 15 with cage and a ring that moves in all degrees of freedom; `load` and `speed`: first and
+    last factor of a ramp that lasts `time`."""
     cage = eqx.tree_at(
         lambda c: (c.pocket.clearance, c.imbalance), moving_cage(), (jnp.asarray(clearance), jnp.asarray(imbalance))
     )

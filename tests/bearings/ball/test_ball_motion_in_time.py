@@ -1,4 +1,4 @@
-"""Runs in time of balls with a closed traction law: balances, steady limits, rolling, meeting, derivatives."""
+"""Transient runs of balls with a closed traction law: balances, steady limits, rolling, meeting, derivatives."""
 
 import dataclasses
 

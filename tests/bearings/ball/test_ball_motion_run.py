@@ -1,4 +1,4 @@
-"""Runs in time of small ball bearings through the public functions."""
+"""Transient runs of small ball bearings through the public functions."""
 
 import dataclasses
 import json

@@ -1,4 +1,4 @@
-"""Balls in an outer ring that bends, and between races that are not round: the check value of the sheet, balances,
+"""Balls in a flexible outer ring, and between races that are not round: the check value of the sheet, balances,
 limits, derivatives, refusals."""
 
 import dataclasses
@@ -158,7 +158,7 @@ def test_an_oval_race_pinches_more_balls():
     assert count(oval) > count(light)
     bent = on_housing(oval)
     loads = [np.max(np.asarray(jb.solve(scene).elements.load_inner)) for scene in (oval, bent)]
-    # a ring that bends yields to the lobes
+    # a flexible ring yields to the lobes
     assert loads[1] < loads[0]
 
 
@@ -214,14 +214,14 @@ def test_a_gear_on_balls():
 
 
 def test_refusals():
-    with pytest.raises(ValueError, match=r"outer_ring\.width: a ring that bends needs a width"):
+    with pytest.raises(ValueError, match=r"outer_ring\.width: a flexible ring needs a width"):
         dataclasses.replace(sheet_bearing(), outer_ring=FlexibleRing(thickness=3e-3, housing_stiffness=1e10))
     # a rigid ring needs none
     dataclasses.replace(sheet_bearing(), outer_ring=FlexibleRing(thickness=3e-3, harmonics=0))
     with pytest.raises(ValueError, match="nothing holds the ring"):
         on_housing(flat(), housing_stiffness=None)
     moving = jb.load_scene("turbine_ball_dynamic")
-    with pytest.raises(ValueError, match="inner_roundness: a run in time has rigid, round rings"):
+    with pytest.raises(ValueError, match="inner_roundness: a transient run has rigid, round rings"):
         dataclasses.replace(moving, inner_roundness=lobes(InnerRoundness, 2, 1e-6))
 
 

@@ -22,7 +22,7 @@ def script():
 
 
 def test_page_has_the_numbers_of_the_script(script):
-    """Each row of the table, and what the page says of them: lobes reduce the slip, less so in a ring that bends."""
+    """Each row of the table, and what the page says of them: lobes reduce the slip, less so in a flexible ring."""
     page = (DOCS / "theory" / "flexible_rings.md").read_text(encoding="utf-8")
     rows = re.findall(ROW, page, flags=re.MULTILINE)
     assert len(rows) == len(script.RINGS) * len(script.HEIGHTS)

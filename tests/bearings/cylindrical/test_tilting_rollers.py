@@ -1,4 +1,5 @@
-"""Cylindrical rollers that tilt, with profiles: the plane model as limit, closures, freedoms, life and gradients."""
+"""Cylindrical rollers that tilt, with profiles: the plane model as limit, closures, degrees of freedom, life and
+gradients."""
 
 import equinox as eqx
 import jax

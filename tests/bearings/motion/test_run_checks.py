@@ -1,4 +1,4 @@
-"""Range checks of runs in time: whatever a steady solve would warn of at one of the instants, and nothing else."""
+"""Range checks of transient runs: whatever a steady solve would warn of at one of the instants, and nothing else."""
 
 import dataclasses
 

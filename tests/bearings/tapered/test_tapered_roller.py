@@ -1,4 +1,5 @@
-"""Tapered roller bearing: check values, closures, energy, refusals, freedoms, no equilibrium, stiffness, gradients."""
+"""Tapered roller bearing: check values, closures, energy, refusals, degrees of freedom, no equilibrium, stiffness,
+gradients."""
 
 import dataclasses
 
@@ -235,7 +236,7 @@ def test_stiffness_is_the_derivative_of_the_load(solutions):
     for name, (value, step) in steps.items():
         near, far = (place(**{name: value + k * step}) - place(**{name: value - k * step}) for k in (1, 2))
         compliance.append((8.0 * near - far) / (12.0 * step))
-    # lateral freedoms do not couple: the symmetry about the load line
+    # lateral degrees of freedom do not couple: the symmetry about the load line
     product = np.array(compliance) @ np.asarray(stiffness)[np.ix_([0, 1, 3], [0, 1, 3])]
     lengths = np.array([1.0, 1.0, 0.114])  # forces over forces, moments over forces times 114 mm
     np.testing.assert_allclose(product * lengths[:, None] / lengths[None, :], np.eye(3), atol=2e-6)

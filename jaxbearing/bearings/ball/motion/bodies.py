@@ -113,8 +113,8 @@ class MovingRing(eqx.Module):
 
     **Arguments:**
     - `body`: `None`: the ring is held.
-    - `load`: on its five freedoms at the operating point, N and N m; `held`: displacements, m and rad, of those that
-      are held.
+    - `load`: on its five degrees of freedom at the operating point, N and N m; `held`: displacements, m and rad, of
+      those that are held.
     - `damping`: from outside, N s/m; of tilts times `lever` squared; `lever`: R_i, m.
     - `free`: 1 for a freedom that moves, 0 for one that is held.
     """

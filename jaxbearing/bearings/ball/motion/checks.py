@@ -1,4 +1,4 @@
-"""Range checks of a run in time of balls: those of `bearings.checks`, over all instants together."""
+"""Range checks of a transient run of balls: those of `bearings.checks`, over all instants together."""
 
 from collections.abc import Callable
 

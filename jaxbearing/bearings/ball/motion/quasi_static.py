@@ -46,7 +46,7 @@ FINE = 1e-11
 
 class MeridianBalance(AbstractArrowSystem):
     """Balances of the balls in the plane of the groove and of the ring, at given orbits and spins; unknowns: places of
-    each ball from those of a free ball, and displacements of the ring along its free freedoms, as lengths."""
+    each ball from those of a free ball, and displacements of the ring along its free degrees of freedom, as lengths."""
 
     dynamics: BallDynamics
     places: Places

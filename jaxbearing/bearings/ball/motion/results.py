@@ -1,4 +1,4 @@
-"""Results of a run in time that only the ball bearing has, labelled (see `motion.history`)."""
+"""Results of a transient run that only the ball bearing has, labelled (see `motion.history`)."""
 
 from typing import ClassVar
 

@@ -42,12 +42,12 @@ CONTACT_DAMPING = 0.05
 """Contact damping where the settings give none, s/m."""
 IMMOBILE = "contact.traction: nothing drives the balls of a bearing without traction on its raceways; simulate needs it"
 NO_NETWORK = (
-    "thermal: a run in time of the balls has no thermal network (simulate runs the temperatures of such a scene); "
+    "thermal: a transient run of the balls has no thermal network (simulate runs the temperatures of such a scene); "
     "leave [thermal] out, and give the temperatures that a solve has found as operation.oil_temperature and "
     "[temperatures]"
 )
 NO_MASS = (
-    "simulation.ring_mass: a run in time of a ball bearing under loads needs the mass of the inner ring with the "
+    "simulation.ring_mass: a transient run of a ball bearing under loads needs the mass of the inner ring with the "
     "shaft's share, e.g. '5 kg'; or meridian = 'quasi_static', or operation.displacement, which holds the ring"
 )
 

@@ -33,7 +33,7 @@ class PocketState(NamedTuple):
 
 
 class RingShift(NamedTuple):
-    """Displacement of the inner ring along its freedoms, m, and their names."""
+    """Displacement of the inner ring along its degrees of freedom, m, and their names."""
 
     values: Float[Array, " freedom"]
     freedoms: tuple[str, ...]

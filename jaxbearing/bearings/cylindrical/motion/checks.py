@@ -1,4 +1,4 @@
-"""Range checks of a run in time of cylindrical rollers: those of `bearings.checks`, over all instants together."""
+"""Range checks of a transient run of cylindrical rollers: those of `bearings.checks`, over all instants together."""
 
 import dataclasses
 from collections.abc import Callable

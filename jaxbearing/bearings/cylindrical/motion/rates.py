@@ -146,7 +146,7 @@ class RollerDynamics(AbstractDynamics):
         return turning_frame(self.reference_speed, self.speed, time)
 
     def ring_load(self, time: Scalar) -> Float[Array, " freedom"]:
-        """Load on the inner ring along its freedoms, N."""
+        """Load on the inner ring along its degrees of freedom, N."""
         load = self.system.ring.load * self.load.factor(time)
         return load if self.rotating_load is None else load + self.rotating_load.components(time)
 
@@ -272,7 +272,7 @@ class RollerDynamics(AbstractDynamics):
         )
 
     def directions(self, azimuth: Float[Array, " roller"]) -> Float[Array, "freedom roller"]:
-        """Outward unit vectors at the rollers along the freedoms of the ring."""
+        """Outward unit vectors at the rollers along the degrees of freedom of the ring."""
         cosine, sine = cosine_and_sine(azimuth)
         along = {"radial": cosine, "lateral": sine}
         return jnp.stack([along[name] for name in self.system.freedoms])

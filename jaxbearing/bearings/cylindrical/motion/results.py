@@ -1,4 +1,4 @@
-"""Results of a run in time that only the cylindrical roller bearing has, labelled (see `motion.history`)."""
+"""Results of a transient run that only the cylindrical roller bearing has, labelled (see `motion.history`)."""
 
 from typing import ClassVar
 

@@ -27,7 +27,7 @@ IMMOBILE = (
     "contact.traction: nothing drives the rollers of a bearing without traction on its raceways; simulate needs it"
 )
 NO_NETWORK = (
-    "thermal: a run in time of the rollers has no thermal network (simulate runs the temperatures of such a scene); "
+    "thermal: a transient run of the rollers has no thermal network (simulate runs the temperatures of such a scene); "
     "leave [thermal] out, and give the temperatures that a solve has found as operation.oil_temperature and "
     "[temperatures]"
 )

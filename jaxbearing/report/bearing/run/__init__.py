@@ -1,1 +1,1 @@
-"""Output of a run in time of a bearing."""
+"""Output of a transient run of a bearing."""

@@ -1,4 +1,4 @@
-"""A run in time as a labelled xarray data set.
+"""A transient run as a labelled xarray data set.
 
 Every field that carries a label in the result classes becomes one variable, as in `bearing.dataset`; those of an
 instant have the dimension `time` before their own, those over the rolling elements (`load_inner`) `time` and `element`.

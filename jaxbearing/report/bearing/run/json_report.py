@@ -1,4 +1,4 @@
-"""A run in time of a bearing: its statistics, and the run as plain numbers and texts."""
+"""A transient run of a bearing: its statistics, and the run as plain numbers and texts."""
 
 import math
 from typing import Any
@@ -65,7 +65,7 @@ def statistics(history: History) -> dict[str, Any]:
 
 
 def _in_motion(history: History) -> dict[str, Any]:
-    """Statistics of what only runs in time have: variation of the speeds, sliding, skidding, lands, stresses."""
+    """Statistics of what only transient runs have: variation of the speeds, sliding, skidding, lands, stresses."""
     found: dict[str, Any] = {}
     instants, variation, stress = history.instants, speed_variation(history), cage_stress(history)
     if variation is not None:

@@ -1,4 +1,5 @@
-"""One page of plots of a run in time: orbit of the cage, speeds, power, pocket loads over time and azimuth, sliding."""
+"""One page of plots of a transient run: orbit of the cage, speeds, power, pocket loads over time and azimuth,
+sliding."""
 
 from typing import TYPE_CHECKING, Any
 

@@ -1,4 +1,4 @@
-"""A run in time of a bearing on the screen."""
+"""A transient run of a bearing on the screen."""
 
 import math
 from typing import TYPE_CHECKING, Any

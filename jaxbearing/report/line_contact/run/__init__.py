@@ -1,1 +1,1 @@
-"""Output of a run in time of a line contact."""
+"""Output of a transient run of a line contact."""
