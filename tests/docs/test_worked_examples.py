@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 from makers_tables import spindle_bearings
 
+import jaxbearing as jb
 from jaxbearing.cli.main import main
 from jaxbearing.contacts import PointContact
 from jaxbearing.life import ball_capacity, ball_static_capacity
@@ -200,11 +201,15 @@ def test_ellipses_of_a_program_of_1973(modulus, size, pressure):
             np.testing.assert_allclose(float(contact.approach(load * POUND)) / INCH, deflection, rtol=2e-5)
 
 
-@pytest.mark.parametrize("place", [0, 1])
-def test_python_of_the_page_prints_what_it_says(place, monkeypatch, capsys):
-    monkeypatch.chdir(ROOT)
-    pairs = re.findall(r"^```python\n(.*?)^```\n\n```text\n(.*?)^```", PAGE, flags=re.MULTILINE | re.DOTALL)
-    assert len(pairs) == 2
-    program, printed = pairs[place]
-    exec(compile(program, "worked_examples.md", "exec"), {})
-    assert capsys.readouterr().out == printed
+def test_pair_by_two_reactions():
+    """KH 6010 C: the closure of both bearings that makes the preload, and the load at a closure of twice that, at
+    which one of them is empty."""
+    scene = jb.load_scene(ROOT / "docs" / "examples" / "worked" / "spindle_kh_6010.toml")
+    at = lambda closure: jb.reaction(scene, [0.0] * 5, closure=closure)
+    for preload, rigidity, lost in ((60.0, 48.5, 177), (180.0, 73.8, 551), (350.0, 97.1, 1112)):
+        closure = 5e-6
+        for _ in range(8):
+            one = at(closure)
+            closure += (preload - one.force[0]) / one.stiffness[0, 0]
+        assert f"{2e-6 * one.stiffness[0, 0]:.1f}" == f"{rigidity}"
+        assert f"{at(2.0 * closure).force[0]:.0f}" == f"{lost}"
