@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+import jax
 import numpy as np
 import xarray as xr
 
@@ -59,7 +60,8 @@ def fronts(solution: ShaftSolution, dims: tuple[str, ...] = ()) -> dict[str, str
     """Beginning of the names of each bearing's own results: its name with `_` for the dot, and `_` behind: `front_1_`.
 
     Two results would have the same name so if a bearing beside the set `front` were called `front_1`. The bearings
-    concerned then keep the dot and have one behind: `front.1.load_inner` and `front_1.load_inner`.
+    concerned then keep the dot and have one behind: `front.1.load_inner` and `front_1.load_inner`. The solution may be
+    traced: its numbers play no part.
     """
     families = {name: one.solution for name, one in solution.bearings.items() if one.solution is not None}
     flat = {name: f"{name.replace('.', '_')}_" for name in families}
@@ -68,7 +70,9 @@ def fronts(solution: ShaftSolution, dims: tuple[str, ...] = ()) -> dict[str, str
         name: [flat[name] + inner for inner in inner_names(family) if not inner.startswith(_OWN)]
         for name, family in families.items()
     }
-    count = Counter([*_coordinates(solution), *(name for name, _ in _of_shaft(solution, dims))])
+    with jax.ensure_compile_time_eval():
+        anything = jax.tree.map(lambda leaf: np.ones(np.shape(leaf), leaf.dtype), solution)
+        count = Counter([*_coordinates(anything), *(name for name, _ in _of_shaft(anything, dims))])
     count += Counter(name for several in names.values() for name in several)
     return {
         name: f"{name}." if any(count[one] > 1 for one in several) else flat[name] for name, several in names.items()
