@@ -16,12 +16,13 @@ from .traction import coefficients, predicted_coefficients
 
 
 def posterior_of(result: FitResult, sampling: Sampling | None = None) -> Posterior:
-    """Samples of the parameters that have an interval, by the No-U-Turn sampler; the others keep their values.
+    """Draws samples of the parameters that have a confidence interval, with the No-U-Turn sampler. All other parameters
+    keep their values.
 
-    **Arguments:** `result`: a fit that converged, with the linear loss.
+    **Arguments:** `result`: a converged fit with the linear loss; `sampling`: number of samples and seed.
 
-    **Raises:** `ValueError` for another fit, and where no parameter has an interval;
-    `fitting.posterior.PosteriorUnavailableError` without the library.
+    **Raises:** `ValueError` if the fit did not converge or has another loss, if no parameter has a confidence interval,
+    and for numbers of samples that are too small; `fitting.posterior.PosteriorUnavailableError` without NumPyro.
     """
     if not result.converged:
         raise ValueError(result.failure())
@@ -73,11 +74,13 @@ def posterior_of(result: FitResult, sampling: Sampling | None = None) -> Posteri
 
 
 def predictive(result: FitResult, posterior: Posterior, count: int = PREDICTED, seed: int = 0) -> Predictive:
-    """Predicts by the posterior which traction coefficients would be measured at the points of the data.
+    """Predictive distribution of the traction coefficients: the values that a repeated measurement would give at the
+    points of the data.
 
-    **Arguments:** `result`: the fit of the posterior; `count`: samples whose predictions are computed.
+    **Arguments:** `result`: the fit from which the posterior was sampled; `count`: number of samples of the posterior
+    for which the traction coefficients are computed; `seed`: of the random errors of the repeated measurement.
 
-    **Raises:** `ValueError` where a sample has no solution.
+    **Raises:** `ValueError` if the model has no solution for a sample.
     """
     search, place = Search(result.measurements, result.scene, result.options), chosen_samples(posterior, count)
     rheology = result.oil.rheology

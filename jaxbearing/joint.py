@@ -1,4 +1,4 @@
-"""Several numbers of a scene that scatter together: a posterior, whose fields are correlated."""
+"""Joint distribution of several numbers of a scene: a posterior, whose fields are correlated."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -8,27 +8,28 @@ import numpy as np
 from .distribution import Distribution
 
 _ROUND_OFF = 1e-10
-"""Part of the largest variance that an eigenvalue of a covariance may be below 0, and below which it counts as 0."""
+"""Tolerance of the eigenvalues of a correlation matrix: they may be negative by so much, and in `axes` an eigenvalue
+below this part of the largest one counts as 0."""
 
 
 @dataclass(frozen=True, eq=False)
 class JointDistribution:
-    r"""Distribution of several fields together, in SI units: normal in coordinates, which are logarithms of positive
-    numbers and the numbers themselves otherwise.
+    r"""Joint distribution of several fields of a scene, in SI units. It is normal in its coordinates: the coordinate of
+    a positive field is the logarithm of its value, that of any other field is the value.
 
-    A calibration leaves such a distribution: what the data tell of a product, for instance, binds its factors. With
-    samples random values are rows of these, whatever their distribution; covariance and centre then serve the delta
-    method.
+    A calibration results in such a distribution. Data that determine only the product of two fields, for instance, make
+    the fields correlated. If there are samples, random values are rows of the samples, whatever their distribution;
+    centre and covariance are then used by the delta method.
 
     **Arguments:**
     - `fields`: dotted paths of the n fields.
-    - `centre`: shape (n,): medians of positive numbers, means of others.
-    - `positive`: shape (n,): whether the coordinate is the logarithm.
+    - `centre`: shape (n,): medians of positive fields, means of other fields.
+    - `positive`: shape (n,): whether the coordinate of a field is the logarithm.
     - `covariance`: of the coordinates, shape (n, n).
-    - `samples`: shape (count, n), SI; `None`: random values are normal.
+    - `samples`: shape (count, n), SI; `None`: random values are normal in the coordinates.
 
-    **Raises:** `ValueError` for shapes that do not fit together, numbers that are not finite, a centre or samples that
-    are not positive where they must be, and a matrix that is no covariance.
+    **Raises:** `ValueError` for shapes that do not fit together, numbers that are not finite, a centre or samples of a
+    positive field that are not positive, and a matrix that is not a covariance.
     """
 
     fields: tuple[str, ...]
@@ -71,11 +72,11 @@ class JointDistribution:
     def of_samples(
         fields: Sequence[str], samples: np.ndarray, positive: Sequence[bool] | np.ndarray
     ) -> "JointDistribution":
-        """The distribution of samples: mean and covariance of their coordinates.
+        """The distribution of samples, with the mean and the covariance of their coordinates.
 
-        **Arguments:** `samples`: shape (count, n), SI; others as those of the class.
+        **Arguments:** `samples`: shape (count, n), SI; `fields`, `positive`: as in the class.
 
-        **Raises:** `ValueError` as the class.
+        **Raises:** `ValueError` as in the class.
         """
         values, logarithmic = np.asarray(samples, dtype=np.float64), np.asarray(positive, dtype=bool)
         if values.ndim != 2 or values.shape != (len(values), len(fields)) or len(values) < 2:
@@ -89,7 +90,7 @@ class JointDistribution:
         return JointDistribution(tuple(fields), centre, logarithmic, covariance, values)
 
     def only(self, fields: Sequence[str]) -> "JointDistribution":
-        """The distribution of some of the fields, whatever the others are."""
+        """Marginal distribution of the given fields."""
         place = np.array([self.fields.index(path) for path in fields])
         samples = None if self.samples is None else self.samples[:, place]
         covariance = self.covariance[np.ix_(place, place)]
@@ -97,7 +98,7 @@ class JointDistribution:
 
     @property
     def marginals(self) -> dict[str, Distribution]:
-        """The distribution of each field alone: lognormal of positive numbers, normal of others."""
+        """Marginal distribution of each field: lognormal for positive fields, normal for others."""
         deviations = np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
         return {
             path: Distribution.lognormal(float(middle), float(deviation))
@@ -110,8 +111,8 @@ class JointDistribution:
 
     @property
     def of_values(self) -> np.ndarray:
-        r"""Covariance of the SI values, shape (n, n): of two lognormal numbers of means $m$ it is
-        $m_im_j(e^{C_{ij}}-1)$, of one $m_iC_{ij}$."""
+        r"""Covariance of the SI values, shape (n, n), from the covariance $C_{ij}$ of the coordinates. For two positive
+        fields with means $m_i$, $m_j$ it is $m_im_j(e^{C_{ij}}-1)$; if only field i is positive, $m_iC_{ij}$."""
         variance = np.diag(self.covariance)
         means = np.where(self.positive, self.centre * np.exp(np.where(self.positive, 0.5 * variance, 0.0)), 1.0)
         both = np.logical_and.outer(self.positive, self.positive)
@@ -119,10 +120,10 @@ class JointDistribution:
 
     @property
     def axes(self) -> np.ndarray:
-        """Principal axes in coordinates, shape (axis, n), each one standard deviation long, the longest first. Normal
-        numbers along them are independent. Axes without a length are left out.
+        """Principal axes of the covariance in coordinates, shape (axis, n), the longest first. Each axis is one
+        standard deviation long; normal numbers along them are independent. Axes without a length are left out.
 
-        The coordinates are scaled by their deviations before, so that the axes do not depend on units.
+        The axes are computed for coordinates scaled by their standard deviations, so that they do not depend on units.
         """
         size = np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
         scale = np.where(size > 0.0, size, 1.0)
@@ -136,21 +137,21 @@ class JointDistribution:
 
     @property
     def tangent(self) -> np.ndarray:
-        """Derivative of each value by its coordinate at the centre."""
+        """Derivative of each SI value by its coordinate, at the centre."""
         return np.where(self.positive, self.centre, 1.0)
 
     def at(self, offset: np.ndarray) -> dict[str, float]:
-        """SI values at so far from the centre, in coordinates."""
+        """SI values at an offset from the centre. **Arguments:** `offset`: in coordinates, shape (n,)."""
         moved = np.where(
             self.positive, self.centre * np.exp(np.where(self.positive, offset, 0.0)), self.centre + offset
         )
         return dict(zip(self.fields, map(float, moved), strict=True))
 
     def steepest(self, slopes: Mapping[str, float]) -> tuple[np.ndarray, float]:
-        """The place on the ellipsoid of one standard deviation where a linear result is largest, as an offset in
-        coordinates, and the deviation of that result.
+        """Point of the ellipsoid of one standard deviation where a linear result is largest, as an offset from the
+        centre in coordinates, and the standard deviation of the result.
 
-        **Arguments:** `slopes`: of the result by each field, SI.
+        **Arguments:** `slopes`: derivatives of the result by the fields, SI.
         """
         along = self.tangent * np.array([slopes[path] for path in self.fields])
         deviation = float(np.sqrt(max(along @ self.covariance @ along, 0.0)))
@@ -159,8 +160,8 @@ class JointDistribution:
         return self.covariance @ along / deviation, deviation
 
     def draws(self, random: np.random.Generator, count: int) -> np.ndarray:
-        """Random SI values, shape (count, n): rows of the samples where there are some. The first of a longer run are
-        those of a shorter one."""
+        """Random SI values, shape (count, n): random rows of the samples if there are samples, else values that are
+        normal in the coordinates. With the same seed, a larger `count` continues the values of a smaller one."""
         if self.samples is not None:
             place = np.floor(random.random(count) * len(self.samples)).astype(int)
             return self.samples[place]

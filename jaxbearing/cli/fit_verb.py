@@ -124,7 +124,8 @@ def fit(
     out: Out = None,
     force: ForceOption = False,
 ) -> None:
-    """Shear modulus and stress of an oil from traction curves, with intervals and with what the curves cannot tell.
+    """Fits shear modulus and stress of an oil to traction curves, with confidence intervals, and says which parameters
+    the curves do not determine.
 
     Names: shear_modulus (G0), shear_modulus_pressure (alpha_G), shear_modulus_temperature (beta_G), stress (tau0),
     stress_pressure (alpha_tau), stress_temperature (beta_tau).
@@ -196,7 +197,7 @@ def fit(
 
 
 def _models(given: str | None, known: list[str]) -> list[str | None]:
-    """Viscous functions to fit; `None` for the scene's."""
+    """Names of the viscous functions to fit; `None` stands for the one of the scene."""
     from fitting.io.typed import choice
 
     if given == ALL:
@@ -205,7 +206,7 @@ def _models(given: str | None, known: list[str]) -> list[str | None]:
 
 
 def _check_options(options: "FitOptions") -> None:
-    """Message on options that do not fit together."""
+    """Ends the command with a message if options contradict each other or are out of range."""
     both = [name for name in options.fixed if name in options.free]
     if both:
         refuse(f"--free: found '{both[0]}', which --fix holds; expected one of the two")
@@ -218,7 +219,7 @@ def _check_options(options: "FitOptions") -> None:
 
 
 def _loaded(data: Path, scene: str, changes: list[str] | None) -> "tuple[TwoDisk, Measurements, list[str]]":
-    """The machine, the measurements, and what is to be said of both."""
+    """The two-disk machine, the measurements, and notes on the data and the oil."""
     from fitting.io import CurveError, read_curves
     from fitting.measurements import MeasurementError, Measurements
 
@@ -249,7 +250,10 @@ def _fitted(
     options: "FitOptions",
     tell: Callable[[str], None],
 ) -> "tuple[FitResult, Sequence[ModelRow]]":
-    """The fit, or the best of several with their comparison. **Arguments:** `tell`: shows how far it is."""
+    """Result of the fit of one model, or of the best of several with the comparison of all.
+
+    **Arguments:** `models`: names of the viscous functions to fit; `tell`: shows a message on the progress.
+    """
     from fitting.fit import fit as fit_one
 
     try:
@@ -257,7 +261,7 @@ def _fitted(
             return fit_one(measurements, machine, options), ()
         results = {}
         for model in models:
-            # minutes, all together
+            # all models together take minutes
             tell(f"fitting {model}")
             results[str(model)] = fit_one(measurements, machine, options._replace(model=model))
     except ValueError as error:
@@ -270,8 +274,8 @@ def _fitted(
 
 
 def _sampled(result: "FitResult", sampling: "Sampling | None") -> "tuple[Posterior | None, Predictive | None]":
-    """The posterior that is asked for, of a fit that converged, and what it predicts to be measured again; ends the
-    command where they cannot be."""
+    """The posterior and its predictive distribution; `None` and `None` if no posterior was requested or the fit did not
+    converge. Ends the command with a message if they cannot be computed."""
     from fitting.oil_posterior import posterior_of, predictive
 
     if sampling is None or not result.converged:

@@ -67,8 +67,8 @@ def stiffness(
     force: ForceOption = False,
     full: ColumnsOption = False,
 ) -> None:
-    """Stiffness against shaft speed, at the loads of the scene; of a shaft that of each set and bearing. On request it
-    is written as a bearing, or a rotor, for ROSS."""
+    """Stiffness of a bearing, or of all bearings and bearing sets of a shaft, against shaft speed at the loads of the
+    scene. On request the bearing or the rotor is written for ROSS."""
     with bad_input():
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
@@ -105,7 +105,7 @@ def stiffness(
 
 
 def _speeds(text: str) -> list[float]:
-    """FIRST:LAST:NUMBER as speeds in rad/s. **Raises:** `SceneError`."""
+    """Speeds, rad/s, from the text FIRST:LAST:NUMBER. **Raises:** `SceneError` for any other text."""
     from ..scenes.errors import SceneError
     from ..scenes.units import SPEED
     from ..scenes.words import describe
@@ -146,7 +146,7 @@ def _check(scene: str, model: "AbstractScene", values: list[float], ross: Path |
 
 
 def _table(model: "AbstractScene", values: list[float]) -> "StiffnessTable | ShaftStiffness":
-    """**Raises:** `SolveError` for a speed that fails."""
+    """Stiffness at all speeds, rad/s. **Raises:** `SolveError` for a speed without a solution."""
     from ..report.shaft.stiffness import shaft_stiffness_over_speed
     from ..report.stiffness import stiffness_over_speed
     from ..solve import solve_once

@@ -1,4 +1,4 @@
-"""`jaxbearing study`: the power-loss study of a bearing, with what the source says about it."""
+"""`jaxbearing study`: the power-loss study of a bearing, compared with the statements of the source."""
 
 import json
 import time

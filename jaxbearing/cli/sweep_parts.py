@@ -1,4 +1,4 @@
-"""Parts that the verbs share which run a sweep: options, checks before the work, progress."""
+"""Parts shared by the commands that run a sweep: options, checks before the run, display of progress."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -48,7 +48,7 @@ SchedulerOption = Annotated[
 
 
 def check_run_target(target: Path) -> None:
-    """Refuse a place that cannot be written before the work, not after it."""
+    """Ends the command with a message, before the run, if the output file cannot be written."""
     from importlib.util import find_spec
 
     from ..sweeps.engine import SweepError, check_target
@@ -82,10 +82,10 @@ def check_extra(workers: int | None, scheduler: str | None) -> None:
 def ends_in_words(
     target: Path, option: str, when_stopped: "Callable[[StoppedError], None] | None" = None
 ) -> "Iterator[None]":
-    """Turns the errors of a run of cases into messages and exit codes.
+    """Turns the errors of a sweep into messages and exit codes.
 
-    **Arguments:** `option`: names what a refusal is about; `when_stopped`: shows what was computed of a run whose file
-    could not be written.
+    **Arguments:** `target`: output file; `option`: option that the message of a `SweepError` names; `when_stopped`:
+    shows the results so far if the output file could not be written.
     """
     from ..sweeps.engine import StoppedError, SweepError
 
@@ -106,7 +106,8 @@ def ends_in_words(
 
 @contextmanager
 def shown_progress(cases: int, as_json: bool) -> "Iterator[Watcher]":
-    """A bar with rate and remaining time on the terminal; sentences go to stderr."""
+    """Shows a progress bar with rate and remaining time, and notes above it. With JSON output, or if the output is not
+    a terminal, it shows only the notes, on stderr."""
     from ..sweeps.engine import Watcher
 
     note = lambda text: typer.echo(f"note: {text}", err=True)

@@ -1,4 +1,4 @@
-"""Load shares of asperities: what part of a contact's load the roughness carries when the film is thin."""
+"""Load share of asperities: the part of a contact's load that asperities carry when the film is thin."""
 
 import abc
 import math
@@ -15,9 +15,10 @@ from ..numerics.precision import as_float
 from ..numerics.safe import log_add, smooth_abs
 
 RATIO_FLOOR = 1e-4
-"""Film ratio below which Zhou and Hoeprich's share is linear in it: relative error 6e-10 at a film ratio of 0.5."""
+r"""Film ratio below which $\Lambda^C$ in Zhou and Hoeprich's law is made linear; at a film ratio of 0.5 the relative
+error is 6e-10."""
 HEIGHT_INTEGRAL = 2.0**0.75 * math.gamma(1.75) / math.sqrt(2.0 * math.pi)
-r"""$F_{5/2}(0)$ = 0.6166342, the integral of the asperity heights at no film."""
+r"""$F_{5/2}(0)$ = 0.6166342, the integral over the asperity heights without a film."""
 _STEP, _POINTS = 0.1, 32
 _NODES = _STEP * np.arange(1.0, _POINTS + 1.0)
 _LOG_WEIGHTS = np.log(2.0 * _STEP / np.sqrt(2.0 * np.pi)) + 6.0 * np.log(_NODES) - 0.5 * _NODES**4
@@ -40,12 +41,12 @@ class AbstractLoadShare(Checked):
 class ZhouHoeprich(AbstractLoadShare):
     r"""$\varphi = \exp(-B\Lambda^C)$.
 
-    **Limits:** 1 at no film, with a finite slope: $\Lambda^C$ is $\Lambda(\Lambda^2 + 10^{-8})^{(C-1)/2}$. It
-    underflows to 0 at thick films, with gradient 0.
-    **Validity:** fitted with the central film. The pressure of the contact is not in it: the share is uncertain by a
-    factor of 10 at raceway pressures.
-    **Reference:** Zhou and Hoeprich (1991), ASME J. Tribology 113, 590, with the constants that a friction study of the
-    tapered bearing 32216 gives: B = 2.32, C = 0.97 for raceways, 1.90 and 0.99 for the rib (32208: 2.10, 0.85).
+    **Limits:** 1 without a film, with a finite slope, because $\Lambda^C$ is computed as
+    $\Lambda(\Lambda^2 + 10^{-8})^{(C-1)/2}$. For thick films it underflows to 0, with gradient 0.
+    **Validity:** fitted with the central film thickness. The law does not contain the contact pressure: at raceway
+    pressures the share is uncertain by a factor of 10.
+    **Reference:** Zhou and Hoeprich (1991), ASME J. Tribology 113, 590. The constants are from a friction study of the
+    tapered bearing 32216: B = 2.32, C = 0.97 for raceways, 1.90 and 0.99 for the rib (32208: 2.10, 0.85).
 
     **Arguments:** `coefficient`: B; `exponent`: C.
     """
@@ -59,11 +60,11 @@ class ZhouHoeprich(AbstractLoadShare):
 
 
 class GreenwoodTripp(AbstractLoadShare):
-    r"""$\varphi = F_{5/2}(\Lambda)/F_{5/2}(0)$, the pressure of Gaussian asperities over that without a film.
+    r"""$\varphi = F_{5/2}(\Lambda)/F_{5/2}(0)$, the asperity pressure over the asperity pressure without a film.
 
-    **Limits:** 1 at no film; it falls as $e^{-\Lambda^2/2}$ at thick films and underflows to 0.
-    **Validity:** Gaussian heights. The pressure of the contact is not in it: the share is uncertain by a factor of 10
-    at raceway pressures, and this normalised form is the cautious one.
+    **Limits:** 1 without a film; for thick films it falls as $e^{-\Lambda^2/2}$ and underflows to 0.
+    **Validity:** Gaussian asperity heights. The law does not contain the contact pressure: at raceway pressures the
+    share is uncertain by a factor of 10, and larger than that of `GreenwoodTrippPressure`, hence cautious.
     **Reference:** Greenwood and Tripp (1970), Proc. Instn. Mech. Engrs. 185, 625.
     """
 
@@ -76,10 +77,10 @@ class GreenwoodTrippPressure(AbstractLoadShare):
 
     $p_a = \frac{16\sqrt2\pi}{15}(\eta\beta\sigma)^2\sqrt{\sigma/\beta}\,\frac{E'}2F_{5/2}(\Lambda)$.
 
-    **Limits:** 1 as the load of the contact goes to 0; $p_a/\bar p$ where that is small, which makes it 0.7 % at 0.5
-    GPa and a film ratio of 1, where the normalised forms give 10 to 13 %.
-    **Validity:** elastic asperities; their constants are seldom measured.
-    **Reference:** Greenwood and Tripp (1970), Proc. Instn. Mech. Engrs. 185, 625; the join to 1 is ours.
+    **Limits:** 1 as the load of the contact goes to 0; $p_a/\bar p$ where this ratio is small. At 0.5 GPa and a film
+    ratio of 1 the share is 0.7 %, while the normalised forms give 10 to 13 %.
+    **Validity:** elastic asperities. Their constants are seldom measured.
+    **Reference:** Greenwood and Tripp (1970), Proc. Instn. Mech. Engrs. 185, 625; the smooth limit at 1 is ours.
 
     **Arguments:**
     - `asperity_product`: density of the summits times their radius times the roughness, about 0.03 to 0.05.
@@ -90,7 +91,7 @@ class GreenwoodTrippPressure(AbstractLoadShare):
     asperity_slope: Scalar = bounded("> 0", unit="1", converter=as_float, default=1e-3)
 
     def log_pressure(self, film_ratio: Values, reduced_modulus: Values) -> Float[Array, "..."]:
-        """ln of the asperities' pressure, Pa. **Arguments:** as for `share`."""
+        """Natural logarithm of the asperity pressure in Pa. **Arguments:** as for `share`."""
         constant = np.log(8.0 * np.sqrt(2.0) * np.pi / 15.0)
         shape = 2.0 * jnp.log(self.asperity_product) + 0.5 * jnp.log(self.asperity_slope)
         return constant + shape + jnp.log(reduced_modulus) + log_height_integral(film_ratio)
@@ -103,10 +104,10 @@ class GreenwoodTrippPressure(AbstractLoadShare):
 class ErrorFunctionShare(AbstractLoadShare):
     r"""$\varphi = 1 - \mathrm{erf}(\Lambda)$.
 
-    **Limits:** 1 at no film; 0.157 at a film ratio of 1, where the other normalised forms have 0.10 to 0.13.
-    **Validity:** a fit without the pressure of the contact: the share is uncertain by a factor of 10 at raceway
-    pressures.
-    **Reference:** used by programs for tapered roller bearings; read second-hand.
+    **Limits:** 1 without a film; 0.157 at a film ratio of 1, where the other normalised forms give 0.10 to 0.13.
+    **Validity:** a fit that does not contain the contact pressure: at raceway pressures the share is uncertain by a
+    factor of 10.
+    **Reference:** used by programs for tapered roller bearings; quoted from a secondary source.
     """
 
     def share(self, film_ratio: Values, mean_pressure: Values, reduced_modulus: Values) -> Float[Array, "..."]:
@@ -116,8 +117,8 @@ class ErrorFunctionShare(AbstractLoadShare):
 def log_height_integral(film_ratio: Values) -> Float[Array, "..."]:
     r"""$\ln F_{5/2}(t)$, $F_n(t) = \int_t^\infty(s - t)^ne^{-s^2/2}ds/\sqrt{2\pi}$, for Gaussian heights.
 
-    With $s = t + y^2$ the integrand is even and analytic in y: the trapezoidal rule with 32 points is exact to 1e-13 up
-    to t = 10, and to 1e-8 at t = 50, where the integral is 1e-549.
+    With $s = t + y^2$ the integrand is even and analytic in y. The trapezoidal rule with 32 points then has an error of
+    1e-13 up to t = 10, and of 1e-8 at t = 50, where the integral is 1e-549.
 
     **Arguments:** `film_ratio` t, >= 0.
     """

@@ -1,4 +1,4 @@
-"""Figure of a calibration: measured values beside calculated ones, and what is left."""
+"""Figure of a calibration: calculated against measured values, and their differences."""
 
 import textwrap
 from typing import TYPE_CHECKING, Any
@@ -14,15 +14,16 @@ if TYPE_CHECKING:
     import matplotlib.figure
 
 _WIDTH, _ROW = 9.6, 2.9
-"""Width of the figure and height of a quantity, inches."""
+"""Width of the figure and height of the row of one quantity, inches."""
 _LETTERS = 110
-"""Letters of a line of the title."""
+"""Largest number of characters in a line of the title."""
 
 
 def calibration(found: Any, title: str = "") -> "matplotlib.figure.Figure":
-    """Calculated over measured values of each quantity with their errors, and the differences point by point.
+    """Plots, for each quantity, the calculated against the measured values with error bars, and their differences at
+    the operating points.
 
-    **Arguments:** `found`: from `jaxbearing.calibrate`; `title`: at the head of the figure.
+    **Arguments:** `found`: result of `jaxbearing.calibrate`; `title`: title of the figure.
     """
     from ..report.backends.matplotlib.page import Page
 

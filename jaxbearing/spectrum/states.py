@@ -21,8 +21,8 @@ class State:
     """One state of a load spectrum.
 
     **Arguments:**
-    - `name`: its name, another one for each state.
-    - `share`: its share of the time, above 0 and at most 1; the shares of all states add up to 1.
+    - `name`: name of the state; no two states have the same.
+    - `share`: share of the time, above 0 and at most 1; the shares of all states add up to 1.
     - `changes`: dotted path of a field -> SI value, as `scene.replace` takes them.
     """
 
@@ -32,9 +32,10 @@ class State:
 
 
 def require_states(states: Sequence[State]) -> None:
-    """Checks names and shares; a traced share passes.
+    """Checks the names and the shares of the states. Traced shares are not checked.
 
-    **Raises:** `ValueError` for no state, for a name that another state has, and for shares that do not add up to 1.
+    **Raises:** `ValueError` if there is no state, if two states have the same name or a state has none, or if a share
+    is out of range or the shares do not add up to 1.
     """
     if not states or not all(isinstance(one, State) for one in states):
         raise ValueError(f"states must be one or more of State(name, share, changes), got {states!r}")
@@ -50,10 +51,12 @@ def require_states(states: Sequence[State]) -> None:
 
 
 def require_rated(scenes: Mapping[str, AbstractScene]) -> None:
-    """Checks that each scene is the same bearing, with a life for one reliability. **Arguments:** name -> scene.
+    """Checks that all scenes are states of one bearing and rate its life at the same reliability.
 
-    **Raises:** `TypeError` for another kind of scene, `ValueError` for one without a rating, for reliabilities that
-    differ and for another bearing.
+    **Arguments:** `scenes`: name of a state -> its scene.
+
+    **Raises:** `TypeError` for a scene that is not a bearing; `ValueError` for a scene without a rating, for different
+    reliabilities, and for different bearings.
     """
     reliabilities = {}
     for name, scene in scenes.items():
@@ -73,7 +76,8 @@ def require_rated(scenes: Mapping[str, AbstractScene]) -> None:
 
 
 def _of_another(bearing: AbstractScene, other: AbstractScene) -> Iterator[str]:
-    """Dotted paths of what makes the other scene another bearing; traced numbers pass."""
+    """Dotted paths of the fields of geometry and materials whose values make the other scene another bearing. Traced
+    numbers are not compared."""
     assert isinstance(bearing, AbstractBearing), "other scenes are refused"
     assert isinstance(other, AbstractBearing), "other scenes are refused"
     for part in ("geometry", "materials"):

@@ -1,12 +1,19 @@
 r"""Equations of lubricated balls with one contact on each ring.
 
-Unknowns of each ball: $\ln Q_i$ and the inner contact angle, and those of its motion (`equations`).
+Unknowns of each ball: $\ln Q_i$, the contact angle $\alpha_i$ at the inner race, and the unknowns of its motion
+(`equations`).
 
-The force of the inner race, the centrifugal force and the pocket's friction along the radius, $F_{C2} - F_{C1}$, give
-load and angle of the outer contact, so that both force balances of a ball hold identically (source eqs. (14)-(15)), and
-what is solved is that the centres fit (source eqs. (23)-(26)): with $n = (\sin\alpha, \cos\alpha)$,
-$t = (\cos\alpha, -\sin\alpha)$ and $l_k = g_k + (Q_k/K_k)^{2/3} - h_k$, $l_in_i + l_on_o = A$, its component along
-$n_i$ as the logarithm of the ratio of the positive terms on its two sides.
+The forces of the inner race, the centrifugal force and the radial friction of the pocket, $F_{C2} - F_{C1}$, determine
+the load and the angle of the outer contact. Both force balances of a ball then hold identically (source eqs.
+(14)-(15)). The equations that remain say that the ball fits between the grooves (source eqs. (23)-(26)):
+
+$$l_in_i + l_on_o = A, \quad l_k = g_k + (Q_k/K_k)^{2/3} - h_k,$$
+
+with $n = (\sin\alpha, \cos\alpha)$ and the vector A from the outer to the inner groove centre. The distance of the
+centres of ball and groove is $l_k$, at first contact $g_k$; $K_k$ is the stiffness and $h_k$ the film of the contact.
+The component along $t_i = (\cos\alpha_i, -\sin\alpha_i)$ is divided by the length of A at first contact. In the
+component along $n_i$ the terms are arranged so that all of them are positive, and the residual is the logarithm of the
+ratio of the two sides.
 """
 
 from typing import ClassVar
@@ -25,12 +32,12 @@ from .state import BallGuess, BallsState
 from .system import InnerArm, OnRing, unit_normals
 
 ROLLING_PASSES = 5
-"""Newton steps for the orbital speed of a ball that rolls without sliding, with the outer contact angle that goes with
-it. Light balls between fast rings that turn against each other take all of them, usual ones two."""
+"""Newton steps for the orbital speed of a ball that rolls without sliding; the outer contact angle follows from it.
+Light balls between fast rings that turn in opposite directions need all steps, usual balls two."""
 FRICTION_PASSES = 3
-"""Load and angle of the outer contact under the friction that carries the couple: the error falls as fast."""
+"""Fixed-point passes for the load and angle of the outer contact if friction carries the gyroscopic couple."""
 LOG_LOAD_RANGE = (-200.0, 18.0)
-"""ln(load / 1 N) that an iterate may take."""
+"""Bounds of the unknown ln(Q_i / 1 N) during the iteration."""
 
 
 class LubricatedBallSystem(AbstractBallEquations):
@@ -58,7 +65,8 @@ class LubricatedBallSystem(AbstractBallEquations):
     def frictionless(
         self, unknowns: Float[Array, "m ball"], shared: Float[Array, "g ball"], film: PointFilm | None = None
     ) -> BallsState:
-        """All but what traction does; `film`: where it is known and stays."""
+        """State of the balls without traction. **Arguments:** `film`: films of the contacts if they are given; `None`:
+        they are computed."""
         d = len(self.freedoms)
         own = dict(zip(self.own_unknowns, unknowns[2:], strict=True))
         log_load, inner = unknowns[0], unknowns[1]
@@ -67,7 +75,7 @@ class LubricatedBallSystem(AbstractBallEquations):
             orbit = self.orbit(shared[d] if self.global_orbit else own["orbit"])
         pocket = self.friction_scale() * own["outward"] if "outward" in own else None
         turned = None if self.ring_motion is None else self.ring_motion.frame(shared[:d]).turned
-        seen = inner if turned is None else inner - turned  # by the tilted race
+        seen = inner if turned is None else inner - turned  # contact angle on the tilted race
         load, outer, motion, friction, orbit_residual = self._contacts(log_load, inner, seen, orbit, own, pocket)
         angle, direction = jnp.stack([seen, outer]), jnp.stack([inner, outer])
         races = self.races_of(motion, angle)
@@ -80,7 +88,7 @@ class LubricatedBallSystem(AbstractBallEquations):
         forces, moment = self.forces(load, normal, friction)
         sideways = ()
         if arm.along is not None:
-            # a film thicker than the groove's radius is larger than the ball's puts the ball beyond the groove centre
+            # a film thicker than the difference of the radii of groove and ball puts the ball beyond the groove centre
             forward = jnp.sum(arm.in_plane * normal[:, 0], axis=0) > 0
             within = arm.length * arm.share
             sideways = ((load[0] * arm.along / jnp.where(forward, within, -within))[None],)
@@ -124,24 +132,28 @@ class LubricatedBallSystem(AbstractBallEquations):
     def _outer_contact(
         self, log_load: Array, inner: Array, outward: Array, friction: Array | None
     ) -> tuple[Array, Array]:
-        """Load and angle of the outer contact from the forces on the ball; `outward`, N, those along the radius;
-        `friction` T_i, T_o with its sign."""
+        """Load, N, and contact angle, rad, at the outer race, from the balances of forces on the ball.
+
+        **Arguments:** `inner`: direction of the inner normal force, rad; `outward`: centrifugal force and outward force
+        of the pocket, N; `friction`: T_i and T_o with their sign, N; `None`: no friction.
+        """
         load = jnp.exp(log_load)
         axial, radial = load * jnp.sin(inner), load * jnp.cos(inner) + outward
         if friction is None:
             return safe_norm(axial, radial), jnp.arctan2(axial, radial)
         axial, radial = axial + friction[0] * jnp.cos(inner), radial - friction[0] * jnp.sin(inner)
-        # the outer race's load and friction, at right angles to each other, carry that
+        # load and friction of the outer race are perpendicular to each other and carry the sum of these forces
         total = jnp.square(axial) + jnp.square(radial)
         outer = jnp.sqrt(jnp.maximum(total - jnp.square(friction[1]), 1e-6 * total))
         return outer, jnp.arctan2(axial, radial) - jnp.arctan2(friction[1], outer)
 
     def _contacts(self, log_load, inner, seen, orbit, own, pocket):
-        """Loads, outer angle, motion of the ball, friction that carries the couple, and by how much the centrifugal
-        force misses that of rolling, over the loads.
+        """Loads, N, outer contact angle, rad, motion of the ball, friction that carries the couple, N, and, if the
+        balls roll without sliding, the largest error of the centrifugal force over its sum with the inner load; else 0.
 
-        `inner`: direction of the inner normal force, `seen`: contact angle on the inner race, rad; `pocket`: its force
-        outward.
+        **Arguments:** `log_load`: ln(Q_i / 1 N); `inner`: direction of the inner normal force, rad; `seen`: contact
+        angle on the inner race, rad; `orbit`: orbital speed, rad/s, `None` if the ball rolls without sliding; `own`:
+        scaled unknowns of the motion; `pocket`: outward force of the pocket, N.
         """
         motion_at = lambda angle, orbital: self._motion(seen, angle, orbital, own)
         rolls, friction, residual = orbit is None, None, jnp.zeros(())
@@ -151,7 +163,7 @@ class LubricatedBallSystem(AbstractBallEquations):
         load, outer = self._outer_contact(log_load, inner, outward, None)
         motion = motion_at(outer, orbit)
         if rolls:
-            # the motion is that of rolling at the angles which the orbital speed makes
+            # rolling without sliding at the contact angles that follow from the orbital speed
             missed = self.centrifugal(motion.orbital_speed) - self.centrifugal(orbit)
             residual = jnp.max(jnp.abs(missed) / (jnp.exp(log_load) + self.centrifugal(orbit)))
         for _ in range(0 if self.gyroscopic is None and not self.resolved else FRICTION_PASSES):
@@ -168,7 +180,8 @@ class LubricatedBallSystem(AbstractBallEquations):
         return jnp.stack([jnp.exp(log_load), load]), outer, motion, friction, residual
 
     def _rolling_orbit(self, log_load: Array, inner: Array, seen: Array, own: dict[str, Array]) -> Array:
-        """Orbital speed without sliding, rad/s: it needs the outer angle, which needs the centrifugal force."""
+        """Orbital speed of rolling without sliding, rad/s. It depends on the outer contact angle, which depends on the
+        orbital speed through the centrifugal force."""
 
         def next_orbit(orbit: Array) -> Array:
             angle = self._outer_contact(log_load, inner, self.centrifugal(orbit), None)[1]
@@ -184,10 +197,11 @@ class LubricatedBallSystem(AbstractBallEquations):
     def _fit(
         self, load: Array, turned: Array, normal: Array, film: Array, shared: Array
     ) -> tuple[Float[Array, "2 ball"], Float[Array, "2 ball"], InnerArm, OnRing]:
-        """Misfit of the centres, along the inner contact's normal, as a logarithm, and across it; ball centres, from
-        the outer groove centre, m, the arms from them to the inner groove, and what forces there do.
+        """Residuals of $l_in_i + l_on_o = A$ (see the module), along $n_i$ and along $t_i$; ball centres from the outer
+        groove centre, m; arms from the ball centres to the inner groove centres; and `OnRing`.
 
-        **Arguments:** `turned`: angle from the inner to the outer normal, rad; `normal`: of `unit_normals`."""
+        **Arguments:** `load`: of both contacts, N; `turned`: angle from the inner to the outer normal, rad; `normal`:
+        from `unit_normals`; `film`: thicknesses, m; `shared`: unknowns that all balls share."""
         grooves = self.grooves
         if not self.slips:
             film = self.film_share * film
@@ -195,13 +209,13 @@ class LubricatedBallSystem(AbstractBallEquations):
         reach = grooves.offset[1] + compression[1] - film[1]
         centre = reach[None] * normal[:, 1]
         (arm,), on_ring = self.reach(shared, centre)
-        # the arm laid into the half-plane
+        # the direction of the arm in the half-plane, with the full length of the arm
         groove = centre + (arm.in_plane / arm.share[None] if self.exact else arm.in_plane)
         cosine, sine = jnp.cos(turned), jnp.sin(turned)
         along = jnp.sum(groove * normal[:, 0], axis=0)
         across = groove[0] * normal[1, 0] - groove[1] * normal[0, 0]
         opening = grooves.offset[0] + grooves.offset[1] * cosine - along
-        # all terms of both sides are positive, also of contacts whose normals make an obtuse angle
+        # all terms of both sides are positive, even if the angle between the normals is obtuse
         same, against = jnp.maximum(cosine, 0.0), jnp.maximum(-cosine, 0.0)
         apart = compression[0] + compression[1] * same + film[1] * against + jnp.maximum(opening, 0.0)
         together = film[0] + film[1] * same + compression[1] * against + jnp.maximum(-opening, 0.0)

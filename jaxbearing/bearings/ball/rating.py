@@ -15,7 +15,11 @@ if TYPE_CHECKING:
 def rated_contacts(
     scene: BallBearing, elements: "BallResults | None", force: Float[Array, " freedom"] | None = None
 ) -> RatedContacts:
-    """**Arguments:** `elements`: `BallResults` of a solution, `None` of an unloaded bearing; `force`: its `force`."""
+    """Sizes and loads of the raceway contacts of a bearing.
+
+    **Arguments:** `elements`: `BallResults` of a solution, `None` for an unloaded bearing; `force`: force on the inner
+    ring in the same solution (`Solution.force`).
+    """
     geometry = scene.geometry
     inner = outer = jnp.zeros(scene.n_elements)
     second = (None, None)

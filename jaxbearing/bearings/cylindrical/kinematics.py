@@ -33,22 +33,22 @@ class RollerKinematics(eqx.Module):
 
     @property
     def free_orbit(self) -> Array:
-        """W of rolling without slip, rad/s."""
+        """Orbital speed W of rolling without slip, rad/s."""
         return (self.inner_speed * self.inner_radius + self.outer_speed * self.outer_radius) / (2.0 * self.pitch_radius)
 
     @property
     def orbit_scale(self) -> Array:
-        """Orbital speed relative to the outer ring, rolling without slip, rad/s."""
+        """Orbital speed relative to the outer ring in rolling without slip, rad/s."""
         return (self.inner_speed - self.outer_speed) * self.inner_radius / (2.0 * self.pitch_radius)
 
     @property
     def free_spin(self) -> Array:
-        """s of rolling without slip, rad/s."""
+        """Spin s of rolling without slip, rad/s."""
         return self.orbit_scale * self.outer_radius / self.roller_radius
 
     @property
     def orbit_unit(self) -> Array:
-        """Scale of orbital speeds, rad/s; not 0 while a ring turns, also where W or the relative speed is 0."""
+        """Scale of orbital speeds, rad/s. It is not 0 while a ring turns, even if W or `orbit_scale` is 0."""
         return jnp.sqrt(0.5 * (jnp.square(self.orbit_scale) + jnp.square(self.free_orbit)))
 
     @property
@@ -61,10 +61,12 @@ class RollerKinematics(eqx.Module):
     ) -> tuple[Float[Array, "2 ..."], Float[Array, "2 ..."]]:
         """Mean speeds and sliding speeds (inner race, outer race), m/s, in the frame of the orbiting contact.
 
-        Arguments are differences from rolling without slip, rad/s: the sliding speeds are then sums of small
-        numbers, exact to round-off, where differences of surface speeds would carry the round-off of 100 m/s into
-        a steep traction law. Sliding is race minus roller on the inner race and roller's orbit minus outer race on
-        the outer one, so that a positive value drives the roller forward inside and brakes it outside.
+        Sliding is race minus roller on the inner race and roller minus race on the outer race. A positive value
+        therefore drives the roller forward at the inner race and brakes it at the outer race.
+
+        **Arguments:** `orbit_change`, `spin_change`: differences of orbital speed and spin from rolling without slip,
+        rad/s. The sliding speeds are sums of these small numbers and therefore exact to round-off. Differences of
+        surface speeds of 100 m/s would have too large a round-off for a steep traction law.
         """
         free = self.orbit_scale * self.outer_radius
         roller = self.roller_radius * spin_change
@@ -75,6 +77,6 @@ class RollerKinematics(eqx.Module):
 
 
 def roller_kinematics(geometry: "RollerGeometry", operation: "Operation") -> RollerKinematics:
-    """Speeds of the rollers of a scene. **Arguments:** its `RollerGeometry` and its `Operation`."""
+    """Kinematics of the rollers of a scene. **Arguments:** `geometry`, `operation`: of the scene."""
     sizes = (operation.inner_speed, operation.outer_speed, geometry.pitch_radius, geometry.roller_radius)
     return RollerKinematics(*(jnp.asarray(value) for value in sizes))

@@ -13,12 +13,15 @@ from ..registry import check_converged
 from ..variables import CHECK, attributes, checks, flags, variable, without_fill
 
 ALONG_X = {"node": "x"}
-"""Name of the dimension of profiles that all have the same nodes: their places."""
+"""Renames the dimension `node` to `x` if all profiles have the same nodes, with `x` as coordinate."""
 
 
 def to_dataset(solution: LineContactSolution, dims: Sequence[str] = ()) -> xr.Dataset:
-    """See `report.dataset.solution_to_dataset`. The profile has the dimension `x`; in a batch it is `node`, and `x` a
-    coordinate along it that differs from lane to lane."""
+    """Data set of one solution or of a batch; see `report.dataset.solution_to_dataset`.
+
+    The dimension of the profile is `x`. In a batch it is `node`, and `x` is a coordinate along it, with other values in
+    each lane.
+    """
     dims = tuple(dims)
     if np.ndim(solution.status) != len(dims):
         batch = np.ndim(solution.status)
@@ -35,9 +38,10 @@ def to_dataset(solution: LineContactSolution, dims: Sequence[str] = ()) -> xr.Da
 
 
 def variables_of(result: AbstractSolution, title: str, along: tuple[str, ...], names: dict[str, str]) -> xr.Dataset:
-    """The results of a solve or a run, and its operating point.
+    """Data set of the results of a solve or a transient run; the operating point becomes coordinates.
 
-    **Arguments:** `along`: dimensions of a batch; `names`: other names for dimensions of the labels.
+    **Arguments:** `title`: of the data set; `along`: dimensions of a batch; `names`: dimension of a label -> its name
+    in the data set.
     """
     dataset = xr.Dataset(attrs=attributes(result, title))
     for path, value, metadata in labelled(result):

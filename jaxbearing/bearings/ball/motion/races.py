@@ -20,17 +20,17 @@ from ..state import RaceState
 from .speeds import Meridian
 
 LOAD_FLOOR = 1e-3
-"""Load with which a contact that damping opens enters the friction laws, N, added in squares."""
+"""Load, N, of a contact in the friction laws if damping has reduced its force to 0; added to all loads in squares."""
 LOG_LOADS = (-60.0, 20.0)
 """Bracket of ln(load/N) of a lubricated contact."""
 LOAD_STEP = 1e-9
-"""Last Newton step of ln(load), whose square is left as its error."""
+"""Largest last Newton step of ln(load); the remaining error is about its square."""
 THIN = 1e-8
-"""Compression from which the search for a load begins at least, m."""
+"""Smallest compression, m, that the initial guess of a load assumes."""
 
 
 class Pressed(NamedTuple):
-    """Elastic loads of both contacts, N, and the films in them; `None`: dry."""
+    """Elastic loads of both contacts, N, the contacts, and their films. `film`: `None` if the contacts are dry."""
 
     load: Float[Array, "2 ball"]
     contact: PointContact
@@ -38,9 +38,12 @@ class Pressed(NamedTuple):
 
 
 class RaceFriction(NamedTuple):
-    """Forces of the races on the balls, conjugate to `rolling`, `transverse`, `spin` and `roll` of `RaceMotion`, N and
-    N m; `resistance`: part of `roll` that is rolling resistance; `shear`: what the traction law found. `None`: not
-    modelled."""
+    """Friction forces, N, and moments, N m, of the races on the balls. Each is conjugate to the speed of the same name
+    in `RaceMotion`.
+
+    `resistance`: part of the moment `roll` that is rolling resistance; `shear`: result of the traction law. `None`: not
+    modelled.
+    """
 
     rolling: Float[Array, "2 ball"]
     transverse: Float[Array, "2 ball"]
@@ -50,31 +53,36 @@ class RaceFriction(NamedTuple):
     shear: Traction | None = None
 
     def on(self, races: RaceMotion) -> RaceMotion:
-        """The forces in the places of the speeds that they are conjugate to."""
+        """The forces and moments as a `RaceMotion`: each stands in the field of its conjugate speed."""
         zero = jnp.zeros_like(races.roll)
         roll = zero if self.roll is None else self.roll
         return RaceMotion(zero, zero, self.rolling, self.transverse, self.spin, roll)
 
 
 class AbstractRaceLaw(eqx.Module):
-    """Loads of the raceway contacts from the places of their centres, and their friction."""
+    """Loads of the raceway contacts, from the positions of ball and groove centres, and friction of these contacts."""
 
     @abc.abstractmethod
     def pressed(self, approach: Float[Array, "2 ball"], meridian: Meridian, races: RaceMotion) -> Pressed:
-        """**Arguments:** `approach`: distance of the centres of ball and groove less that at first contact without a
-        film, m."""
+        """Elastic loads and films of the contacts.
+
+        **Arguments:** `approach`: distance of the centres of ball and groove minus this distance at first contact
+        without a film, m.
+        """
 
     @abc.abstractmethod
     def friction(self, pressed: Pressed, load: Float[Array, "2 ball"], races: RaceMotion) -> RaceFriction:
-        """**Arguments:** `load`: with contact damping, N, >= 0."""
+        """Friction of the races on the balls. **Arguments:** `load`: loads with contact damping, N, >= 0."""
 
 
 class LubricatedRaces(AbstractRaceLaw):
-    r"""The contact laws of a scene. A film of thickness h adds to the compression: the load solves
-    $(Q/K)^{2/3} - h(Q) = l - g$. It has a root for open contacts too, where it is negligible and h fills the gap, so
-    that loads are positive and smooth.
+    r"""Raceway contacts with the film, traction and friction laws of a scene.
 
-    **Arguments:** `system`: the equations of the steady bearing, whose laws, oil and geometry these are.
+    A film of thickness h adds to the compression: the load Q solves $(Q/K)^{2/3} - h(Q) = l - g$, with the contact
+    stiffness K and the approach $l - g$. This equation has a root for an open contact too: the film fills the gap, and
+    the load is negligible. Loads are therefore positive and smooth.
+
+    **Arguments:** `system`: equations of the steady bearing; its contact laws, oil and geometry are used.
     """
 
     system: LubricatedBallSystem
@@ -111,7 +119,7 @@ def _film(system: LubricatedBallSystem, contact: PointContact, load: Array, race
 
 
 def _compression(log_load: Array, args: tuple[LubricatedBallSystem, PointContact, RaceMotion, Array, Array]) -> Array:
-    """Compression less film and approach, m: increasing in ln(load)."""
+    """Compression minus film thickness minus approach, m; it increases with ln(load) and is 0 at the root."""
     system, contact, races, log_stiffness, approach = args
     film = _film(system, contact, jnp.exp(log_load), races).separation
     return jnp.exp((log_load - log_stiffness) * (2.0 / 3.0)) - film - approach
