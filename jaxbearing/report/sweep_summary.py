@@ -67,8 +67,8 @@ def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: fl
         console.print(grid)
         if 1 < failure.size <= _FEW and len(dataset.attrs["sweep_fields"].split()) <= _FEW_FIELDS:
             print_cases(dataset, _MAIN, console)
-        print_warnings([*_reasons(failure), *_yield(whole)], console)
-        print_warnings(filter(None, dataset.attrs.get("warnings", "").split("\n")), console)
+        told = filter(None, dataset.attrs.get("warnings", "").split("\n"))
+        print_warnings([*_reasons(failure), *_yield(whole), *told], console)
     console.print(Text(f"wrote {os.fspath(file)}: open it with xarray.open_dataset"))
 
 

@@ -6,6 +6,7 @@ import json
 import tomllib
 from datetime import UTC, datetime
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -23,10 +24,11 @@ from jaxbearing.report.html_report import html_report
 from jaxbearing.report.json_report import solution_to_dict
 from jaxbearing.report.plots import plot_solution, save_plot
 from jaxbearing.report.ross import TESTED
-from jaxbearing.report.shaft.bending import bending_line, cut_loads
+from jaxbearing.report.shaft.bending import BendingLine, bending_line, cut_loads
 from jaxbearing.report.shaft.drawn import svg
-from jaxbearing.report.shaft.facts import life_columns, shaft_notes, shaft_warnings, with_states
+from jaxbearing.report.shaft.facts import life_columns, shaft_facts, shaft_notes, shaft_warnings, with_states
 from jaxbearing.report.shaft.modes import natural_frequencies
+from jaxbearing.report.shaft.page_content import page_content
 from jaxbearing.report.shaft.picture import Area, Pointer, pictures
 from jaxbearing.report.shaft.ross import ross_rotor, write_ross_rotor
 from jaxbearing.report.shaft.stiffness import (
@@ -323,6 +325,35 @@ def test_stiffness_in_words_and_json(scene):
     assert "Bearing pair.2, at 38 mm" in text
     told = json.loads(json.dumps(shaft_stiffness_to_dict(table), allow_nan=False))
     assert told["bearings"]["pair.1"][1][1][1] == 1.1 * 2e8
+
+
+def test_a_couple_that_is_left_out_is_said(scene, filled):
+    """Gyroscopic, of the balls of one bearing: on the screen and on the page, where it exceeds a per cent of what
+    friction can carry."""
+    elements = lambda solution: solution.bearings["pair.1"].solution.elements
+    where = lambda solution: (elements(solution).gyroscopic_couple, elements(solution).gyroscopic_limit)
+    ones = np.ones(np.shape(where(filled)[0]))
+    for share, said in ((2.0, "pair.1: gyroscopic couple (up to 2.00 N m a ball, 200 % of what"), (0.005, "")):
+        solution = eqx.tree_at(where, filled, (share * ones, ones), is_leaf=lambda leaf: leaf is None)
+        others = [name for name in solution.bearings if name != "pair.1"]
+        for name in others:
+            limit = lambda solution, name=name: solution.bearings[name].solution.elements.gyroscopic_limit
+            solution = eqx.tree_at(limit, solution, None, is_leaf=lambda leaf: leaf is None)
+        printed = " ".join(screen(print_summary, solution, "a shaft").split())
+        assert ("Not modelled:" in printed) == bool(said)
+        assert said in printed
+        assert page_content(scene, solution).not_modelled.startswith(said)
+
+
+@pytest.mark.parametrize(("moved", "at"), [([2e-6, 2e-6, 2e-6], None), ([2e-6, 1e-6, 0.0], " at 0.0 mm")])
+def test_a_shaft_that_moves_as_a_whole_is_largest_nowhere(filled, moved, at):
+    across = np.zeros((2, len(moved)))
+    across[0] = moved
+    line = BendingLine(np.array([0.0, 0.03, 0.06]), np.zeros(3), across)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("jaxbearing.report.shaft.facts.bending_line", lambda solution: line)
+        text = dict(shaft_facts(filled))["Deflection"]
+    assert text == f"largest 2.000 um across the axis{at or ''}"
 
 
 @pytest.mark.slow

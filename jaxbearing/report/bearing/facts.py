@@ -20,10 +20,10 @@ def not_modelled(solution: Solution) -> str:
     """The parts that the scene does not model, in words: losses, and a gyroscopic couple that counts."""
     names = ", ".join(name.replace("_", " ") for name in solution.not_modelled)
     losses = f"all power losses ({names})" if solution.power_loss.total is None else names
-    return "; ".join(text for text in (losses, _left_out_couple(solution)) if text)
+    return "; ".join(text for text in (losses, left_out_couple(solution)) if text)
 
 
-def _left_out_couple(solution: Solution) -> str:
+def left_out_couple(solution: Solution) -> str:
     """The gyroscopic couple of balls that a scene leaves out, in words; "" where friction carries it easily."""
     elements = on_heavier_flanks(solution.elements)
     limit = getattr(elements, "gyroscopic_limit", None)

@@ -8,6 +8,7 @@ import numpy as np
 from ...bearings.solution import RING_FREEDOMS, Solution
 from ...numerics.status import Status
 from ..backends.json import finite, names_of, plain
+from .facts import left_out_couple
 from .operation import unused_operation
 
 _INSIDE = (
@@ -37,7 +38,7 @@ def to_dict(solution: Solution) -> dict[str, Any]:
         "converged": converged,
         "status": Status(int(solution.status)).text,
         "warnings": list(solution.warnings),
-        "not_modelled": list(solution.not_modelled),
+        "not_modelled": [*solution.not_modelled, *(["gyroscopic_couple"] if left_out_couple(solution) else [])],
     }
     for name in names_of(solution):
         if name not in (*_INSIDE, *_NAMES) and not name.startswith("global_"):

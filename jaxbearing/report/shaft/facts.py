@@ -11,7 +11,7 @@ from ...life.duty import IN_HOURS
 from ...life.result import AtReliability, Life
 from ...shafts.solution import BearingOnShaft, DutyResult, SetResult, ShaftSolution
 from ..backends.json import finite
-from ..bearing.facts import OVERLOAD, bending, overload
+from ..bearing.facts import OVERLOAD, bending, left_out_couple, overload
 from ..bearing.life_facts import AT_RELIABILITY, lives_in_words, percent
 from ..display import ZERO_CELSIUS, digits, with_unit
 from .bending import bending_line
@@ -201,6 +201,13 @@ def loss_of(one: BearingOnShaft) -> float | None:
     return None if loss is None or loss.total is None else number(loss.total)
 
 
+def left_out(solution: ShaftSolution) -> str:
+    """Gyroscopic couples of balls that the scenes of the bearings leave out, in words; "" where friction carries them
+    easily. The losses that they leave out stand with each bearing."""
+    couples = {name: left_out_couple(one.solution) for name, one in solution.bearings.items() if one.solution}
+    return "; ".join(f"{name}: {text}" for name, text in couples.items() if text)
+
+
 def set_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     """Name of a set, and what is known of it in words."""
     for name, one in solution.sets.items():
@@ -234,7 +241,8 @@ def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     """Name and text of what is known of the shaft: its bending, the slopes in the bearings, the torques."""
     line = bending_line(solution)
     size, place = line.largest()
-    where = f" at {1e3 * place:.1f} mm" if size > _LEAST_MOVE else ""
+    # a shaft that moves as a whole has its largest displacement nowhere
+    where = f" at {1e3 * place:.1f} mm" if np.ptp(line.size) > max(_LEAST_MOVE, _LEAST * size) else ""
     yield "Deflection", f"largest {with_unit(_moved(size), 'm')} across the axis{where}"
     tilts = [np.asarray([one.ring.tilt, one.ring.tilt_lateral], dtype=float) for one in solution.bearings.values()]
     named = zip(solution.bearings, (_moved(float(np.hypot(*tilt))) for tilt in tilts), strict=True)

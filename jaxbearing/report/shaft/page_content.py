@@ -21,6 +21,7 @@ from .bending import bending_line
 from .drawn import svg
 from .facts import (
     bearing_columns,
+    left_out,
     life_columns,
     loss_of,
     number,
@@ -45,6 +46,7 @@ def page_content(scene: ShaftSystem, solution: ShaftSolution) -> Content:
     return Content(
         kind="shaft on bearings",
         operation=operating_text(solution),
+        not_modelled=left_out(solution),
         headlines=list(_headlines(solution, total if losses else None)),
         sketches=[Sketch(one.title, svg(one), one.caption) for one in pictures(scene, solution)],
         facts=[*shaft_facts(solution), *((f"set {name}", text) for name, text in set_facts(solution))],

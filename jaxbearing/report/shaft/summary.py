@@ -18,6 +18,7 @@ from .facts import (
     NAMES,
     bearing_columns,
     duty_lives,
+    left_out,
     life_columns,
     life_facts,
     overloads,
@@ -64,6 +65,8 @@ def _print_bearings(solution: ShaftSolution, console: Console, full: bool) -> No
         _print_columns(columns, console, full)
     for name, text in (*life_facts(solution), *set_facts(solution)):
         print_line(name, text, console)
+    if left_out(solution):
+        print_line("Not modelled:", left_out(solution), console)
 
 
 def _print_columns(columns: dict[str, list[str]], console: Console, full: bool) -> None:

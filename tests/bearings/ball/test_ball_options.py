@@ -27,6 +27,7 @@ from jaxbearing.contacts import (
 from jaxbearing.lubricants import Barus, ConstantPressureViscosity, ExponentialRheology, Lubricant
 from jaxbearing.numerics.newton import newton_solve
 from jaxbearing.report.bearing.facts import not_modelled
+from jaxbearing.report.json_report import solution_to_dict
 from jaxbearing.scenes.errors import SceneError
 
 RPM = 2.0 * np.pi / 60.0
@@ -457,11 +458,13 @@ def test_a_couple_that_is_left_out_is_named_with_its_size():
     assert share > 1.0
     said = f"gyroscopic couple (up to {float(couple):.3g} N m a ball, {share:.3g} % of what"
     assert said in not_modelled(left_out), not_modelled(left_out)
+    assert solution_to_dict(left_out)["not_modelled"][-1] == "gyroscopic_couple"
     assert "gyroscopic" not in not_modelled(jb.solve(scene.replace({"operation.inner_speed": 10.0})))
     np.testing.assert_allclose(axial(left_out), thrust, rtol=1e-9)
     carried = jb.solve(scene.replace(fast | {"kinematics.gyroscopic": SharedCouple()}))
     assert carried.elements.gyroscopic_limit is None
     assert "gyroscopic" not in not_modelled(carried)
+    assert "gyroscopic_couple" not in solution_to_dict(carried)["not_modelled"]
     cosine = jnp.cos(carried.elements.contact_angle_inner)
     friction = float(jnp.sum(carried.elements.gyroscopic_couple / geometry.ball_diameter * cosine))
     np.testing.assert_allclose(axial(carried), thrust - friction, rtol=1e-9)

@@ -1,4 +1,4 @@
-"""Moving pictures of a run, whatever is drawn: which instants, the heading with its clock, the file."""
+"""Parts common to all animations of runs: choice of the instants, heading with a clock, and the file."""
 
 import os
 import shutil
@@ -21,21 +21,21 @@ if TYPE_CHECKING:
 
 SUFFIXES = (".gif", ".html", ".mp4")
 PICTURES = 120
-"""Pictures of an animation; less where a run has fewer instants."""
+"""Number of pictures of an animation; smaller if the run has fewer instants."""
 PER_SECOND = 15
 _DOTS = 100
-"""Dots per inch: letters of 9 points are 12 pixels high, and 120 pictures stay near 5 MB."""
+"""Dots per inch: text of 9 points is 12 pixels high, and 120 pictures take about 5 MB."""
 _LETTERS = 12.4
-"""Letters of the small print in an inch."""
+"""Characters per inch in the small print."""
 
 
 def instants(first: float, last: float, at_most: int = PICTURES) -> np.ndarray:
-    """Evenly spaced numbers from `first` to `last`, one for each picture."""
+    """Evenly spaced times, or indices of instants, from `first` to `last`: one for each picture, `at_most` in all."""
     return np.linspace(first, last, min(PICTURES, at_most))
 
 
 def moving_head(figure: "matplotlib.figure.Figure", title: str, words: str) -> "matplotlib.text.Text":
-    """Title, a line in small print, and the text below them that changes with the clock."""
+    """Draws the title and the small print `words`; returns the still empty text below them, for the clock."""
     shown = title if len(title) <= 80 else title[:77] + "..."
     lines = textwrap.wrap(words, int(_LETTERS * 0.94 * figure.get_figwidth()))
     figure.text(0.03, 0.965, shown, fontsize=11, fontweight="bold", color=INK, va="center", parse_math=False)
@@ -46,7 +46,7 @@ def moving_head(figure: "matplotlib.figure.Figure", title: str, words: str) -> "
 def moving(
     figure: "matplotlib.figure.Figure", update: "Callable[[int], list[matplotlib.artist.Artist]]", pictures: int
 ) -> "matplotlib.animation.FuncAnimation":
-    """**Arguments:** `update`: makes the figure the picture of a number."""
+    """Animation of a figure. **Arguments:** `update`: draws the picture with a given number; `pictures`: how many."""
     import matplotlib.animation
 
     return matplotlib.animation.FuncAnimation(figure, update, frames=pictures, interval=1000.0 / PER_SECOND)
@@ -57,9 +57,9 @@ def save_animation(
     path: str | os.PathLike[str],
     progress: Callable[[float, float], None] | None = None,
 ) -> None:
-    """Write a gif, an html page or (with the program ffmpeg) an mp4; the file appears whole or not at all.
+    """Writes a gif, an html page or (with the program ffmpeg) an mp4. If writing fails, no partial file is left.
 
-    **Raises:** `ValueError` for another suffix; `OSError` where the place cannot be written or ffmpeg is not there.
+    **Raises:** `ValueError` for another suffix; `OSError` if the file cannot be written or ffmpeg is missing.
     """
     import matplotlib as mpl
     from matplotlib.animation import FFMpegWriter, HTMLWriter, PillowWriter
@@ -73,7 +73,7 @@ def save_animation(
     writer = kinds[suffix](fps=PER_SECOND) if suffix in kinds else HTMLWriter(fps=PER_SECOND, embed_frames=True)
     told = None if progress is None else lambda number, count: progress(float(number + 1), float(count))
     check_place(path)
-    # the writers go by the suffix, and leave further files behind where they fail
+    # the writers need the right suffix, and leave other files behind if they fail
     with temporary_folder() as folder:
         made = folder / f"animation{suffix}"
         try:
