@@ -1,6 +1,6 @@
-"""Least squares on any model that JAX traces: Levenberg-Marquardt, BFGS, gradient descent, from several starts at once.
+"""Least squares for any model that JAX can trace: Levenberg-Marquardt, BFGS or gradient descent, from several starts.
 
-The fit of an oil (`traction`) and the calibration of scenes (`jaxbearing.calibration`) both rest on it.
+The fit of an oil (`traction`) uses it.
 """
 
 import abc
@@ -21,21 +21,22 @@ from .loss import robust
 METHODS = ("levenberg_marquardt", "bfgs", "gradient_descent")
 MAX_STEPS = {"levenberg_marquardt": 200, "bfgs": 500, "gradient_descent": 20_000}
 TOLERANCE = {"bfgs": 1e-9, "gradient_descent": 1e-9}
-"""Change of parameters (in column-scaled units) and relative change of the loss at which a method ends; that of
-Levenberg and Marquardt is `levenberg.OFFSET`."""
+"""Absolute and relative tolerance of the scaled unknowns and of the loss, at which a method ends. Levenberg-Marquardt
+uses `levenberg.OFFSET` instead."""
 
 
 STATIONARY = 1e-7
-"""Cosine between residual and a column of the Jacobian at which the loss has no slope left."""
+"""Cosine between the residual and a column of the Jacobian, up to which the loss counts as stationary."""
 
 
 class AbstractProblem(eqx.Module):
-    """Measured values beside those of a model, as a function of scaled unknowns.
+    """A least-squares problem: measured values, and those of a model as a function of scaled unknowns u.
 
-    The unknowns of the optimiser are scaled: `natural = base + directions @ (u / scales)`.
+    The natural coordinates of the model's parameters are `natural = base + directions @ (u / scales)`.
 
     **Arguments:**
-    - `measured`, `deviation`: measured, and its standard deviation times the bend of the loss.
+    - `measured`, `deviation`: measured values, and their standard deviations times the tuning constant of the loss
+      (`loss.TUNING`; 1 for the linear one).
     - `weight`: 1, or 0 for points that are left out.
     - `base`, `directions`, `scales`: natural coordinates at u = 0, matrix, scale of each u.
     - `loss`: one of `loss.LOSSES`.
@@ -51,23 +52,23 @@ class AbstractProblem(eqx.Module):
 
     @abc.abstractmethod
     def predicted(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
-        """Values of the model at the points that were measured."""
+        """Values of the model at the measured points."""
 
     def natural(self, u: Float[Array, " parameter"]) -> Float[Array, " parameter"]:
-        """Natural coordinates of scaled unknowns."""
+        """Natural coordinates that belong to scaled unknowns."""
         return self.base + self.directions @ (u / self.scales)
 
     def plain_residual(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
-        """Model minus measurement over its deviation."""
+        """Model minus measurement, over the deviation; 0 for points that are left out."""
         return self.weight * (self.predicted(u) - self.measured) / self.deviation
 
     def residual(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
-        """Whose sum of squares is minimised."""
+        """Residual whose sum of squares is minimised: `plain_residual` transformed by the robust loss."""
         return robust(self.plain_residual(u), self.loss)
 
 
 class Estimate(NamedTuple):
-    """End of an optimisation: `u`, half the sum of squares, whether it converged, steps."""
+    """Result of an optimisation: unknowns, half the sum of squares, whether it converged, number of steps."""
 
     u: Float[Array, "*start parameter"]
     loss: Float[Array, "*start"]
@@ -76,7 +77,7 @@ class Estimate(NamedTuple):
 
 
 class _Descent(optx.AbstractGradientDescent):
-    """Steepest descent whose step is halved until the loss falls enough, and no more than that."""
+    """Steepest descent with a backtracking line search: the step is halved until the loss falls enough."""
 
     rtol: float
     atol: float
@@ -91,20 +92,21 @@ class _Descent(optx.AbstractGradientDescent):
 
 
 def jacobian(problem: AbstractProblem, u: Float[Array, " parameter"]) -> Float[Array, "point parameter"]:
-    """d residual / d u by forward mode."""
+    """Derivative d residual / d u by forward-mode differentiation."""
     return jax.jacfwd(problem.residual)(u)
 
 
 def residual_and_jacobian(
     problem: AbstractProblem, u: Float[Array, " parameter"]
 ) -> tuple[Float[Array, " point"], Float[Array, "point parameter"]]:
-    """Both from one pass of forward mode."""
+    """Residual and its Jacobian from one pass of forward-mode differentiation."""
     along = lambda direction: jax.jvp(problem.residual, (u,), (direction,))
     return jax.vmap(along, out_axes=(None, 1))(jnp.eye(u.size))
 
 
 def column_scales(problem: AbstractProblem, u: Float[Array, " parameter"]) -> Float[Array, " parameter"]:
-    """Norms of the Jacobian's columns where they are not 0, else 1; of the problem as it is scaled now."""
+    """Scales of u that make the columns of the Jacobian unit vectors. A column that is 0 or not finite keeps its
+    present scale."""
     norms = jnp.linalg.norm(jacobian(problem, u), axis=0)
     return jnp.where((norms > 0) & jnp.isfinite(norms), norms, 1.0) * problem.scales
 
@@ -125,21 +127,21 @@ def estimate(problem: AbstractProblem, u: Float[Array, " parameter"], method: st
         solver = _Descent(1.0 / jnp.where(steepest > 0, steepest, 1.0), tolerance)
     found = optx.minimise(half_square, solver, u, problem, max_steps=MAX_STEPS[method], throw=False)
     value = half_square(found.value, problem)
-    # at the minimum to round-off no step is accepted any more, and the search for one goes on to its last step
+    # at a minimum exact to round-off no step is accepted any more, and the solver goes on to `MAX_STEPS`
     converged = (found.result == optx.RESULTS.successful) | _stationary(problem, found.value)
     converged = converged & jnp.isfinite(value)
     return Estimate(found.value, value, converged, jnp.asarray(found.stats["num_steps"]))
 
 
 def _stationary(problem: AbstractProblem, u: Float[Array, " parameter"]) -> Bool[Array, ""]:
-    """True if the residual is at right angles to every column of its Jacobian, to `STATIONARY`."""
+    """True if the residual is perpendicular to every column of its Jacobian, within `STATIONARY`."""
     residual, columns = problem.residual(u), jacobian(problem, u)
     size = jnp.linalg.norm(residual) * jnp.linalg.norm(columns, axis=0)
     return jnp.all(jnp.abs(columns.T @ residual) <= STATIONARY * size)
 
 
 def estimates(problem: AbstractProblem, starts: Float[Array, "start parameter"], method: str) -> Estimate:
-    """Optimisations from several starts, batched; each is scaled by the columns of its own first Jacobian."""
+    """Optimisations from several starts in one batch; each uses the `column_scales` at its own start."""
 
     def one(u):
         scales = column_scales(problem, u)
@@ -151,13 +153,13 @@ def estimates(problem: AbstractProblem, starts: Float[Array, "start parameter"],
 
 
 estimate_from = KeptProgram(estimates, quick=False)
-"""The same, compiled with all of XLA's optimisations: it runs for seconds."""
+"""Compiled `estimates`, with all of XLA's optimisations because it runs for seconds."""
 
 
 def _held_out(
     problem: AbstractProblem, weights: Float[Array, "case point"], method: str
 ) -> tuple[Float[Array, "case point"], Bool[Array, " case"]]:
-    """Predictions for all points after optimisations with other weights, from u = 0; and which converged."""
+    """Predictions at all points by one optimisation for each row of weights, from u = 0, and whether each converged."""
 
     def one(weight):
         weighted = eqx.tree_at(lambda p: p.weight, problem, weight)
@@ -170,7 +172,7 @@ def _held_out(
 
 
 held_out = KeptProgram(_held_out, quick=False)
-"""The same, compiled."""
+"""Compiled `_held_out`, with all of XLA's optimisations."""
 
 
 def linearize(problem: AbstractProblem, u: Float[Array, " parameter"]) -> tuple[Array, Array, Array]:
@@ -185,4 +187,4 @@ def linearize(problem: AbstractProblem, u: Float[Array, " parameter"]) -> tuple[
 
 
 linearized = KeptProgram(linearize, quick=True)
-"""The same, compiled."""
+"""Quickly compiled `linearize`."""

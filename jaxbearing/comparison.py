@@ -1,4 +1,4 @@
-"""The verb that sets makers' friction formulas beside the physics of a scene."""
+"""The verb `compare`: makers' friction formulas beside the computed losses of a scene."""
 
 import os
 from typing import TYPE_CHECKING
@@ -20,22 +20,22 @@ def compare(
     *,
     catalogue: Catalogue | None = None,
 ) -> Comparison:
-    """Makers' friction formulas beside the losses of a scene: SKF, Palmgren with the constants of INA and of Timken,
-    Timken's for tapered bearings.
+    """Compares makers' friction formulas with the computed losses of a scene: SKF's, Palmgren's with the constants of
+    INA and of Timken, and Timken's for tapered bearings.
 
         found = jb.compare("tapered_example", catalogue=jb.Catalogue(designation="30206", outside_diameter=62e-3))
         found.physical.total, found["skf"].total, found["skf"].parts["rolling"], found["skf"].missing
 
-    The formulas are fits to catalogue bearings, they differ among themselves by two to three, and nothing of them
-    enters a result. A formula that does not cover the bearing, or lacks an input, has no total and says why.
+    The formulas are fits to catalogue bearings and differ from each other by a factor of two to three. They do not
+    change the solution. A formula that does not cover the bearing, or lacks an input, has no total and says why.
 
     **Arguments:**
-    - `scene`: a bearing, or a scene file or the name of a built-in scene, whose table [catalogue] counts.
-    - `solution`: of the scene; not given: it is solved.
-    - `catalogue`: the bearing as a catalogue names it; not given: that of the file, else what the scene says.
+    - `scene`: a bearing, a scene file or the name of a built-in scene. The table [catalogue] of the file is used.
+    - `solution`: of the scene; not given: the scene is solved.
+    - `catalogue`: designation and catalogue data of the bearing; not given: those of the file, else of the scene.
 
     **Raises:** `SolveError` where the solve fails; `TypeError` for a scene that is no bearing; `ValueError` for a
-    solution that did not converge, or of a batch; `SceneError` for a file that cannot be read.
+    solution that did not converge or that is a batch; `SceneError` for a file that cannot be read.
     """
     if not isinstance(scene, AbstractScene):
         source = os.fspath(scene)

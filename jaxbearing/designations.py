@@ -1,6 +1,6 @@
-"""Grammar of bearing designations such as 6205-2RSH, NU 311 or 32008 X: family, series, bore code and suffixes.
+"""Parser of bearing designations such as 6205-2RSH, NU 311 or 32008 X: family, series, bore code and suffixes.
 
-It knows no dimensions: `catalogue` adds these, `makers` the names of the makers' tables of constants.
+Dimensions are in `catalogue`, and the names of the makers' tables of constants in `makers`.
 """
 
 import re
@@ -13,12 +13,12 @@ ANGULAR_CONTACT = ("70", "72", "73", "718", "719")
 DOUBLE_ROW = ("32", "33")
 TAPERED = ("302", "303", "313", "320", "322", "323", "329", "330", "331", "332")
 CYLINDRICAL = ("10", "12", "19", "20", "22", "23", "30", "2", "3", "4")
-"""Series of the families."""
+"""Series of cylindrical roller bearings; the constants above have those of the other families."""
 CYLINDRICAL_TYPES = ("NUP", "NU", "NJ", "NF", "N")
 INCH = ("LL", "LM", "L", "HM", "HH", "H", "M")
-"""Letters of tapered roller bearings of inch sizes."""
+"""Prefix letters of inch-size tapered roller bearings."""
 _END = r"(?!\d(?!RS|RZ|Z|HRS|BRS|ELS))"
-"""No further digit of the number: the 2 of 2RS and 2Z belongs to the seals."""
+"""End of the bore code: no further digit follows, except the 2 of a seal suffix such as 2RS or 2Z."""
 _SEALS = r"2?RSR|2?RSH|2?RSL|2?RS1|2?RS2|2?RST|2?RSD|2?RS|2?RZ|2?HRS|2?BRS|2?ELS|2?RU|2?RD|2?NSE|"
 _SEALS += r"LLU|LLB|LLH|LLC|DDU|DDW|DD|DU|LU|LB|LH|LS|VV|ZZ|2?Z"
 _CAGES = r"TV[PH]B?\d?|TYN|TYP|TY|TNH|TNG|TN\d*|TPA|TP(?!\d)|TA|TB|TR|T\d*|MP(?!\d)[AB]?|ML|MR|M[AB]?\d?[AB]?|F[1AP]|"
@@ -38,23 +38,24 @@ _OF_FAMILY = {
     "cylindrical": (("bore", r"K(?=C[2-5]|\b)"), ("other", r"NR|N(?![UJF\d])")),
     "tapered": (("other", r"U(?=R|\b)|ST"),),
 }
-"""Kinds and patterns of the suffixes that only one family has."""
+"""Family -> kinds and patterns of the suffixes that only this family has."""
 _SETS = r"D[BFTG](?:(?:EL|L|M|H)(?=P\d|\b))?|[TQ]BT|TFT|Q[BF]C"
 _FOR_SETS = r"[SD]?U(?:EL|[AOLMHX])|C[ABC]|G[ABCLNMH]"
-"""Suffixes of sets of bearings, and of angular contact bearings that are ground for sets, with classes of clearance or
-preload."""
+"""Patterns of the suffixes of bearing sets (`_SETS`), and of angular contact bearings that are ground for sets, with
+classes of clearance or preload (`_FOR_SETS`)."""
 _ANGLES: dict[str, tuple[str, float]] = {}
 _ANGLES |= dict.fromkeys(("ACD", "ACE", "AC"), ("AC", 25.0)) | dict.fromkeys(("CD", "CE", "C"), ("C", 15.0))
 _ANGLES |= dict.fromkeys(("B", "BE", "BEP"), ("B", 40.0)) | {"A15": ("", 15.0), "A": ("", 30.0)}
 _ANGLES |= dict.fromkeys(("E", "A25", "A5", "AD"), ("", 25.0))
-"""Suffix of an angular contact bearing -> letters of its series, contact angle, degrees. A is of NSK and SKF, A5 of
-NSK, AD of NTN, E of Schaeffler."""
+"""Suffix of an angular contact bearing -> letters that belong to its series, and contact angle, degrees. A is used by
+NSK and SKF, A5 by NSK, AD by NTN, E by Schaeffler."""
 _ANGLE = r"ACD|ACE|AC|A15|A25|A5|AD|A|CD|CE|BEP|BE|B|E|C(?![N2-5](?!\d))"
-"""C2 to C5 and CN are classes of clearance."""
+"""Pattern of the suffixes in `_ANGLES`. C2 to C5 and CN are excluded: they are clearance classes."""
 _PREFIXES = r"(HR|4T|ET) ?(?=3\d)|(HCB|B)(?=7\d)|(E2|W|S) ?(?=6\d)"
-"""Prefixes of makers: of tapered roller bearings, of spindle bearings, of deep groove ball bearings."""
+"""Makers' prefixes: one group each for tapered roller, spindle and deep groove ball bearings."""
 _STEEP = re.compile(r"303([01]\d) ?D(?=[JUR]|D[BFT]|\b)")
-"""NSK, NTN and JTEKT name a 313 so: to 95 mm both series have the same boundary dimensions."""
+"""Pattern of NSK, NTN and JTEKT for bearings of series 313, such as 30306 D for 31306. Up to 95 mm bore, series 303 and
+313 have the same boundary dimensions."""
 
 
 class Reading(NamedTuple):
@@ -63,10 +64,10 @@ class Reading(NamedTuple):
     **Arguments:**
     - `family`: "deep_groove", "angular_contact", "four_point", "cylindrical", "cylindrical_full" or "tapered".
     - `design`: type of a cylindrical roller bearing, such as "NU"; empty for others.
-    - `series`: such as "62" or "302"; of an inch-size bearing its letters.
+    - `series`: such as "62" or "302"; for an inch-size bearing, its letters.
     - `code`: bore code; empty for an inch-size bearing.
-    - `rest`: the suffixes, with a space between those that stood apart.
-    - `prefix`: that of a maker, such as "HR".
+    - `rest`: the suffixes, still with the spaces between them.
+    - `prefix`: prefix of a maker, such as "HR".
     """
 
     family: str
@@ -78,7 +79,7 @@ class Reading(NamedTuple):
 
     @property
     def bore(self) -> float | None:
-        """By the bore code, mm."""
+        """Bore by the bore code, mm; `None` without a code."""
         return bore_of(self.code) if self.code else None
 
 
@@ -86,13 +87,13 @@ class Suffixes(NamedTuple):
     """The suffixes of a designation.
 
     **Arguments:**
-    - `letters`: those that belong to the series: "B", "AC" or "C" of angular contact, "X" or "B" of tapered (C of NSK
-      and NTN is B of others), "A" or "B" of double row bearings.
+    - `letters`: letters that belong to the series: "B", "AC" or "C" of single row angular contact bearings, "A" or "B"
+      of double row ones, "X" or "B" of tapered bearings (the C of NSK and NTN is the B of other makers).
     - `angle`: contact angle of a single row angular contact bearing, degrees, if the suffix states one.
     - `reinforced`: True for E or EC of a cylindrical roller bearing.
-    - `marks`: kind and text of each prefix and suffix that is known; kinds are "prefix", "angle", "set", "clearance",
+    - `marks`: kind and text of each known prefix and suffix; kinds are "prefix", "angle", "set", "clearance",
       "tolerance", "ceramic", "seal", "cage", "bore" and "other".
-    - `unread`: the rest.
+    - `unread`: the characters that are not recognised.
     """
 
     letters: str
@@ -103,7 +104,7 @@ class Suffixes(NamedTuple):
 
     @property
     def seal(self) -> tuple[str, int]:
-        """Name of the seal, "RSH" of 2RSH, and the number of seals; "", 0 without one."""
+        """Name and number of the seals: "RSH" and 2 for 2RSH; "" and 0 if there are none."""
         text = next((text for what, text in self.marks if what == "seal"), "")
         if text in ("ZZ", "VV"):
             return text[0], 2
@@ -148,7 +149,7 @@ def _of_number(text: str) -> Iterator[Reading]:
 
 def _of_balls(text: str, family: str, series: str) -> Iterator[Reading]:
     codes = [rf"\d\d{_END}", r"/\d+", rf"\d{_END}"] if family == "deep_groove" else [rf"\d\d{_END}"]
-    # bores below 10 mm of the thin series, of 22, 28 and 32 mm, and from 500 mm on stand after a stroke
+    # a slash precedes bores of 22, 28 and 32 mm and from 500 mm, and in series of three digits those below 10 mm
     for code in codes[:2] if len(series) == 3 else codes:
         match = re.match(rf"{series}({code})(.*)", text)
         if match:
@@ -156,8 +157,8 @@ def _of_balls(text: str, family: str, series: str) -> Iterator[Reading]:
 
 
 def bore_of(code: str) -> float:
-    """Bore, mm, of a bore code: "00" to "03" are 10, 12, 15 and 17 mm, other numbers a fifth of the bore; one digit,
-    or a number after a stroke, is the bore itself."""
+    """Bore, mm, by the bore code. "00" to "03" are 10, 12, 15 and 17 mm; other two-digit codes are a fifth of the bore;
+    one digit, or a number after a slash, is the bore itself."""
     if code.startswith("/"):
         return float(code[1:])
     if len(code) == 1:
@@ -167,7 +168,7 @@ def bore_of(code: str) -> float:
 
 
 def suffixes(reading: Reading) -> Suffixes:
-    """The suffixes of a designation that was read so."""
+    """Splits the suffixes of a designation (`Reading.rest`)."""
     rest, letters, angle, reinforced = reading.rest, "", None, False
     before = [("prefix", reading.prefix)] if reading.prefix else []
     if reading.family == "cylindrical" and rest.startswith("E"):
@@ -180,14 +181,15 @@ def suffixes(reading: Reading) -> Suffixes:
             before.append(("angle", match[0]))
             letters, rest = "" if match[0] == "D" else "B", rest[1:]
         elif rest.startswith("X"):
-            # of the metric design: a mark of its own
+            # X (metric design) stays in the rest: it is also a mark
             letters = "X"
     marks, unread = _marks(reading.family, rest)
     return Suffixes(letters, angle, reinforced, (*before, *marks), unread)
 
 
 def _row(series: str, rest: str) -> tuple[str, float | None, str]:
-    """Letters of the series, contact angle and the suffixes that are left, of an angular contact ball bearing."""
+    """Letters that belong to the series, contact angle, degrees, and remaining suffixes of an angular contact ball
+    bearing."""
     if series in DOUBLE_ROW:
         return (rest[:1], None, rest[1:]) if rest.startswith(("A", "B")) else ("", None, rest)
     match = re.match(_ANGLE, rest)

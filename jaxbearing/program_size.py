@@ -1,4 +1,4 @@
-"""The size of the program that a solve compiles, what compiling it costs, and how other programs compile as fast."""
+"""Size and compile time of the program of a solve, and options to compile other programs as quickly."""
 
 import time
 from typing import Any, NamedTuple
@@ -13,14 +13,15 @@ from .solve import require_solvable, solve
 
 
 class CompileReport(NamedTuple):
-    """The program of `jb.solve` for a scene. Counts are the same on every machine; seconds are processor seconds.
+    """Size and compile time of the program of `jb.solve` for a scene. Counts are the same on every machine; times are
+    processor times.
 
     **Arguments:**
-    - `equations`: traced, inner functions and loop bodies counted once each.
-    - `lines`: of the program lowered to StableHLO: what a change of a model adds to the compiler's work.
-    - `tracing`: tracing and lowering, s.
-    - `optimised`: compiling with all optimisations, as `jit_solver` does, s; `None`: not asked for.
-    - `quick`: compiling quickly, as a first `jb.solve` does, s; `None`: not asked for.
+    - `equations`: number of traced equations; each inner function and loop body counts once.
+    - `lines`: number of lines of the program in StableHLO, a measure of the compiler's work.
+    - `tracing`: time to trace and lower the program, s.
+    - `optimised`: time to compile it with all optimisations, as `jit_solver` does, s; `None`: not asked for.
+    - `quick`: time to compile it quickly, as a first `jb.solve` does, s; `None`: not asked for.
     """
 
     equations: int
@@ -31,9 +32,9 @@ class CompileReport(NamedTuple):
 
 
 def compile_report(scene: object, compile: bool = True) -> CompileReport:
-    """Traces, lowers and compiles the solve of a scene anew, whatever is compiled or kept already.
+    """Traces, lowers and compiles the solve of a scene anew, even if a compiled program is cached.
 
-    **Arguments:** `compile`: whether to compile too, which takes seconds; without it only the counts are found.
+    **Arguments:** `compile`: False to leave out compiling, which takes seconds.
 
     **Raises:** `TypeError` for a kind of scene that cannot be solved.
     """
@@ -60,16 +61,16 @@ def compile_report(scene: object, compile: bool = True) -> CompileReport:
 
 
 def quick_compile_options() -> dict[str, Any]:
-    """Options with which `jax.jit(f, compiler_options=...)` compiles as a first `jb.solve` does.
+    """Options with which `jax.jit(f, compiler_options=...)` compiles as quickly as a first `jb.solve`.
 
-    On a CPU a derivative of a solve is then compiled in about a fifth of the time, and runs 2 to 5 times slower; on
-    other devices there are no options. JAX takes them from the outermost `jax.jit` only.
+    On a CPU a derivative of a solve then compiles in about a fifth of the time, and runs 2 to 5 times slower. On other
+    devices the options are empty. JAX uses those of the outermost `jax.jit` only.
     """
     return quick_options() if jax.default_backend() == "cpu" else {}
 
 
 def _equations(jaxpr: Jaxpr, seen: set[int]) -> int:
-    """Number of equations of a program with those inside of it; a function that is called twice counts once."""
+    """Number of equations of a program, including its inner functions; a function that is called twice counts once."""
     if id(jaxpr) in seen:
         return 0
     seen.add(id(jaxpr))

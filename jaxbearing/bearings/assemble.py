@@ -33,9 +33,9 @@ from .supplied import supply_result
 
 
 class Results(NamedTuple, Generic[Elements, Losses]):
-    """Results that a family computes. They have the names of the fields of `Solution`, but for `totals`, the losses and
-    torques, and `facts`, the quantities that the range checks need. `assemble` sets the numbers to NaN if the solve
-    failed."""
+    """Results that a family computes. `totals` holds the losses and torques, and `facts` the quantities that the range
+    checks need; all other fields have the names that they have in `Solution`. `assemble` sets the numbers to NaN if the
+    solve failed."""
 
     elements: Elements
     totals: FrictionTotals[Losses]
@@ -62,23 +62,23 @@ def assemble(
     applies. The operating point, the checks of inputs, the notes, and the data on how the solve ended remain.
 
     **Arguments:**
-    - `scene`: the bearing; `result`: result of Newton's iteration; `results`: what the family computed.
+    - `scene`: the bearing; `result`: result of Newton's iteration; `results`: results that the family computed.
+    - `ring`: displacement of the inner ring to be shown in the results.
     - `port`: load and stiffness of the ring in all five degrees of freedom, and the names of the degrees of freedom
       that were unknowns.
-    - `ring`: displacement of the inner ring that results show.
-    - `iterations`: steps of all solves that this bearing needed; by default those of `result`.
+    - `iterations`: number of steps of all solves that this bearing needed; by default that of `result`.
     - `failure_causes`: possible causes of a failed solve (`Solution.failure_causes`).
     - `names`: further fields of the `Solution`: always `ring_freedom` and `equation_names`, and `stiffness_freedom` if
       it differs from `ring_freedom`.
     """
     good, nan = result.converged, jnp.asarray(jnp.nan)
-    # the ring is held if no freedom was an unknown; `held_freedom` names each freedom that was not
+    # the ring is held if no degree of freedom was an unknown; `held_freedom` lists the modelled ones that were not
     held = not port.free
     modelled = names.get("stiffness_freedom") or names["ring_freedom"]
     names["held_freedom"] = tuple(name for name in RING_FREEDOMS if name in modelled and name not in port.free)
     own = results._asdict()
     facts, totals = own.pop("facts"), own.pop("totals")
-    # the first contacts are those of the raceways, whose oil the supply is about
+    # the first contacts are those of the raceways, and the supply is that of their oil
     own["supply"] = supply_result(scene, facts.contacts[0].load, facts.contacts[0].starved)
     shown = own | totals._asdict() | {"ring": ring, "force": port.force, "stiffness": port.stiffness}
     by_race = totals.rolling_by_race

@@ -1,13 +1,13 @@
-"""Base class of all bearing scenes. It defines what a bearing family implements, and which degrees of freedom (short:
-degrees of freedom) of the inner ring are unknown. A family is a kind of bearing, such as ball or cylindrical roller
-bearings; a folder beside this file holds it.
+"""Base class of all bearing scenes. It defines the methods that a bearing family implements, and which degrees of
+freedom of the inner ring are unknown. A family is a kind of bearing, such as ball or cylindrical roller bearings; a
+folder beside this file holds it.
 
 Terms: a *scene* is the complete description of a problem. The *port* is the point of the inner ring at which loads and
-displacements are exchanged with a shaft (see `ring`). The *row* of a bearing is the simplified model of its rolling
-elements without films and friction. The equilibrium of a shaft is first sought with it. The *seats* are the surfaces of
-shaft and housing that the rings sit on; their fits are in `[fits]` of a scene file. The *load line* is the radial
-direction at azimuth 0. A tilt is *exact* if the grooves move with the rotation of the ring, and linearised if they move
-with its first-order displacement.
+displacements are exchanged with a shaft (see `ring`). The *row* of a bearing is a simplified model of its rolling
+elements without films and friction; the search for the equilibrium of a shaft starts with it. The *seats* are the
+surfaces of shaft and housing that the rings sit on; their fits are in `[fits]` of a scene file. The *load line* is the
+radial direction at azimuth 0. A tilt is *exact* if the grooves move by the full rotation of the ring, and linearised if
+they move by its first-order displacement.
 """
 
 import abc
@@ -50,10 +50,10 @@ Bearing = TypeVar("Bearing", bound="AbstractBearing")
 
 
 class AbstractBearing(AbstractScene):
-    """Base of all bearings, whose inner ring has the degrees of freedom of `solution.RING_FREEDOMS`, or some of them.
+    """Base of all bearings. The inner ring has the degrees of freedom of `solution.RING_FREEDOMS`, or some of them.
 
-    A family is a folder beside this file. Its scene class implements the solve, under given loads or with a ring that
-    is held (`solve_ring`), the range checks of the family, and the inputs of the life.
+    A family is a folder beside this file. Its scene class implements the solve under given loads or with a held ring
+    (`solve_ring`), the range checks of the family, and the inputs of the life calculation.
     """
 
     element: ClassVar[str] = "roller"
@@ -61,7 +61,7 @@ class AbstractBearing(AbstractScene):
     yield_pressure: ClassVar[float] = ROLLER_PRESSURE
     """Hertz pressure beyond which elements and races yield, Pa."""
     required_part: ClassVar[str] = "traction on the raceways"
-    """Name, for messages, of the part of the model without which the `unused_parts` of a scene have no effect."""
+    """Name of the part of the model that the `unused_parts` of a scene need to have an effect, for messages."""
 
     # a type checker lets a family narrow a field of this class only if it is Any here
     geometry: eqx.AbstractVar[Any]
@@ -92,7 +92,9 @@ class AbstractBearing(AbstractScene):
         return simulate_warm_up(self, duration, **settings)
 
     def check_restart(self, restart: object, duration: float | None = None) -> None:
-        """**Raises:** `TypeError` or `ValueError` if a run of this scene cannot go on from that state."""
+        """Checks that a run of this scene can continue from a state.
+
+        **Raises:** `TypeError` or `ValueError` if it cannot."""
         if self.thermal is None:
             raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; simulate takes: {SIMULATED}")
         from .warming.runs import check_restart
@@ -100,12 +102,12 @@ class AbstractBearing(AbstractScene):
         check_restart(self, restart)
 
     def solved_running(self, solve: "Callable[[AbstractBearing], Solution]") -> Solution:
-        """Solves the bearing with its running dimensions. With fits, the dimensions change by the fits, the
-        temperatures and the speed; without fits they stay as given. With a thermal network the temperatures are
-        unknowns too.
+        """Solves the bearing with its running dimensions. If the scene has fits, these and the temperatures and speeds
+        change the dimensions; without fits they stay as given. With a thermal network the temperatures are unknowns
+        too.
 
-        If the fits are impossible, the solve gets an operating point of NaN, so that it ends at once and fails. The
-        solution shows the given operating point.
+        If the fits are impossible, the solve gets an operating point of NaN, so that it fails at once. The solution
+        still shows the given operating point.
 
         **Arguments:** `solve`: function that solves a scene with neither a thermal network nor fits.
         """
@@ -131,7 +133,7 @@ class AbstractBearing(AbstractScene):
         )
 
     def settled(self: Bearing, solution: Solution) -> Bearing:
-        """The scene at the temperatures of its solution; unchanged without a thermal network."""
+        """Returns the scene at the temperatures of its solution; without a thermal network, the scene unchanged."""
         return settled(self, solution)
 
     @property
@@ -146,7 +148,7 @@ class AbstractBearing(AbstractScene):
 
     @abc.abstractmethod
     def play(self, growth: Growth) -> Play:
-        """The play of the bearing after fits, temperatures and speed have changed its parts."""
+        """Returns the play of the bearing after fits, temperatures and speed have changed its parts."""
 
     @abc.abstractmethod
     def grown(self: Bearing, growth: Growth) -> Bearing:
@@ -223,13 +225,13 @@ class AbstractBearing(AbstractScene):
         return self.drawing_angle
 
     def point_contacts(self, elements: Any) -> PointContact | None:
-        """Raceway contacts of a solution as point contacts, shape (2 races, element); `None` for line contacts, which
-        is the answer here. Families with point contacts override it."""
+        """Raceway contacts of a solution as point contacts, shape (2 races, element). This base method returns `None`,
+        for line contacts; families with point contacts override it."""
         return None
 
     def race_lines(self, elements: Any) -> LineContact | None:
-        """Raceway contacts as uniformly loaded line contacts, shape (2 races, 1); `None` for point contacts, which is
-        the answer here. Families with line contacts override it."""
+        """Raceway contacts as uniformly loaded line contacts, shape (2 races, 1). This base method returns `None`, for
+        point contacts; families with line contacts override it."""
         return None
 
     @property
@@ -243,8 +245,8 @@ class AbstractBearing(AbstractScene):
         return True
 
     def film_growth(self, load: Array) -> Array:
-        """Thickness of the films of both raceways together, m, under a load on the bearing, N; 0 of families whose
-        models may always tilt.
+        """Sum of the film thicknesses on both raceways, m, under a load on the bearing, N. Only families whose models
+        cannot always tilt need it; this base method returns 0.
         """
         return jnp.zeros(())
 
@@ -256,8 +258,9 @@ class AbstractBearing(AbstractScene):
     @property
     @abc.abstractmethod
     def port_distance(self) -> Array:
-        """Distance along the axis $e_x$ from the port to the point of the ring at which the family writes its
-        equations, m. The field `ring` of a solution of the bearing alone gives the displacement of that point."""
+        """Distance along the axis $e_x$ from the port to the point of the ring for which the family writes its
+        equations, m. If the bearing is solved alone, the field `ring` of the solution gives the displacement of that
+        point."""
 
     @property
     @abc.abstractmethod
@@ -273,8 +276,9 @@ class AbstractBearing(AbstractScene):
         """Notes for the user: assumptions of the model, and uses that the data of the scene do not cover."""
 
     def with_lateral_freedom(self: Bearing) -> Bearing:
-        """The scene with the radial and the lateral displacement of the ring as unknowns, which the stiffness of a
-        shaft support requires. Families with fewer unknowns override it; here the scene is returned unchanged."""
+        """Returns the scene with both the radial and the lateral displacement of the ring as unknowns, as the stiffness
+        of a shaft support requires. Families with fewer unknowns override it; this base method returns the scene
+        unchanged."""
         return self
 
     @property
@@ -284,18 +288,19 @@ class AbstractBearing(AbstractScene):
 
     @property
     def skewed(self) -> bool:
-        """True if loads, given displacements or the positions of the elements can move the ring off the load line."""
+        """True if the ring can move across the load line, because of its loads, its given displacements or the
+        positions of the rolling elements."""
         operation: AbstractOperation = self.operation
         return operation.skewed or self.geometry.first_element_angle is not None
 
     @property
     def unknown_freedoms(self) -> tuple[str, ...]:
-        """Degrees of freedom of the inner ring that are unknowns of a solve, under given loads.
+        """Degrees of freedom of the inner ring that are unknowns of a solve under given loads.
 
-        A freedom that the bearing does not resist (`modelled_freedoms`) is left out, and so is one whose displacement
-        is given or that symmetry keeps at 0. If all rolling elements are loaded alike, only the axial one of the three
-        displacements remains. If the load line is a line of symmetry, the lateral freedom is left out. A tilt is an
-        unknown only if its moment is given; otherwise the tilt is given, and 0 if the scene says nothing.
+        A degree of freedom is left out if the bearing does not resist it (`modelled_freedoms`), if its displacement is
+        given, or if symmetry keeps it at 0: if all rolling elements are loaded alike, of the three displacements only
+        the axial one remains, and if the load line is a line of symmetry, the lateral one is left out. A tilt is an
+        unknown only if its moment is given; otherwise it is prescribed, by default as 0.
         """
         operation: AbstractOperation = self.operation
         forces = ["axial"]

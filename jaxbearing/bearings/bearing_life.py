@@ -1,4 +1,4 @@
-"""From a scene and its solution to the life: the laws for the contacts that the scene states."""
+"""Life of a bearing from its scene and its solution, or from its scene alone."""
 
 import dataclasses
 from collections.abc import Callable
@@ -44,7 +44,7 @@ from .rating import CATALOGUE_CONFORMITY, Rating, rated_laminae
 from .solution import Solution
 
 FEWEST_LAMINAE = 30
-"""Laminae that ISO 16281 asks for at least."""
+"""Least number of laminae that ISO 16281 asks for."""
 
 STEEP_WARNING = Information(
     "contact angle above 45 degrees: the X and Y of radial ball bearings end there, and there is no L10; L10r holds "
@@ -69,7 +69,8 @@ AnySolution = TypeVar("AnySolution", bound=AbstractSolution)
 
 
 class Rated(NamedTuple):
-    """Ratings of a bearing, and the rate at which its contacts take damage."""
+    """Load ratings of a bearing, N, its equivalent loads, N, and the damage rate of its contacts, per million
+    revolutions."""
 
     family: Family
     dynamic_capacity: Array
@@ -82,7 +83,7 @@ class Rated(NamedTuple):
 
 
 def with_life(scene: AbstractScene, solution: AnySolution) -> AnySolution:
-    """The solution of a bearing with the life in it where the scene has a rating; any other as it is."""
+    """Adds the life to the solution of a bearing whose scene has a rating; returns any other solution unchanged."""
     if not isinstance(scene, AbstractBearing) or not isinstance(solution, Solution) or scene.rating is None:
         return solution
     by_class = scene.rating.cleanliness is not None
@@ -104,7 +105,8 @@ def with_life(scene: AbstractScene, solution: AnySolution) -> AnySolution:
 
 
 def ineffective_inputs(scene: AbstractBearing, life: Life) -> list[Information]:
-    """Notes on fields of the rating without effect: they need what the scene lacks, or belong to another kind."""
+    """Notes on fields of the rating that have no effect, because the scene lacks an input that they need or because
+    they belong to another kind of bearing."""
     rating = scene.rating
     assert rating is not None
     if not scene.line_contacts:
@@ -130,10 +132,10 @@ def ineffective_inputs(scene: AbstractBearing, life: Life) -> list[Information]:
 
 
 def bearing_life(scene: object, solution: Solution) -> Life:
-    """Life from the contact loads of a solution, pure; NaN where the solve failed.
+    """Life from the contact loads of a solution; pure. It is NaN if the solve failed.
 
-    Needs `scene.rating`. The modified life takes the viscosity ratio, and the load ratio at `equivalent_load`, for the
-    bearing as a whole ([M]: the standard does so contact by contact).
+    Needs `scene.rating`. The modified life uses one viscosity ratio and one load ratio, that of `equivalent_load`, for
+    the whole bearing ([M]: the standard evaluates them contact by contact).
 
     **Raises:** `TypeError` for a kind of bearing without a life; `ValueError` for a scene without a rating.
     """
@@ -143,7 +145,7 @@ def bearing_life(scene: object, solution: Solution) -> Life:
         raise ValueError("bearing_life needs a scene with a rating, got one without")
     rating: Rating = scene.rating
     good = solution.converged
-    # a lane that failed has finite numbers in the formulas, so that its NaN reaches no derivative of another
+    # if the solve failed, the formulas get finite numbers, so that NaN reaches no derivative of other lanes of a batch
     solid = jax.tree.map(lambda leaf: jnp.where(good, leaf, 1.0), (solution.elements, solution.laminae))
     operation, heavier = scene.operation, on_heavier_flanks(solid[0])
     speed = jnp.asarray(operation.inner_speed) - operation.outer_speed
@@ -155,7 +157,7 @@ def bearing_life(scene: object, solution: Solution) -> Life:
     rate = rated.damage_rate
     loaded = rate > 0
     safe_rate = jnp.where(loaded, rate, 1.0)
-    # a rate that is NaN (no loads) has no life, not an endless one
+    # a rate of NaN (no loads) gives a life of NaN, not an infinite one
     reference = jnp.where(loaded, 1.0 / safe_rate, jnp.where(rate == 0, jnp.inf, jnp.nan))
     equivalent = jnp.where(loaded, rated.dynamic_capacity * safe_rate ** (1.0 / exponent), 0.0 * rate)
     hours = lambda revolutions: revolutions * HOURS / jnp.abs(speed)
@@ -198,11 +200,11 @@ def bearing_life(scene: object, solution: Solution) -> Life:
 
 
 def catalogue_life(scene: AbstractBearing) -> CatalogueLife:
-    """Life of ISO 281 under the loads that the scene gives, without a solve: also of loads without an equilibrium, such
-    as a radial load alone on a tapered roller bearing, whose axial force an opposed bearing gives.
+    """Life of ISO 281 under the loads of the scene, without a solve. The bearing alone need not be in equilibrium, as
+    for a purely radial load on a tapered roller bearing, where an opposed bearing supplies the axial force.
 
-    NaN where the catalogues' formulas have none: under a moment, with a given displacement, with an axial load on
-    flanges or in the direction in which the bearing carries none.
+    The life is NaN in cases that the formulas of catalogues do not cover: a moment, a given displacement, an axial load
+    on flanges, or an axial load in a direction in which the bearing carries none.
 
     **Raises:** `ValueError` for a scene without a rating.
     """
@@ -220,7 +222,8 @@ def catalogue_life(scene: AbstractBearing) -> CatalogueLife:
 
 
 def _turning(operation: AbstractOperation) -> tuple[Bool[Array, ""], Bool[Array, ""]]:
-    """True if the inner and the outer ring turn against the load, which stands still; the inner one where none does."""
+    """Tests whether the inner and the outer ring turn relative to the stationary load. If both rings are at rest, the
+    inner ring counts as turning."""
     inner, outer = (jnp.asarray(value) != 0.0 for value in (operation.inner_speed, operation.outer_speed))
     return inner | ~outer, outer
 
@@ -228,8 +231,8 @@ def _turning(operation: AbstractOperation) -> tuple[Bool[Array, ""], Bool[Array,
 def _viscosity_ratio(
     scene: AbstractBearing, rating: Rating, pitch_diameter: Array, speed: Array
 ) -> Float[Array, ""] | None:
-    """kappa as given, or from the oil at its inlet temperature; where the raceways have temperatures of their own at
-    that of the hotter one. `None` where the scene says neither."""
+    """Viscosity ratio kappa, as given or computed from the oil at its inlet temperature; if the oil of each raceway has
+    a temperature of its own, at the higher of these. `None` if kappa is not given and cannot be computed."""
     if rating.viscosity_ratio is not None:
         return jnp.asarray(rating.viscosity_ratio)
     oil: Lubricant | None = scene.oil
@@ -243,7 +246,7 @@ def _viscosity_ratio(
 
 
 def _cleanliness(rating: Rating, kappa: Array, pitch_diameter: Array) -> Array:
-    """e_C as given, or by its class."""
+    """Contamination factor e_C, as given or of the contamination class."""
     if rating.cleanliness is None:
         return jnp.asarray(rating.contamination_factor)
     return contamination_factor(kappa, pitch_diameter, rating.cleanliness)
@@ -254,7 +257,9 @@ def _given(value: Scalar | None, computed: Callable[[], Array]) -> Array:
 
 
 def rated_by(contacts: RatedContacts, rating: Rating, turns: tuple[Array, Array]) -> Rated:
-    """**Arguments:** `turns`: whether the inner and the outer ring turn against the load."""
+    """Ratings, equivalent loads and damage rate of the contacts of a bearing.
+
+    **Arguments:** `turns`: whether the inner and the outer ring turn relative to the load."""
     return (_of_points if contacts.length is None else _of_lines)(contacts, rating, turns)
 
 
@@ -262,7 +267,7 @@ def _of_points(contacts: RatedContacts, rating: Rating, turns: tuple[Array, Arra
     assert contacts.conformities is not None
     sizes = (contacts.n_elements, contacts.diameter, contacts.pitch_diameter, jnp.asarray(contacts.contact_angle))
     modulus = rated_modulus(contacts.rings, contacts.elements, contacts.inner_ring)
-    # the ratings' grooves; those that share the damage between the races are the bearing's own
+    # the conformities of the ratings; the damage is split between the races with the bearing's own conformities
     rated = contacts.conformities if rating.grooves == "scene" else (CATALOGUE_CONFORMITY,) * 2
     capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *rated))
     static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0], modulus))
@@ -278,13 +283,13 @@ def _of_points(contacts: RatedContacts, rating: Rating, turns: tuple[Array, Arra
 
 
 def edge_weights(rating: Rating, profiled: bool, count: int) -> np.ndarray:
-    """f_k on the laminae: those of the standard, or 1."""
+    """Edge factors f_k of the laminae: those of the standard, or 1 if the rating or a profile switches them off."""
     wanted = not profiled if rating.edge_factor is None else rating.edge_factor
     return edge_factors(count) if wanted else np.ones(count)
 
 
 def even_laminae(load: Float[Array, " element"], count: int) -> Float[Array, "element lamina"]:
-    """Loads of the laminae of rollers that carry evenly along their length."""
+    """Loads of the laminae of rollers whose load is uniform along their length."""
     return jnp.broadcast_to(load[:, None] / count, (load.shape[0], count))
 
 

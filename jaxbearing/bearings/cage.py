@@ -17,37 +17,38 @@ from .parts import AbstractGeometry, check_between
 
 Ends = Callable[[], tuple[Scalar, Scalar]]
 ASSUMED_LANDS = 2
-"""Number of cage lands, where a scene does not give it."""
+"""Number of cage lands if the scene does not give it."""
 ASSUMED_MATERIAL = "bronze"
-"""Material of a moving cage for which the scene gives none."""
+"""Material of a moving cage if the scene does not give one."""
 
 
 Geometry = TypeVar("Geometry", bound=AbstractGeometry)
-"""Class of the dimensions of a bearing family."""
+"""Geometry class of a bearing family."""
 
 
 class AbstractCage(Checked, Generic[Geometry]):
-    """One-piece cage, guided by one ring on `n_lands` lands. It has the fields too, against the habit of this
-    package: they are the same in every cage, and so are their checks.
+    """One-piece cage, guided by one ring on `n_lands` lands. Unlike other base classes of this package, this one holds
+    the fields, because they and their checks are the same for all cages.
 
     **Arguments:**
-    - `guidance`: "inner_ring" or "outer_ring".
+    - `guidance`: ring that guides the cage, "inner_ring" or "outer_ring".
     - `guiding_clearance`: DIAMETRAL clearance of the lands, m, > 0.
-    - `pocket_clearance`: of a rolling element in its pocket, m, > 0: of balls DIAMETRAL, of rollers TOTAL
-      circumferential.
-    - `land_width`: of ONE land, m.
-    - `inner_diameter`, `outer_diameter`: of the cage, m; assumed from the size of the elements where not given.
-    - `n_lands`: number of lands; 2 where not given.
-    - `turbulence`: flow regime of the lands.
+    - `pocket_clearance`: clearance of a rolling element in its pocket, DIAMETRAL for balls and TOTAL circumferential
+      for rollers, m, > 0.
+    - `land_width`: width of ONE land, m.
+    - `inner_diameter`: inner diameter of the cage, m; if not given, it is assumed from the pitch and element diameters.
+    - `outer_diameter`: outer diameter of the cage, m; if not given, it is assumed from the pitch and element diameters.
+    - `n_lands`: number of lands; 2 if not given.
+    - `turbulence`: flow regime of the land films.
     """
 
     part: ClassVar[str] = "cage"
     element: ClassVar[str]
     """Name of the rolling elements in the pockets."""
     assumed_inner: ClassVar[float]
-    """Bore = pitch diameter minus this times the element's diameter, where a scene does not give it."""
+    """Factor in the assumed bore: pitch diameter minus this factor times the element diameter."""
     assumed_outer: ClassVar[float]
-    """Outside diameter = pitch diameter plus this times the element's diameter, where a scene does not give it."""
+    """Factor in the assumed outside diameter: pitch diameter plus this factor times the element diameter."""
 
     guidance: Literal["inner_ring", "outer_ring"] = choice("cage.guidance", ("inner_ring", "outer_ring"))
     guiding_clearance: Scalar = number(bound="> 0", unit="m")
@@ -103,17 +104,19 @@ class AbstractCage(Checked, Generic[Geometry]):
         ]
 
     def check_fits(self, geometry: Geometry) -> None:
-        """**Raises:** `ValueError` where the cage cannot exist between the rings (where the numbers are known)."""
+        """Checks that the cage fits between the rings, as far as the numbers are known.
+
+        **Raises:** `ValueError` if it does not fit."""
         problems: dict[str, list[ValueError]] = {}
         for name, *limit in self._limits(geometry):
-            # the lands are as large as the bore says, where that is sound
+            # the limit of the guiding clearance follows from the bore, so it is checked only if the bore is accepted
             if name != "guiding_clearance" or not problems["inner_diameter"]:
                 problems[name] = list(refusals_of(_check_limit, name, *limit))
         refuse_all(error for found in problems.values() for error in found)
 
     def _limits(self, geometry: Geometry) -> Iterator[tuple[str, Scalar, Ends, str, str]]:
-        """Field, its value, what it must lie between, and these limits in words. Each limit is found by itself, so that
-        one is checked also where what another one needs is refused."""
+        """Yields for each limited field its name, its value, a function that returns the limits, and the limits in
+        words. As the limits are functions, a field can be checked even if an input of other limits was refused."""
         pitch, bore, outside = geometry.pitch_diameter, self.bore(geometry), self.outside(geometry)
 
         def neighbours() -> tuple[Scalar, Scalar]:

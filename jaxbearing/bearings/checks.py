@@ -1,10 +1,11 @@
-"""Range checks of every kind of bearing: where a result, or the scene itself, leaves what a law or a bearing is for.
+"""Range checks of all kinds of bearings: warnings if a result or an input lies outside the range of a law or of the
+usual use of a bearing.
 
-A steady solve states its contacts (`Contacts`, one row per place: inner raceway, outer raceway, rib). Every check, of
-this file or of the family (`RangeChecks` of its scene), maps a text to a number that is positive where the warning
-applies. Checks of contacts are stated for each place by itself, over its own loaded contacts: the centrifugal load on
-the outer raceway does not decide what counts on the inner one. A check adds nothing to a scene that does not model what
-it is about.
+A steady solve provides its contacts (`Contacts`, one row per place: inner raceway, outer raceway, rib). Every check, of
+this file or of the family (`RangeChecks` of its scene), maps a text to a number that is positive if the warning
+applies. Checks of contacts are evaluated for each place separately, over its own loaded contacts, so that the
+centrifugal load on the outer raceway does not decide which contacts count on the inner one. If a scene does not model
+the quantity that a check needs, the check adds no entry.
 """
 
 from collections.abc import Callable
@@ -27,33 +28,37 @@ from .ring_shape import AbstractBendingRing
 from .solution import CageState, RingDisplacement
 
 SKIDDING = 0.1
-"""Sliding along rolling over the rolling speed, from which on the laws made for rolling are extrapolated."""
+"""Ratio of sliding to rolling speed, both along the rolling direction, above which the laws for rolling are
+extrapolated."""
 EDGE_LOADED = 1.5
-"""Load per length at an end over the mean."""
+"""Load per length at a roller end over the mean, above which a warning is given."""
 LARGEST_TILT = 10e-3
-"""rad; the square of 10 mrad moves 100 mm by 5 um."""
+"""Largest tilt without a warning, rad. The second-order displacement, which the linear equations neglect, is 5 um over
+100 mm at this tilt."""
 ROUGH, HEAVY = 0.01, 0.5e9
-"""Load share of asperities, and Hertz pressure, Pa, above which the laws of the load share are known to a factor of
-10."""
+"""Load share of asperities, and Hertz pressure, Pa; if both are exceeded, the load share is known only to a factor
+of 10."""
 STARVED = 0.5
 """Film over flooded film below which a contact is strongly starved."""
 THICK_RIM = 0.2
-"""Thickness over the radius of the centroid circle from which on an outer ring is no thin ring: the curvature of its
-neutral fibre changes the stiffness by about the square of this, 4 %."""
+"""Thickness over radius of the centroid circle above which a ring is not thin: the curvature changes the stiffness by
+about the square of this ratio, 4 %."""
 MORE_THAN_WALL = 1.01
-"""Thickness of a flexible ring over the wall between its raceway and its seat, which a warning allows."""
+"""Thickness of a flexible ring over the wall between its raceway and its seat, above which a warning is given."""
 LARGEST_INTERFERENCE, LARGEST_CLEARANCE = 1e-3, 1e-2
-"""Limits over the pitch diameter: rings that are stretched by a thousandth carry 0.2 GPa; the widest classes of
-clearance are about a thousandth."""
+"""Largest interference and largest diametral clearance over the pitch diameter without a warning. Rings stretched by a
+thousandth have a stress of 0.2 GPa; the widest clearance classes are about a thousandth."""
 SLOWEST = 99.9 * 2.0 * np.pi / 60.0
-"""Speed of the rings against each other below which the lubricated models have no meaning, rad/s (100 rpm)."""
+"""Relative speed of the rings below which the lubricated models have no meaning, rad/s (just below 100 rpm)."""
 
 
 def result_excess(
     scene: AbstractBearing, facts: Facts, ring: RingDisplacement, cage: CageState | None, held: bool = False
 ) -> Excess:
-    """Excess of the results over the ranges of laws and bearings: text -> number, positive where it applies.
-    `held`: the ring is where it is told to be, whatever the loads of the scene."""
+    """Excess of the results over the ranges of laws and bearings: text of a warning -> number that is positive if it
+    applies.
+
+    **Arguments:** `held`: True if the displacement of the ring is prescribed and the loads of the scene do not act."""
     result, found = SolvedBearing(scene, facts, ring, cage, held), {}
     for check in (*scene.range_checks().results, *RESULT_CHECKS):
         found |= check(result)
@@ -61,7 +66,8 @@ def result_excess(
 
 
 def input_excess(scene: AbstractBearing, held: bool = False) -> Excess:
-    """Like `result_excess`, of the scene itself: to be said of failed solves, and of transient runs, too."""
+    """Like `result_excess`, but of the scene alone. These warnings also hold for failed solves and for transient
+    runs."""
     own, found = scene.range_checks(), {}
     for check in (*(() if held else own.loads), *own.inputs, *INPUT_CHECKS):
         found |= check(scene)
@@ -244,7 +250,7 @@ RESULT_CHECKS: tuple[Callable[[SolvedBearing], Excess], ...] = (
     _starved,
     _cage_touches,
 )
-"""The checks of results that all bearings have, in the order of the warnings; those of a family come first."""
+"""Checks of results for all bearings, in the order of the warnings. The checks of a family come before these."""
 
 # -- the scene itself -----------------------------------------------------------------------------------------------
 
@@ -316,4 +322,4 @@ INPUT_CHECKS: tuple[Callable[[AbstractBearing], Excess], ...] = (
     _thick_rim,
     _clearance,
 )
-"""The checks of scenes that all bearings have."""
+"""Checks of scenes for all bearings."""

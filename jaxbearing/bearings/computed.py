@@ -1,7 +1,7 @@
-"""Results that name the function which computes them from what a solve found.
+"""Result fields that carry the function which computes them from a record of the solve.
 
-A family's `steady` hands over the results that several kinds of its equations have, and what else it found as one
-record. A field of the family's results made by `computed` takes its result from there: nothing else names it.
+The module `steady` of a family collects the quantities of its solve in one record. A result field that is declared with
+`computed` is filled by applying its function to that record, so that its name is written only once, at the declaration.
 """
 
 import dataclasses
@@ -17,15 +17,16 @@ Found = TypeVar("Found")
 
 
 def computed(unit: str, description: str, of: Callable[[Found], Array | None], **default: Any) -> Any:
-    """Field of a class of results that `computed_results` fills.
+    """Field of a result class that `computed_results` fills.
 
-    **Arguments:** `unit`, `description`: those of `label`; `of`: from the family's record to the result, `None` where
-    the scene does not model it; `default`: of `equinox.field`.
+    **Arguments:** `unit`, `description`: see `label`; `of`: function that takes the record of the family and returns
+    the result, or `None` if the scene does not model it; `default`: further arguments of `equinox.field`.
     """
     return eqx.field(metadata={**label(unit, description), "of": of}, **default)
 
 
 def computed_results(kind: type[eqx.Module], found: object) -> dict[str, Any]:
-    """The results of a class that name their function, by name. **Arguments:** `kind`: the class; `found`: the record
-    that the functions take."""
+    """Computes the fields of a result class that were declared with `computed`: name -> result.
+
+    **Arguments:** `kind`: the result class; `found`: the record that the functions take."""
     return {field.name: field.metadata["of"](found) for field in dataclasses.fields(kind) if "of" in field.metadata}

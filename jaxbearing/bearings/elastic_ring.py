@@ -1,11 +1,11 @@
-r"""Flexible rings in the equations of a bearing: their amplitudes are global unknowns, which the rolling elements feel
-only as an opening of their contacts.
+r"""Flexible rings in the equations of a bearing. The amplitudes of their deflections are global unknowns; the rolling
+elements feel them only as an opening of their contacts.
 
-With the outward deflections $w_o(\psi)$ and $w_i(\psi)$ of both rings, the outer ring opens the contact of a rolling
-element by $w_o$ and the inner ring by $-w_i$. The elements press the outer ring outwards by $Q_o\cos\alpha_o$ and the
-inner one inwards by $Q_i\cos\alpha_i$: the generalised loads on the amplitudes are the products of these forces and of
-the shapes of the openings, for both rings alike. The total energy of contacts, rings, housing and shaft less the work
-of the loads stays convex, because the openings are linear in the amplitudes."""
+With the outward deflections $w_o(\psi)$ and $w_i(\psi)$ of the rings, the outer ring opens the contact of a rolling
+element by $w_o$ and the inner ring by $-w_i$. The elements press the outer ring outwards with $Q_o\cos\alpha_o$ and
+the inner ring inwards with $Q_i\cos\alpha_i$. The generalised load on an amplitude is, for both rings, the sum over
+the elements of this force times the shape of the opening. The total energy of contacts, rings, housing and shaft less
+the work of the loads stays convex, because the openings are linear in the amplitudes."""
 
 from collections.abc import Sequence
 
@@ -27,21 +27,21 @@ from .ring_deflection import AbstractRingDeflection, InnerRingDeflection, RingDe
 from .ring_shape import AbstractBendingRing
 
 PLACES = 361
-"""Azimuths at which results have the deflection of the ring."""
+"""Number of azimuths at which the results give the deflection of a ring."""
 LEANS = 0.1
-"""Least cosine of the angle between the load and a support that counts in the first guess."""
+"""Cosine of the angle between a support and the load above which the support counts in the first guess."""
 UNSUPPORTED = "outer_ring.support_angle: the supports push only, and none of them stands where the load pushes the ring"
-"""Why a solve failed."""
+"""Cause of a failed solve."""
 
 
 class ElasticRing(eqx.Module):
-    """A ring in the equations; unknowns are its amplitudes in units of `LENGTH_UNIT`.
+    """A flexible ring in the equations. Its unknowns are the amplitudes of its deflection in units of `LENGTH_UNIT`.
 
     **Arguments:**
-    - `ring`: the ring, with what holds and loads it.
-    - `shapes`: by how much it opens the contacts of the rolling elements, over the amplitudes, dimensionless: outward
-      deflections of an outer ring, inward ones of an inner ring.
-    - `inner`: whether it is the inner ring.
+    - `ring`: the ring, with its foundation, supports and given loads.
+    - `shapes`: opening of the contact of each rolling element over each amplitude, dimensionless: the outward
+      deflection of an outer ring, the inward deflection of an inner ring.
+    - `inner`: True for the inner ring.
     """
 
     ring: BentRing
@@ -58,26 +58,28 @@ class ElasticRing(eqx.Module):
         return self.ring.modes
 
     def opening(self, amplitudes: Float[Array, " mode"]) -> Float[Array, " element"]:
-        """By how much the ring opens the contacts of the rolling elements, m."""
+        """Opening of the contact of each rolling element by the ring, m."""
         return LENGTH_UNIT * (amplitudes @ self.shapes)
 
     def pressed(self, load: Float[Array, " element"]) -> Float[Array, " mode"]:
-        """Generalised loads of the rolling elements, N, from the radial forces by which they press the ring away."""
+        """Generalised loads of the rolling elements on the amplitudes, N.
+
+        **Arguments:** `load`: radial force with which each element presses the ring away, N."""
         return self.shapes @ load
 
     def balance(
         self, amplitudes: Float[Array, " mode"], pressed: Float[Array, " mode"], floats: bool
     ) -> Float[Array, " mode"]:
-        """Forces on the amplitudes that do not balance, N.
+        """Unbalanced generalised forces on the amplitudes, N.
 
-        **Arguments:** `floats`: whether the ring may stand where neither elements nor supports touch it: it is anchored
-        then.
+        **Arguments:** `floats`: True if neither elements nor supports need touch the ring, which is then anchored.
         """
         balance = self.ring.balance(LENGTH_UNIT * amplitudes, pressed)
         return balance + anchored(amplitudes, ANCHOR * LENGTH_UNIT) if floats else balance
 
     def given_load(self) -> Float[Array, ""]:
-        """Size of what acts on the round ring from outside, N: supports that press it already, and given loads."""
+        """Size of the external forces on the undeformed ring, N: its given loads, and the forces of supports that press
+        it already."""
         supports, loads = self.ring.supports, self.ring.loads
         size = jnp.zeros(())
         if supports is not None:
@@ -85,8 +87,8 @@ class ElasticRing(eqx.Module):
         return size if loads is None else size + jnp.sum(jnp.abs(loads.radial) + jnp.abs(loads.tangential))
 
     def under(self, factor: Float[Array, ""]) -> "ElasticRing":
-        """The same ring under multiples of its given loads, which balance those on the inner ring where nothing else
-        holds the ring."""
+        """Returns the ring with its given loads multiplied by a factor. If nothing holds an outer ring, these loads
+        balance the loads on the inner ring, and both must be scaled by the same factor."""
         loads = self.ring.loads
         if loads is None:
             return self
@@ -94,8 +96,11 @@ class ElasticRing(eqx.Module):
         return eqx.tree_at(lambda outer: [outer.ring.loads.radial, outer.ring.loads.tangential], self, scaled)
 
     def start(self, load: Float[Array, "2"]) -> Float[Array, " mode"]:
-        """First guess: the ring displaced as a rigid body to where what holds it bears the load on the bearing, along
-        and across the load line, N. The elements press an inner ring against that load. A free ring begins round."""
+        """First guess: the ring displaced as a rigid body until its foundation and supports carry the load on the
+        bearing. An inner ring is displaced against the load, because the elements press it that way. The guess for a
+        free ring is 0.
+
+        **Arguments:** `load`: load on the bearing along and across the load line, N."""
         ring, orders = self.ring, self.ring.orders
         amplitudes = jnp.zeros(ring.modes)
         if 1 not in orders:
@@ -111,14 +116,14 @@ class ElasticRing(eqx.Module):
             gap = jnp.max(jnp.where(lean > 0, ring.supports.gap / jnp.where(lean > 0, lean, 1.0), 0.0))
         leaning = stiffness > 0
         shift = gap + jnp.where(leaning, size / jnp.where(leaning, stiffness, 1.0), 0.0)
-        # order 1 is the first that has a sine
+        # the cosines of all orders come first; order 1 is the first order with a sine
         cosine, sine = orders.index(1), len(orders)
         along = -along if self.inner else along
         return amplitudes.at[np.asarray([cosine, sine])].set(along * shift / LENGTH_UNIT)
 
     def judged(self, ring: InnerRing, result: NewtonResult) -> tuple[NewtonResult, Bool[Array, ""]]:
-        """The result of a solve, with the status `no_equilibrium` if it failed and the supports of the ring cannot bear
-        the loads; and whether that is so."""
+        """Returns the result of a solve and whether it failed because the supports of the ring cannot carry the loads;
+        in that case the status of the result becomes `no_equilibrium`."""
         supports, given = self.ring.supports, dict(zip(ring.freedoms, ring.load, strict=True))
         if supports is None or self.ring.foundation is not None or "radial" not in given:
             return result, jnp.asarray(False)
@@ -129,18 +134,18 @@ class ElasticRing(eqx.Module):
         return result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status)), none
 
     def displacement(self, amplitudes: Float[Array, " mode"]) -> Float[Array, "2"]:
-        """Displacement of the shaft that follows the ring as a rigid body, along and across the load line, from its
-        amplitudes, m: the harmonic of order 1 of an outer ring, that of an inner one with its sign changed; 0 without
-        that order."""
+        """Displacement of a shaft that follows the rigid-body displacement of the ring, along and across the load line,
+        in the unit of `amplitudes`: the amplitudes of order 1 of an outer ring, those of an inner ring with the
+        opposite sign. It is 0 if the ring does not have the order 1."""
         orders = self.ring.orders
         if 1 not in orders:
             return jnp.zeros(2)
-        # order 1 is the first that has a sine
+        # the cosines of all orders come first; order 1 is the first order with a sine
         found = amplitudes[np.asarray([orders.index(1), len(orders)])]
         return -found if self.inner else found
 
     def shape(self, amplitudes: Float[Array, " mode"]) -> AbstractRingDeflection:
-        """The result."""
+        """Deflected shape of the ring, as results show it."""
         scaled, ring = LENGTH_UNIT * amplitudes, self.ring
         azimuth = np.linspace(0.0, 2.0 * np.pi, PLACES)
         count = len(ring.orders)
@@ -154,10 +159,10 @@ class ElasticRing(eqx.Module):
 
 
 class BentRings(eqx.Module):
-    """The rings of a bearing that bend. Their amplitudes stand one behind the other: those of the outer ring, then
-    those of the inner one.
+    """The flexible rings of a bearing. Arrays of amplitudes hold those of the outer ring first, then those of the inner
+    ring.
 
-    **Arguments:** `outer`, `inner`: `None` for a rigid ring.
+    **Arguments:** `outer`, `inner`: the rings; `None` for a rigid ring.
     """
 
     outer: ElasticRing | None
@@ -173,11 +178,11 @@ class BentRings(eqx.Module):
 
     @property
     def modes(self) -> int:
-        """Number of all amplitudes."""
+        """Number of amplitudes of both rings."""
         return sum(ring.modes for ring in self.each)
 
     def of_each(self, values: Array) -> list[tuple[ElasticRing, Array]]:
-        """Each ring with its part of an array that has one entry for each amplitude."""
+        """Splits an array with one entry per amplitude into a list of pairs of a ring and its part of the array."""
         ends = np.cumsum([0, *(ring.modes for ring in self.each)]).tolist()
         return [(ring, values[ends[k] : ends[k + 1]]) for k, ring in enumerate(self.each)]
 
@@ -186,21 +191,21 @@ class BentRings(eqx.Module):
         return tuple(ring.equation for ring in self.each for _ in range(ring.modes))
 
     def shapes(self) -> Float[Array, "mode element"]:
-        """Openings at the rolling elements over the amplitudes, dimensionless."""
+        """Shapes of both rings (`ElasticRing.shapes`), dimensionless."""
         return jnp.concatenate([ring.shapes for ring in self.each])
 
     def openings(self, amplitudes: Float[Array, " mode"]) -> list[Float[Array, " element"]]:
-        """By how much each ring opens the contacts of the rolling elements, m."""
+        """Opening of the contact of each rolling element by each ring, m."""
         return [ring.opening(part) for ring, part in self.of_each(amplitudes)]
 
     def pick(self, outer: Array, inner: Array) -> list[Array]:
-        """Selects the values of the flexible rings."""
+        """Selects those of two values, of the outer and of the inner ring, whose rings are flexible."""
         return [value for ring, value in ((self.outer, outer), (self.inner, inner)) if ring is not None]
 
     def pressed(self, loads: Sequence[Float[Array, " element"]]) -> Float[Array, " mode"]:
-        """Generalised loads of the rolling elements, N.
+        """Generalised loads of the rolling elements on the amplitudes, N.
 
-        **Arguments:** `loads`: forces on each ring, as `ElasticRing.pressed` takes them.
+        **Arguments:** `loads`: the argument `load` of `ElasticRing.pressed` for each flexible ring, N.
         """
         return _joined([ring.pressed(load) for ring, load in zip(self.each, loads, strict=True)])
 
@@ -212,12 +217,12 @@ class BentRings(eqx.Module):
         return _joined([ring.balance(own, loads, floats) for (ring, own), (_, loads) in parts])
 
     def energy(self, amplitudes: Float[Array, " mode"]) -> Float[Array, ""]:
-        """Energy of the rings and of what holds them less the work of loads from outside, J; amplitudes in m."""
+        """Energy of rings, foundations and supports less the work of the given loads, J; amplitudes in m."""
         first, *others = [ring.ring.energy(part) for ring, part in self.of_each(amplitudes)]
         return sum(others, first)
 
     def tangent(self, amplitudes: Float[Array, " mode"]) -> Float[Array, "mode mode"]:
-        """Second derivatives of the energy, N/m; amplitudes in m."""
+        """Second derivatives of the energy with respect to the amplitudes, N/m; amplitudes in m."""
         blocks = [ring.ring.tangent(part) for ring, part in self.of_each(amplitudes)]
         return blocks[0] if len(blocks) == 1 else jax.scipy.linalg.block_diag(*blocks)
 
@@ -226,12 +231,12 @@ class BentRings(eqx.Module):
         return _joined([ring.start(load) for ring in self.each])
 
     def displacement(self, amplitudes: Float[Array, " mode"]) -> Float[Array, "2"]:
-        """See `ElasticRing.displacement`; the shaft follows both rings."""
+        """Sum of `ElasticRing.displacement` over the flexible rings: the shaft follows both."""
         first, *others = [ring.displacement(part) for ring, part in self.of_each(amplitudes)]
         return sum(others, first)
 
     def results(self, amplitudes: Float[Array, " mode"]) -> dict[str, AbstractRingDeflection]:
-        """The results of the flexible rings, by their names in a solution."""
+        """Deflected shapes of the flexible rings: field of the solution -> result."""
         return {
             "inner_ring" if ring.inner else "outer_ring": ring.shape(part) for ring, part in self.of_each(amplitudes)
         }
@@ -248,10 +253,10 @@ def elastic_ring(
     width: Scalar | None,
     azimuth: Float[Array, " element"],
 ) -> ElasticRing | None:
-    """A ring of a scene in the equations; `None` if the scene has none, or none with harmonics: it is rigid then.
+    """Makes the `ElasticRing` of a ring of a scene; `None` for a rigid ring, which has no part or no harmonics.
 
-    **Arguments:** `part`: of the scene; `raceway_diameter`, m; `width`: of `AbstractBendingRing.bent_ring`, m;
-    `azimuth`: of the rolling elements, rad.
+    **Arguments:** `part`: the flexible ring of the scene; `material`: its material; `raceway_diameter`: diameter of its
+    raceway, m; `width`: see `AbstractBendingRing.bent_ring`, m; `azimuth`: azimuths of the rolling elements, rad.
     """
     if part is None or not part.harmonics:
         return None

@@ -1,4 +1,4 @@
-"""Facts that range checks look at: the contacts that a solve states, and the checks of a family of bearings."""
+"""Data for range checks: the contacts of a solved bearing, and the checks of a bearing family."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -14,30 +14,30 @@ from ..lubricants import InletOil
 from .solution import CageState, RingDisplacement
 
 MEAN_OF_POINT, MEAN_OF_LINE = 2.0 / 3.0, 0.25 * np.pi
-"""Mean over peak of Hertz's pressure."""
+"""Mean over peak Hertz pressure of point and of line contacts."""
 LOADED = 0.01
-"""Part of the largest load at the same place from which on a contact counts."""
+"""Fraction of the largest load at the same place from which a contact counts."""
 BUSY = 0.1
-"""Part of the largest load at the same place from which on the distribution of a load along a roller counts, and from
-which on a tapered roller keeps itself rolling; a cage takes the others along."""
+"""Fraction of the largest load at the same place from which a contact counts in the checks of skidding, of the load
+along a roller, and of the traction that keeps a tapered roller rolling. The cage drives the less loaded elements."""
 
 Excess = dict[str, Array]
 
 
 class Contacts(NamedTuple):
-    """Contacts of one kind, as the checks see them; what is not modelled, or has no limit, is `None`.
+    """Contacts of one kind, as the checks see them. Quantities that are not modelled or have no limit are `None`.
 
-    - `places`: names of the rows; `load`, N; `pressure`, peak of Hertz's, Pa; `mean_share`: mean over peak.
-    - `laws`: of the film and what shears it; `inlet`: the oil that enters; `mean_speed` and `sliding` along rolling,
-      m/s; `temperature` of the oil in the contact, K.
-    - `load_share`: part of the load that asperities carry.
-    - `laminae`: loads along the rollers, N.
+    - `places`: names of the rows; `load`: N; `pressure`: peak Hertz pressure, Pa; `mean_share`: mean over peak of it.
+    - `laws`: laws of film and traction; `inlet`: oil that enters the contacts; `mean_speed`, `sliding`: mean and
+      sliding speed along the rolling direction, m/s; `temperature`: temperature of the oil in the contact, K.
+    - `load_share`: fraction of the load that asperities carry.
+    - `laminae`: loads of the laminae of the rollers, N.
     - `angle`: contact angle, rad.
-    - `past_edge`: by how much a contact ellipse passes the end of what it rests on, positive where it is cut off, for
-      the rows whose `edges` name such an end.
-    - `starved`: what the supply of oil does to them.
-    - `largest`: load to which those of each place are compared, N; `None`: the largest at the place. Both flanks of a
-      raceway are compared to the same one.
+    - `past_edge`: overhang of a contact ellipse over the edge of its surface, rad or m, positive if the ellipse is cut
+      off; it counts for the rows that have a name in `edges`.
+    - `starved`: effect of the oil supply on the contacts.
+    - `largest`: load to which the loads of each place are compared, N; `None`: the largest load at the place. Both
+      flanks of a raceway are compared to the same load.
     """
 
     places: tuple[str, ...]
@@ -58,16 +58,17 @@ class Contacts(NamedTuple):
     largest: Float[Array, "place 1"] | None = None
 
     def loaded(self, part: float = LOADED) -> Bool[Array, "place element"]:
-        """Contacts that count: with at least this part of the largest load at the same place."""
+        """True for the contacts that count: those with at least the fraction `part` of the largest load at their
+        place."""
         largest = jnp.max(self.load, axis=1, keepdims=True) if self.largest is None else self.largest
         return (self.load > 0) & (self.load >= part * largest)
 
     def most(self, values: Array, part: float = LOADED) -> Float[Array, " place"]:
-        """Largest of the values over the contacts that count; -inf where none does."""
+        """Largest of the values over the contacts that count, at each place; -inf if none counts."""
         return jnp.max(jnp.where(self.loaded(part), values, -jnp.inf), axis=1)
 
     def said(self, text: str, excess: Float[Array, " place"]) -> Excess:
-        """One entry for each place, which stands in the text as {place}."""
+        """One entry for each place; its name replaces {place} in the text."""
         return {text.format(place=place): excess[i] for i, place in enumerate(self.places)}
 
 
@@ -75,12 +76,13 @@ RACEWAYS = ("the inner raceway", "the outer raceway")
 
 
 class Facts(NamedTuple):
-    """Facts that a steady solve states for the checks.
+    """Results of a steady solve that the checks need.
 
-    - `contacts`: kinds of contacts.
-    - `traction_reserve`: of tapered rollers that roll by constraint, what the films could carry less what it takes, N.
-    - `roller_tilt`: of rollers that may tilt, rad.
-    - `stiffness`: tangent stiffness of a ring that is free to tilt, of its degrees of freedom counted as lengths, N/m.
+    - `contacts`: the contacts, one entry for each kind.
+    - `traction_reserve`: for tapered rollers that are constrained to roll without slip, the largest traction of the
+      films less the traction needed, N.
+    - `roller_tilt`: tilt of the rollers if they may tilt, rad.
+    - `stiffness`: tangent stiffness of a ring that is free to tilt, with all degrees of freedom as lengths, N/m.
     """
 
     contacts: tuple[Contacts, ...]
@@ -92,8 +94,8 @@ class Facts(NamedTuple):
 class SolvedBearing(NamedTuple):
     """A solved bearing, as the checks of results see it.
 
-    **Arguments:** `scene`: an `AbstractBearing`, which a check of a family takes as its own class; `held`: whether the
-    ring is where it is told to be, whatever the loads of the scene.
+    **Arguments:** `scene`: the `AbstractBearing`, of the class of its family; `held`: True if the displacement of the
+    ring is prescribed and the loads of the scene do not act.
     """
 
     scene: Any
@@ -108,7 +110,7 @@ class SolvedBearing(NamedTuple):
         return f"{self.scene.element}s"
 
     def said(self, text: str, excess: Callable[[Contacts], Array | None]) -> Excess:
-        """The entries of a check of contacts with one text; of contacts whose `excess` is `None` there is none."""
+        """Entries of a check with one text, for all kinds of contacts except those whose `excess` is `None`."""
 
         def of(contacts: Contacts) -> Excess:
             found = excess(contacts)
@@ -117,7 +119,7 @@ class SolvedBearing(NamedTuple):
         return self.each(of)
 
     def each(self, check: Callable[[Contacts], Excess]) -> Excess:
-        """The entries of a check of contacts, for all kinds of contacts."""
+        """Joins the entries of a check for all kinds of contacts."""
         found: Excess = {}
         for contacts in self.facts.contacts:
             found |= check(contacts)
@@ -125,12 +127,12 @@ class SolvedBearing(NamedTuple):
 
 
 class RangeChecks(NamedTuple):
-    """Range checks of one family of bearings: text -> a number that is positive where the warning applies.
+    """Range checks of one bearing family. Each check maps a text to a number that is positive if the warning applies.
 
     **Arguments:**
     - `results`: checks of a solved bearing.
     - `inputs`: checks of a scene.
-    - `loads`: checks of the operating point's loads, which say nothing about a ring that is held.
+    - `loads`: checks of the loads of the operating point; they do not apply to a held ring.
     """
 
     results: tuple[Callable[[SolvedBearing], Excess], ...] = ()

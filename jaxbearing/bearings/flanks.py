@@ -1,5 +1,5 @@
-"""Results of rings with two groove arcs, flank by flank: `load_inner` is of the flank for thrust along +e_x, and
-`load_inner_second` of the other one. Elements of other bearings pass unchanged."""
+"""Results of the single flanks of rings with two groove arcs: `load_inner` belongs to the flank that carries thrust
+along +e_x, `load_inner_second` to the other flank. Elements of other bearings are returned unchanged."""
 
 import dataclasses
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -14,11 +14,11 @@ else:
     Elements = Any
 
 SECOND = "_second"
-"""End of the names of results of the second flanks."""
+"""Suffix of the names of results of the second flanks."""
 
 
 def _second(elements: object) -> dict[str, Array]:
-    """Results of the second flanks by the names of those of the first ones."""
+    """Results of the second flanks under the names of the first flanks, that is without the suffix."""
     if not dataclasses.is_dataclass(elements):
         return {}
     names = [field.name for field in dataclasses.fields(elements) if field.name.endswith(SECOND)]
@@ -27,8 +27,8 @@ def _second(elements: object) -> dict[str, Array]:
 
 
 def by_flank(elements: Elements) -> list[Elements]:
-    """The elements with the results of their first flanks, and with those of the second ones in the same fields if a
-    ring has them. A ring with one arc has no load on the second."""
+    """Returns the elements with the results of the first flanks and, if a ring has two arcs, the elements with the
+    results of the second flanks in the same fields. The second flank of a ring with one arc has the load 0."""
     found = _second(elements)
     if not found:
         return [elements]
@@ -37,7 +37,7 @@ def by_flank(elements: Elements) -> list[Elements]:
 
 
 def on_heavier_flanks(elements: Elements) -> Elements:
-    """The elements with the results of the more loaded flank of each race, at every element."""
+    """Returns the elements with the results of the more heavily loaded flank, for each race and element."""
     found = _second(elements)
     if not found:
         return elements

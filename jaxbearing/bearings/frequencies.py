@@ -1,7 +1,7 @@
-r"""Kinematic frequencies: how often the cage turns, elements spin, and elements pass a point of a ring.
+r"""Kinematic frequencies of a bearing: rotation of the cage, spin of the elements, passing of a point of a ring.
 
-A damage on one part is heard at these frequencies: on a ring each time that a rolling element passes it, on an element
-each time that it meets a ring, twice in a turn.
+Damage on a part excites vibration at these frequencies: damage on a ring each time a rolling element passes it, damage
+on an element each time it meets a ring, twice per turn.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -24,13 +24,13 @@ else:
 
 TURN = 2.0 * np.pi
 NO_LOAD = 1e-30
-"""Added to every load, N, so that elements without load count alike where none is loaded."""
+"""Load added to every element, N, so that all elements have the same weight if none is loaded."""
 _Frequency = Float[Array | np.ndarray, "*batch"]
-"""A numpy array of a solution that is looked at, whose numbers are known."""
+"""Frequency or batch of frequencies; a numpy array if the numbers are known."""
 
 
 class KinematicFrequencies(eqx.Module):
-    """Frequencies of the parts of a bearing, Hz, all counted positive."""
+    """Kinematic frequencies of the parts of a bearing, Hz, all positive."""
 
     cage: _Frequency = eqx.field(metadata=label("Hz", "turns of the cage, or of the elements without one (FTF)"))
     outer_pass: _Frequency = eqx.field(metadata=label("Hz", "elements that pass a point of the outer raceway (BPFO)"))
@@ -43,15 +43,15 @@ class KinematicFrequencies(eqx.Module):
 def frequencies_of_motion(
     operation: "AbstractOperation", elements: Any, cage: "CageState | None"
 ) -> KinematicFrequencies:
-    r"""Frequencies of the motion that was solved: with its contact angles and its slip.
+    r"""Frequencies of the motion of a solution, with its contact angles and its slip.
 
     $f_c = |\omega_c|/2\pi$, $f_o = Z|\omega_c - \omega_o|/2\pi$, $f_i = Z|\omega_i - \omega_c|/2\pi$,
-    $f_s = |s|/2\pi$. Without a cage $\omega_c$ is the mean orbital speed. It and the spin s, which counts relative to
-    the orbit, are means over the elements, each weighted by its load on the inner raceway: what is heard comes from
-    elements that carry load, while centrifugal forces press all of them outwards.
+    $f_s = |s|/2\pi$. Without a cage $\omega_c$ is the mean orbital speed. The mean orbital
+    speed and the mean spin s, relative to the orbit, are weighted by the load of each element on the inner raceway:
+    damage is noticed at elements that carry load, while centrifugal forces press all elements against the outer ring.
 
-    **Arguments:** `operation`, `elements`, `cage`: those of a solution, or of a batch of them; `cage` is `None` where
-    the scene has none.
+    **Arguments:** `operation`, `elements`, `cage`: fields of a solution or of a batch of solutions; `cage` is `None` if
+    the scene has no cage.
     """
     second = getattr(elements, "load_inner_second", None)
     motion = (elements.load_inner, elements.orbital_speed, elements.spin_speed)
@@ -61,7 +61,7 @@ def frequencies_of_motion(
     )
     load = load + NO_LOAD if second is None else load + second + NO_LOAD
     mean = lambda speed: (load * speed).sum(axis=-1) / load.sum(axis=-1)
-    with np.errstate(all="ignore"):  # those of a solve that failed need not be numbers
+    with np.errstate(all="ignore"):  # results of a failed solve are NaN
         turning = mean(orbit) if cage_speed is None else cage_speed
         return _frequencies(rings, load.shape[-1], turning, mean(spin))
 
@@ -70,9 +70,9 @@ def textbook_frequencies(scene: AbstractBearing) -> KinematicFrequencies:
     r"""Frequencies of elements that roll without slip at the contact angle of the drawing.
 
     With $\gamma = D\cos\alpha/d_m$: $\omega_c = [\omega_i(1 - \gamma) + \omega_o(1 + \gamma)]/2$,
-    $s = (\omega_i - \omega_o)(1 - \gamma^2)\,d_m/(2D)$; the rest as in `frequencies_of_motion`. $\alpha$ is 0 for ball
-    bearings that are given by their clearance and for cylindrical rollers, and the angle of the cup for tapered ones,
-    whose D is that of the middle of the roller.
+    $s = (\omega_i - \omega_o)(1 - \gamma^2)\,d_m/(2D)$; the rest as in `frequencies_of_motion`. $\alpha$ is 0 for
+    cylindrical rollers and for ball bearings defined by their clearance. For tapered rollers $\alpha$ is the angle of
+    the cup, and D the diameter at the middle of the roller.
 
     **Reference:** Harris and Kotzalas, Rolling bearing analysis, chapter on kinematics.
 
@@ -88,8 +88,10 @@ def textbook_frequencies(scene: AbstractBearing) -> KinematicFrequencies:
 
 
 def _frequencies(rings: tuple[Values, Values], count: int, turning: Values, spin: Values) -> KinematicFrequencies:
-    """**Arguments:** speeds, rad/s: of the `rings`, of the cage (`turning`), and of the elements relative to it
-    (`spin`)."""
+    """Frequencies from the speeds of the parts.
+
+    **Arguments:** `rings`: speeds of both rings, rad/s; `count`: number of elements; `turning`: speed of the cage,
+    rad/s; `spin`: spin of the elements relative to it, rad/s."""
     inner, outer = rings
     module = array_module(inner, outer, turning, spin)
     often = lambda speed, times: module.asarray(times * abs(speed) / TURN)

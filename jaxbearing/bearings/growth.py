@@ -1,4 +1,4 @@
-"""Growth of the parts of a bearing that is mounted, warm and turning, and what it makes of its play."""
+"""Growth of the parts of a mounted, warm and turning bearing, and its effect on the play."""
 
 from typing import NamedTuple
 
@@ -9,8 +9,8 @@ from .._scene import label
 
 
 class Growth(NamedTuple):
-    """Growth of the diameters of both raceways (of balls: of the groove bottoms), m; thermal strains of inner ring,
-    outer ring and rolling elements."""
+    """Growth of the diameters of both raceways (in ball bearings at the bottom of the grooves), m, and thermal strains
+    of inner ring, outer ring and rolling elements."""
 
     inner: Float[Array, ""]
     outer: Float[Array, ""]
@@ -20,15 +20,15 @@ class Growth(NamedTuple):
 
 
 class Play(NamedTuple):
-    """Play of a grown bearing.
+    """Play of a bearing after growth of its parts.
 
     **Arguments:**
-    - `measure`: what the family calls its play, m: the diametral clearance (negative: radial preload), of tapered
-      bearings the axial displacement that restores touching.
-    - `contact_angle`: of the unloaded bearing, rad; `None`: growth does not change it.
-    - `axial_shift`: of the inner ring, from first contact on the drawing to first contact here, m; `None`: the bearing
-      has no axial contact.
-    - `possible`: False where elements and rings cannot touch any more.
+    - `measure`: play in the measure of the family, m: the diametral clearance (negative: radial preload), or for
+      tapered bearings the axial displacement of the inner ring that restores contact.
+    - `contact_angle`: contact angle of the unloaded bearing, rad; `None` if growth does not change it.
+    - `axial_shift`: axial displacement of the inner ring from first contact on the drawing to first contact after
+      growth, m; `None` if the bearing has no axial contact.
+    - `possible`: False if elements and rings can no longer touch.
     """
 
     measure: Float[Array, ""]
@@ -38,10 +38,10 @@ class Play(NamedTuple):
 
 
 class FitResult(eqx.Module):
-    """State of a mounted bearing: what fits, temperatures and speeds make of its play.
+    """State of a mounted bearing: its play after fits, temperatures and speed, and its seats.
 
-    What is by fits, by temperatures and by speed is added in this order: fits on the cold bearing at rest, then
-    temperatures, then rotation.
+    The changes `by_fits`, `by_temperatures` and `by_speed` are counted in this order: fits on the cold bearing at rest,
+    then temperatures, then rotation.
     """
 
     clearance: Float[Array, ""] | None = eqx.field(

@@ -1,6 +1,6 @@
-"""The thermal network of a bearing: conductances, heat capacities, and where its losses go, from a solved bearing.
+"""The thermal network of a solved bearing: conductances, heat capacities, and the nodes that its losses heat.
 
-Boundary dimensions are those of the drawing: what temperatures and fits change of them does not matter for heat.
+Boundary dimensions are those of the drawing; their changes by temperatures and fits are too small to matter for heat.
 """
 
 import math
@@ -43,12 +43,12 @@ else:
     AbstractBearing = Any
 
 OUTSIDE = {1: ("bearing",), 4: ("inner_ring", "outer_ring"), 6: ("shaft", "housing")}
-"""Nodes from which heat flows to the ambient, by the number of nodes."""
+"""Number of nodes -> nodes from which heat flows to the ambient."""
 GUIDED = {"inner": "inner_ring", "outer": "outer_ring", "both": "both"}
 
 
 def thermal_of(scene: AbstractBearing) -> Thermal:
-    """The thermal network of a scene that has one."""
+    """Thermal settings of a scene that has a thermal network."""
     thermal: Thermal | None = scene.thermal
     assert thermal is not None
     return thermal
@@ -61,7 +61,7 @@ def inlet_temperature(scene: AbstractBearing) -> Values:
 
 
 def rings_of(scene: AbstractBearing) -> dict[str, str]:
-    """The ring that guides the cage, and the one with the flanges, as `loss_shares` takes them."""
+    """The ring that guides the cage and the ring with the flanges, as arguments of `loss_shares`."""
     cage, flange = getattr(scene, "cage", None), getattr(scene, "flange", None)
     return {
         "guiding_ring": "inner_ring" if cage is None else cage.guidance,
@@ -70,12 +70,13 @@ def rings_of(scene: AbstractBearing) -> dict[str, str]:
 
 
 def has_flow(scene: AbstractBearing) -> bool:
-    """True if oil flows through the bearing, as far as the scene says it."""
+    """True if the scene gives the heat capacity and the density of the oil, so that an oil flow can carry heat."""
     return scene.oil.heat_capacity is not None and scene.oil.density is not None
 
 
 def bearing_network(scene: AbstractBearing) -> Network:
-    """Nodes, oil flow and ambient of a scene; conductances that depend on the solution come with it."""
+    """Network of a scene with its nodes, oil flow and ambient, without the conductances that depend on the solution
+    (see `bearing_heat`)."""
     thermal = thermal_of(scene)
     ways: dict[str, Scalar | CylindricalHousing] = dict.fromkeys(OUTSIDE[thermal.nodes], 0.0)
     if thermal.housing_diameter is not None:
@@ -94,9 +95,10 @@ def bearing_network(scene: AbstractBearing) -> Network:
 def bearing_heat(
     scene: AbstractBearing, thermal: Thermal, solution: Solution, temperatures: Float[Array, " node"]
 ) -> NodeHeat:
-    """Heat into the nodes and conductances of a bearing that was solved at node temperatures.
+    """Heat into the nodes and conductances of a bearing that was solved at given node temperatures.
 
-    **Arguments:** `scene`: with the temperatures of its oil, without the network; `temperatures`: K.
+    **Arguments:** `scene`: scene with the temperatures of its oil and without the network; `temperatures`: node
+    temperatures, K.
     """
     nodes = thermal.node_names
     loss, by_race = solution.power_loss, solution.rolling_by_race
@@ -111,7 +113,7 @@ def bearing_heat(
         between = _between(scene, thermal, solution, contacts, dict(zip(nodes, temperatures, strict=True)))
         load = _joined([jnp.stack([one.load_inner, one.load_outer]) for one in flanks])
         carried = jnp.sum(load, axis=1)
-        # heat is made where the load is
+        # losses are generated where the load is: the contacts are weighted by their loads
         parts = jnp.sum(load * contacts.share, axis=1) / jnp.where(carried > 0.0, carried, 1.0)
         to_rings = dict(zip(to_rings, jnp.where(carried > 0.0, parts, 0.5), strict=True))
     shares = loss_shares(
@@ -134,7 +136,7 @@ def bearing_heat(
 
 
 def _given_shares(scene: AbstractBearing, thermal: Thermal) -> dict[str, dict[str, Scalar | None]]:
-    """Shares of the scene as `loss_shares` takes them."""
+    """Shares of the losses that the scene gives, as the argument `given` of `loss_shares`."""
     rings, found = rings_of(scene), {}
     second = {
         "inner_raceway": ("inner_ring", "elements"),
@@ -163,7 +165,7 @@ def _solid(material: Material) -> Solid:
 
 
 def _solid_of_rings(materials: AbstractMaterials) -> Solid:
-    """The solid of both rings; of rings of two materials each field has the shape (2, 1), inner ring first."""
+    """Thermal properties of the rings. If their materials differ, each field has the shape (2, 1), inner ring first."""
     if materials.inner_ring is None:
         return _solid(materials.rings)
     solids = (_solid(material) for material in materials.of_rings)
@@ -171,12 +173,12 @@ def _solid_of_rings(materials: AbstractMaterials) -> Solid:
 
 
 def _joined(flanks: Sequence[Array]) -> Array:
-    """Values of the contacts of both flanks, races first."""
+    """Joins the values of the contacts of all flanks; the first axis is the race."""
     return flanks[0] if len(flanks) == 1 else jnp.concatenate(flanks, axis=1)
 
 
 def _contacts(scene: AbstractBearing, elements: Any) -> ContactHeat:
-    """Heat flow of the raceway contacts, races first, from the ring to the element."""
+    """Heat transfer of the raceway contacts from the ring to the element; the first axis is the race."""
     operation = scene.operation
     both = lambda name: jnp.stack([getattr(elements, f"{name}_inner"), getattr(elements, f"{name}_outer")])
     load, film = both("load"), both("film")
@@ -196,7 +198,7 @@ def _contacts(scene: AbstractBearing, elements: Any) -> ContactHeat:
     conductivity = oil.conductivity(jnp.stack([jnp.asarray(own.inner_raceway), jnp.asarray(own.outer_raceway)]))
     bodies = (_solid_of_rings(scene.materials), _solid(scene.materials.elements))
     points, lines = scene.point_contacts(elements), scene.race_lines(elements)
-    # an empty contact has no size
+    # an unloaded contact has the size 0
     some = load > 0.0
     pressing = jnp.where(some, load, 1.0)
     if points is not None:
@@ -252,7 +254,8 @@ def _surface(scene: AbstractBearing) -> Array:
 
 
 def _oil_transfer(scene: AbstractBearing, solution: Solution, temperature: Array) -> Callable[[], Array]:
-    """Function to the heat transfer from the oil to rings and elements, W/(m^2 K); asked only where it is needed."""
+    """Function that computes the heat transfer coefficient from the oil to rings and elements, W/(m^2 K). It is called
+    only if a conductance is needed, because the scene may lack its inputs otherwise."""
 
     def transfer() -> Array:
         oil: InletOil = scene.oil.at(temperature)
@@ -266,7 +269,7 @@ def _oil_transfer(scene: AbstractBearing, solution: Solution, temperature: Array
 
 
 def _to_ambient(scene: AbstractBearing, thermal: Thermal) -> dict[str, Scalar]:
-    """Conductances to the ambient beside that of a housing in air, W/K."""
+    """Conductances of the nodes to the ambient, without the law of a housing in air, W/K."""
     found = {}
     for node in OUTSIDE[thermal.nodes]:
         own = getattr(thermal.conductance, f"{node}_ambient")
@@ -275,8 +278,8 @@ def _to_ambient(scene: AbstractBearing, thermal: Thermal) -> dict[str, Scalar]:
 
 
 def _seat_to_ambient(scene: AbstractBearing, thermal: Thermal, node: str) -> Scalar:
-    """By the reference heat flow of ISO 15312 through the seats, each seat by its area; a housing in air has a law of
-    its own."""
+    """Conductance from a node to the ambient through its seats, W/K, from the reference heat flow of ISO 15312, split
+    between the seats by their areas. The outer seat counts as 0 if the housing in air has a law of its own."""
     geometry = scene.geometry
     area = radial_seat_area(geometry.bore, geometry.outside_diameter, geometry.width)
     whole = reference_conductance(area)
@@ -288,7 +291,7 @@ def _seat_to_ambient(scene: AbstractBearing, thermal: Thermal, node: str) -> Sca
 
 
 def heat_capacities(scene: AbstractBearing) -> Float[Array, " node"] | None:
-    """Heat capacities of the nodes, J/K; `None` where one is not known."""
+    """Heat capacities of the nodes, J/K; `None` if one of them is not known."""
     found = [value for _, value in _capacities(scene)]
     if any(one is None for one in found):
         return None
@@ -301,7 +304,7 @@ def unknown_capacities(scene: AbstractBearing) -> tuple[str, ...]:
 
 
 def _capacities(scene: AbstractBearing) -> list[tuple[str, Scalar | None]]:
-    """Name and heat capacity, J/K, of each node; `None` for what is not known."""
+    """Name and heat capacity, J/K, of each node; `None` for an unknown heat capacity."""
     thermal = thermal_of(scene)
     parts: dict[str, Scalar] = _own_capacities(scene)
     parts |= {name: value for name, value in vars(thermal.capacity).items() if value is not None}
@@ -312,7 +315,7 @@ def _capacities(scene: AbstractBearing) -> list[tuple[str, Scalar | None]]:
 
 
 def _own_capacities(scene: AbstractBearing) -> dict[str, Scalar]:
-    """Heat capacities of rings, elements and oil as far as they follow from the scene."""
+    """Heat capacities of rings, elements and oil, J/K, as far as they follow from the scene."""
     geometry, rings, balls, oil = scene.geometry, scene.materials.of_rings, scene.materials.elements, scene.oil
     sizes = (geometry.bore, geometry.outside_diameter, geometry.width)
     if any(size is None for size in sizes) or any(one.heat_capacity is None for one in (*rings, balls)):

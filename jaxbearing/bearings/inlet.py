@@ -1,5 +1,5 @@
-"""Oil that enters the interactions of a bearing: all of it at the inlet temperature of the operating point, or each
-interaction with a temperature of its own, which a thermal network knows."""
+"""Oil that enters the interactions of a bearing, either at the inlet temperature of the operating point, or at the
+temperatures that a thermal network gives for each interaction."""
 
 import dataclasses
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -18,7 +18,7 @@ else:
 
 
 class OilElsewhere(NamedTuple):
-    """Oil that enters the interactions beside the raceways."""
+    """Oil that enters the interactions other than the raceway contacts."""
 
     flange: InletOil
     pocket: InletOil
@@ -27,7 +27,8 @@ class OilElsewhere(NamedTuple):
 
 
 def oil_of_races(scene: AbstractBearing) -> InletOil:
-    """The oil that enters the raceway contacts: one for both, or with fields of shape (2, 1), races first."""
+    """Oil that enters the raceway contacts: the same for both races, or with fields of shape (2, 1), inner race
+    first."""
     oil, contact = scene.oil.at(race_temperatures(scene)), scene.contact
     if contact is None or contact.supply is None or contact.supply.from_flow is None:
         return oil
@@ -35,7 +36,7 @@ def oil_of_races(scene: AbstractBearing) -> InletOil:
 
 
 def oil_elsewhere(scene: AbstractBearing) -> OilElsewhere | None:
-    """The oil that enters the other interactions; `None` where it is that of the raceways."""
+    """Oil that enters the interactions other than the raceway contacts; `None` if it is the oil of the raceways."""
     own = scene.oil_temperatures
     if own is None:
         return None
@@ -43,24 +44,24 @@ def oil_elsewhere(scene: AbstractBearing) -> OilElsewhere | None:
 
 
 def oil_of(inlet: InletOil, elsewhere: OilElsewhere | None, place: str) -> InletOil:
-    """The oil that enters an interaction beside the raceways.
+    """Oil that enters an interaction other than the raceway contacts.
 
-    **Arguments:** `inlet`: oil of the raceways; `elsewhere`: of the other interactions, `None` where it is the same;
+    **Arguments:** `inlet`: oil of the raceways; `elsewhere`: oil of the other interactions, `None` if it is the same;
     `place`: field of `OilElsewhere`.
     """
     return inlet if elsewhere is None else getattr(elsewhere, place)
 
 
 class AbstractOils(eqx.Module):
-    """Equations whose interactions may each have an oil of their own."""
+    """Base of equations in which the oil may differ between the interactions."""
 
     inlet: eqx.AbstractVar[InletOil]
     """Oil of the raceways."""
     elsewhere: eqx.AbstractVar[OilElsewhere | None]
-    """Oil of the other interactions where it is not that of the raceways."""
+    """Oil of the other interactions; `None` if it is the oil of the raceways."""
 
     def oil_of(self, place: str) -> InletOil:
-        """The oil that enters an interaction beside the raceways."""
+        """Oil that enters an interaction other than the raceway contacts. **Arguments:** `place`: as in `oil_of`."""
         return oil_of(self.inlet, self.elsewhere, place)
 
 
@@ -71,7 +72,8 @@ def oil_temperature(scene: AbstractBearing, place: str) -> Scalar:
 
 
 def race_temperatures(scene: AbstractBearing) -> Scalar | Float[Array, "2 1"]:
-    """Temperature of the oil that enters the raceway contacts, K: one for both, or of shape (2, 1), races first."""
+    """Temperature of the oil that enters the raceway contacts, K: one number for both, or shape (2, 1), inner race
+    first."""
     own = scene.oil_temperatures
     if own is None:
         return scene.operation.oil_temperature
@@ -79,5 +81,5 @@ def race_temperatures(scene: AbstractBearing) -> Scalar | Float[Array, "2 1"]:
 
 
 def of_inner_race(values: Scalar | Float[Array, "2 1"]) -> Scalar:
-    """A property of the oil in the inner raceway. **Arguments:** `values`: one, or of shape (2, 1)."""
+    """Selects the value at the inner race. **Arguments:** `values`: a number for both races, or shape (2, 1)."""
     return values[0, 0] if jnp.ndim(values) else values

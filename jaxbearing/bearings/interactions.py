@@ -1,11 +1,10 @@
 """Friction of a bearing. An *interaction* is the friction, or a constraint force, at one place; losses, torques and
 drive power are sums over all interactions.
 
-The power of an interaction is computed from its own force and its own speed: the sliding speed, and the mean speed for
-rolling resistance. Its torques are those that drive
-the rings against it, the opposite of the moments of its forces on the rings. The drive power is the sum of driving
-torque times speed over both rings. In a steady state it must equal the sum of the dissipations. This equality is not
-assumed anywhere. Tests compare the two, and a wrong sign of a torque shows as a difference.
+The power of an interaction is its force times its sliding speed, or its mean speed for rolling resistance. Its torques
+are those that drive the rings against it: the opposite of the moments of its forces on the rings. The drive power is
+the sum of driving torque times speed over both rings. In a steady state it must equal the sum of the dissipations.
+The code does not use this equality; tests compare the two, and would find a wrong sign of a torque.
 """
 
 from collections.abc import Callable, Sequence
@@ -39,9 +38,9 @@ class Interaction(NamedTuple):
 
 
 class FrictionTotals(NamedTuple, Generic[Losses]):
-    """Sums over all interactions: losses, drive power, W, and torques that drive the rings, N m. If no loss is
-    modelled, the drive power and the torques are `None`, and so are all fields of `power_loss`. `rolling_by_race`:
-    the `by_race` of the interaction that has it, W."""
+    """Sums over all interactions: losses, W, drive power, W, and torques that drive the rings, N m. If no loss is
+    modelled, the drive power, the torques and all fields of `power_loss` are `None`. `rolling_by_race`: the `by_race`
+    of the interaction that has it, W."""
 
     power_loss: Losses
     drive_power: Float[Array, ""] | None = None
@@ -51,7 +50,7 @@ class FrictionTotals(NamedTuple, Generic[Losses]):
 
 
 class TurningRings(Protocol):
-    """Anything that knows the speeds of both rings, rad/s."""
+    """Protocol of objects with the speeds of both rings, rad/s."""
 
     @property
     def inner_speed(self) -> Values: ...
@@ -88,11 +87,11 @@ def _sum(values: Sequence[Array]) -> Float[Array, ""]:
 
 
 def of_land(power: Array, ring_torque: Array, guidance: str) -> Interaction:
-    """The interaction of the cage's lands, the surfaces by which a ring guides the cage (loss `cage_pilot`).
+    """The interaction of the cage lands (loss `cage_pilot`).
 
-    **Arguments:** `power`: dissipation, W; `ring_torque`: torque that the friction exerts on the ring that guides the
-    cage, N m (the drive must supply its opposite); `guidance`: "inner_ring" if the inner ring guides the cage, else the
-    outer one does.
+    **Arguments:** `power`: dissipation, W; `ring_torque`: torque that the friction exerts on the guiding ring, N m (the
+    drive must supply its opposite); `guidance`: "inner_ring" if the inner ring guides the cage, otherwise the outer
+    ring does.
     """
     ring = "inner_torque" if guidance == "inner_ring" else "outer_torque"
     return Interaction("cage_pilot", power, **{ring: -ring_torque})

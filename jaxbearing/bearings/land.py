@@ -1,4 +1,4 @@
-"""The cage's lands on the ring that guides it: eccentricity, torques, dissipation."""
+"""Cage lands on the guiding ring: eccentricity, torques, dissipation."""
 
 from typing import Literal, NamedTuple
 
@@ -10,7 +10,8 @@ from ..numerics.safe import safe_norm
 
 
 class LandState(NamedTuple):
-    """The guiding lands together: torque on the cage and on the guiding ring, dissipation, where the cage sits."""
+    """State of all cage lands together: position of the cage, torques on the cage and on the guiding ring, N m,
+    dissipation, W."""
 
     eccentricity_ratio: Float[Array, ""]
     attitude_angle: Float[Array, ""]
@@ -30,7 +31,11 @@ def guided_land(
     force_y: Array,
     inlet: InletOil,
 ) -> LandState:
-    """The lands that carry a force on the cage, N, at steady state; speeds in rad/s."""
+    """Steady state of the cage lands that carry a force on the cage.
+
+    **Arguments:** `inner_speed`, `outer_speed`, `cage_speed`: rad/s; `force_x`, `force_y`: force on the cage, N;
+    `inlet`: oil of the lands.
+    """
     inner = guidance == "inner_ring"
     journal, bush = (inner_speed, cage_speed) if inner else (cage_speed, outer_speed)
     k_z, c_f = land.film_factors(inlet.density, inlet.viscosity, journal - bush)

@@ -1,4 +1,4 @@
-"""Minimum over central film: what the lambda ratio needs of solutions that show the central film."""
+"""Minimum film thicknesses for the lambda ratio, from solutions that give the central film."""
 
 from typing import Any
 
@@ -14,10 +14,10 @@ from .inlet import oil_of_races
 def minimum_films(scene: AbstractBearing, elements: Any) -> tuple[Float[Array, " element"], Float[Array, " element"]]:
     """Minimum films of the inner and the outer raceway, m, from the films of a solution.
 
-    Line contacts: `LINE_SHARE` of the central film, all of it where the scene's law is one of the minimum film; of
-    rollers in laminae that of the thinnest lamina. Point
-    contacts: the ratio of Hamrock and Dowson's two laws, at most 1, at the mean speed of the pitch circle (it goes with
-    its power 0.01).
+    Line contacts: `LINE_SHARE` times the central film, or the film itself if the law of the scene gives the minimum
+    film. For rollers in laminae the film of the thinnest lamina is used. Point contacts: the film times the ratio of
+    Hamrock and Dowson's laws for the minimum and the central film, at most 1. The ratio uses the mean entrainment speed
+    at the pitch circle, on which it depends only with the power 0.01.
     """
     film = scene.contact.film
     film = film.film if isinstance(film, RigidBlend) else film

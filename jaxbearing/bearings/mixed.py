@@ -1,4 +1,4 @@
-"""Mixed friction in the results of bearings: names, and sums over the rolling elements."""
+"""Mixed friction in the results of bearings: fields of the rolling elements, and sums over them."""
 
 import functools
 import operator
@@ -15,8 +15,9 @@ SIDES = ("inner", "outer")
 
 
 def mixed_results(state: MixedState | None, sides: Sequence[str] = SIDES) -> dict[str, Array]:
-    """Mixed friction by the names of the results of rolling elements; empty if it is not modelled. **Arguments:**
-    `state`: of contacts, one row a side; `sides`: their names."""
+    """Results of mixed friction as fields of the rolling elements: name -> values; empty if it is not modelled.
+
+    **Arguments:** `state`: state of the contacts, with one row for each side; `sides`: names of the sides."""
     if state is None:
         return {}
     found: dict[str, Array] = {}
@@ -36,10 +37,11 @@ def boundary_power(
     rib: MixedState | None = None,
     races: Sequence[int] = (0, 1),
 ) -> BoundaryPower | None:
-    """The part of boundary friction in the losses; `None` if mixed friction is not modelled.
+    """The part of the losses that is due to boundary friction, W; `None` if mixed friction is not modelled.
 
-    **Arguments:** `raceways`: of the contacts on the inner and the outer raceway, if these slide; `multiplicity`:
-    rolling elements for which each one stands; `rib`: of the roller ends; `races`: of each contact, 0 inner.
+    **Arguments:** `raceways`: state of the raceway contacts, one row each, `None` if they do not slide; `multiplicity`:
+    number of rolling elements that each modelled element represents; `rib`: state of the roller ends on the rib;
+    `races`: race of each row of `raceways`, 0 for the inner and 1 for the outer race.
     """
     powers: dict[str, Array] = {}
     if raceways is not None:

@@ -24,8 +24,7 @@ from .ring_deflection import InnerRingDeflection, RingDeflection
 from .supplied import SupplyResult
 
 INNER_TOLERANCE = 1e-8
-"""If the residual of a nested solve (`inner_residual`, which is not about the inner ring) is larger, the message of a
-failure names the nested solve as its cause."""
+"""Residual of nested solves (`inner_residual`) above which a failure message names the nested solve as the cause."""
 
 RING_FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
 """Degrees of freedom of the inner ring, in the order of `ring` and `stiffness`."""
@@ -37,12 +36,13 @@ _CONJUGATE = {"m": "N", "rad": "N m"}
 
 
 class RingDisplacement(eqx.Module):
-    """Displacement of the inner ring. The entry of a freedom that the bearing does not model is 0.
+    """Displacement of the inner ring. Degrees of freedom that the bearing does not model are 0.
 
-    The zero of `axial` is the middle of the play for ball bearings that are given by their clearance (the planes of the
-    grooves coincide there) and for cylindrical roller bearings with flanges. It is the first contact of elements and
-    races for ball bearings that are given by their contact angle and for tapered bearings. If a tapered bearing has
-    fits on shaft and housing (`[fits]`), its zero is the first contact with the dimensions of the drawing.
+    The zero of `axial` depends on the bearing:
+    - ball bearings given by their clearance: the middle of the play, where the planes of the grooves coincide;
+    - cylindrical roller bearings with flanges: the middle of the play;
+    - ball bearings given by their contact angle, and tapered bearings: first contact of elements and races. For tapered
+      bearings with `[fits]` this is first contact with the dimensions of the drawing.
     """
 
     axial: Float[Array, ""] = eqx.field(
@@ -76,7 +76,7 @@ class CageState(eqx.Module):
 
 
 def losses_not_modelled(loss: eqx.Module) -> tuple[str, ...]:
-    """Names of the losses that this scene does not model (`None`) and of those that no scene of its kind models.
+    """Names of the losses that this scene does not model (`None`), and of those that its kind of scene never models.
 
     **Arguments:** `loss`: a `PowerLoss`, `BallPowerLoss` or `TaperedPowerLoss`.
     """
@@ -85,8 +85,8 @@ def losses_not_modelled(loss: eqx.Module) -> tuple[str, ...]:
 
 
 class RacewayPower(eqx.Module):
-    """Parts of the losses on the raceways of balls: spin about the contact normal, sliding along and across the
-    rolling direction, and Heathcote slip, which the curvature of the contact causes (`None`: it is taken as flat)."""
+    """Losses of balls on the raceways by kind: spin about the contact normal, sliding along and across the rolling
+    direction, and Heathcote slip due to the curvature of the contact (`None`: the contact is taken as flat)."""
 
     inner_spin: Float[Array, ""] = eqx.field(metadata=label("W", "spin, inner raceway"))
     inner_rolling: Float[Array, ""] = eqx.field(metadata=label("W", "sliding along rolling, inner raceway"))
@@ -103,8 +103,8 @@ class RacewayPower(eqx.Module):
 
 
 class BoundaryPower(eqx.Module):
-    """The part of the losses that is boundary friction of asperities, of scenes with mixed friction; each entry is part
-    of the loss of the same name in `power_loss`. Places that a kind of bearing does not have are `None`."""
+    """Losses by boundary friction of asperities, for scenes with mixed friction. Each entry is included in the loss of
+    the same name in `power_loss`. Places that a kind of bearing does not have are `None`."""
 
     total: Float[Array, ""] = eqx.field(metadata=label("W", "boundary friction, total"))
     inner_raceway: Float[Array, ""] | None = eqx.field(
@@ -117,8 +117,8 @@ class BoundaryPower(eqx.Module):
 
 
 class RollingByRace(eqx.Module):
-    """Rolling resistance of each raceway, which is no part of `RacewayPower`; `law`: its law and the inlet heating, in
-    words."""
+    """Rolling resistance of each raceway, which `RacewayPower` does not include. `law` describes the law and the inlet
+    heating in words."""
 
     inner: Float[Array, ""] = eqx.field(metadata=label("W", "rolling resistance of the inner raceway"))
     outer: Float[Array, ""] = eqx.field(metadata=label("W", "rolling resistance of the outer raceway"))
@@ -139,15 +139,15 @@ class LaminaLoads(eqx.Module):
 
 
 class FailureCause(NamedTuple):
-    """A possible cause of a failed solve. `applies` is True where it is one; `numbers` fill the places of the text
-    that is its key in `Solution.failure_causes`."""
+    """A possible cause of a failed solve. `applies` is True if it is a cause of this failure; `numbers` are inserted
+    into its text, which is its key in `Solution.failure_causes`."""
 
     applies: Bool[Array, ""]
     numbers: Float[Array, "..."]
 
 
 def causes_in_words(causes: Mapping[str, FailureCause]) -> list[str]:
-    """The causes that apply, with their numbers in their texts."""
+    """Texts of the causes that apply, with their numbers inserted."""
     return [
         text.format(*np.atleast_1d(np.asarray(cause.numbers)).tolist())
         for text, cause in causes.items()
@@ -170,13 +170,13 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     `BallSolution`, `RollerSolution` and `TaperedSolution` name the classes of `operation`, `elements` and
     `power_loss` of a bearing family. Drive power and torques are `None` if the scene models no loss.
 
-    **Arguments:** the labels of the fields describe them; others are
-    - `checks`: text of a warning or rule -> True if a law leaves its range or an input breaks the rule.
+    **Arguments:** most fields are described by their labels; the others are
+    - `checks`: text of a warning or rule -> True if a law is used outside its range or an input breaks the rule.
     - `worst_equation`: index in `equation_names`; `worst_element`: index of the rolling element, without meaning if the
       worst equation belongs to no single element.
-    - `force`: loads that must act on the ring from outside, positive along its displacements.
-    - `ring_freedom`: degrees of freedom of the ring whose displacement is a result, and those, also named in
-      `held_freedom`, whose displacement was given.
+    - `force`: external loads that hold the inner ring in place, positive along its displacements.
+    - `ring_freedom`: degrees of freedom of the ring whose displacement is a result or is prescribed; the prescribed
+      ones are also in `held_freedom`.
     - `equation_names`: equations of one rolling element, then those that belong to no single element.
     - `global_equations`: number of equations that belong to no single rolling element.
     - `notes`: what the model assumes or leaves out.
@@ -221,17 +221,17 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     unknowns: int = eqx.field(static=True, metadata=label("1", "unknowns of the equations"))
     notes: tuple[str, ...] = eqx.field(static=True, default=())
     stiffness_freedom: tuple[str, ...] | None = eqx.field(static=True, default=None)
-    """Degrees of freedom whose rows and columns of `stiffness` are modelled; the others are 0. `None`: those of
+    """Degrees of freedom whose rows and columns of `stiffness` are modelled; the others are 0. `None`: the same as
     `ring_freedom`."""
     element_name: str = eqx.field(static=True, default="roller")
     raceway_power: RacewayPower | None = None
     laminae: LaminaLoads | None = None
     held_freedom: tuple[str, ...] = eqx.field(static=True, default=())
-    """Modelled degrees of freedom of the ring whose displacement is held and not solved for."""
+    """Modelled degrees of freedom of the ring with a prescribed displacement."""
     fit: FitResult | None = None
     thermal: ThermalResult | None = None
     failure_causes: dict[str, FailureCause] = eqx.field(default_factory=dict)
-    """Possible causes of a failed solve: text with places for numbers, such as `{:.3g}` -> its `FailureCause`."""
+    """Possible causes of a failed solve: text with placeholders for numbers, such as `{:.3g}` -> its `FailureCause`."""
     life: Life | None = None
     """Life of the bearing, if the scene has a rating."""
     rolling_by_race: RollingByRace | None = None
@@ -242,23 +242,23 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     inner_ring: InnerRingDeflection | None = None
     """Deformed shape of the inner ring, if it bends."""
     textbook_frequencies: KinematicFrequencies | None = None
-    """Frequencies of rolling without slip at the contact angle of the drawing."""
+    """Frequencies for rolling without slip at the contact angle of the drawing."""
 
     @derived_part(KinematicFrequencies)
     def frequencies(self) -> KinematicFrequencies:
-        """Frequencies of the motion that was solved."""
+        """Frequencies of the computed motion."""
         return frequencies_of_motion(self.operation, self.elements, self.cage)
 
     @property
     def freedoms_of_stiffness(self) -> tuple[str, ...]:
-        """Degrees of freedom whose rows and columns of `stiffness` are modelled, in the order of `RING_FREEDOMS`. The
-        entries of the others are 0, which says nothing about the bearing."""
+        """Degrees of freedom whose rows and columns of `stiffness` are modelled, in the order of `RING_FREEDOMS`. For
+        the others, `stiffness` contains 0 as a placeholder."""
         found = self.ring_freedom if self.stiffness_freedom is None else self.stiffness_freedom
         return tuple(name for name in RING_FREEDOMS if name in found)
 
     @property
     def not_modelled(self) -> tuple[str, ...]:
-        """Names of the losses that the scene does not model, with those that no scene of its kind models."""
+        """Names of the losses that this scene does not model, and of those that its kind of scene never models."""
         return losses_not_modelled(self.power_loss)
 
     @property
@@ -266,21 +266,21 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
         return self.status == Status.CONVERGED
 
     def solver_failure(self) -> str:
-        """One line on a failed solve: how it ended, and the possible causes that apply.
+        """Message of a failed solve in one line: how it ended, and the causes that apply.
 
-        It tells the residual and the worst equation, or the nested solve that failed, unless there is no equilibrium.
-        With a thermal network it tells the hottest node in place of the residual.
+        Unless the loads have no equilibrium, it contains the residual and the worst equation, or the nested solve that
+        failed; with a thermal network, the hottest node instead of the residual.
         """
         found = causes_in_words(self.failure_causes)
         if found and int(self.status) == Status.INVALID_INPUT:
             return f"{Status.INVALID_INPUT.text}: {'; '.join(found)}"
-        # loads without an equilibrium have none at any temperature
+        # whether loads can be balanced does not depend on the temperatures
         mechanical = self.thermal is None or int(self.status) == Status.NO_EQUILIBRIUM
         ending = self._ending() if mechanical else self._thermal_ending()
         return "; ".join([ending, *found])
 
     def _thermal_ending(self) -> str:
-        """One sentence on a failed search for temperatures."""
+        """Message of a failed search for the temperatures."""
         thermal = self.thermal
         assert thermal is not None
         status, speed = Status(int(self.status)), float(np.asarray(self.operation.inner_speed)) * 30.0 / np.pi
@@ -291,8 +291,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
         return f"{ending}; of the last solve of the bearing the worst equation is: {name}"
 
     def _ending(self) -> str:
-        """The end of a failed solve in words: its residual, and the worst equation or the nested solve that failed,
-        unless there is no equilibrium."""
+        """Message of a failed solve without its causes: the residual and the worst equation or nested solve, or why the
+        loads have no equilibrium."""
         local_equations = len(self.equation_names) - self.global_equations
         worst = int(self.worst_equation)
         name = self.equation_names[worst]

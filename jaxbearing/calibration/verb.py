@@ -1,4 +1,4 @@
-"""The verb `calibrate`: scenes and measurements in, fields with intervals out."""
+"""The verb `calibrate`: estimates fields of scenes, with intervals, from measurements."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -30,13 +30,14 @@ from .search import Options, Search
 from .words import said_of
 
 OUTLIER, FEWEST = 4.0, 10
-"""Robust standard deviations beyond which a value is an outlier, and degrees of freedom below which none is."""
+"""Number of robust standard deviations beyond which a value is an outlier; fewest degrees of freedom of the fit at
+which outliers are marked, and fewest points at which a lack of fit is reported."""
 BIAS = 0.5
-"""Mean over root mean square of the differences of a quantity from which it is said to be met on one side."""
+"""Modulus of the mean difference of a quantity over the root mean square, above which a lack of fit is reported."""
 ALL_USED = "as many fields as measured values that change with them"
-"""Why nothing tells the size of the errors."""
+"""Reason why the size of the errors cannot be estimated."""
 SAME_LOSS = 1e-6
-"""Relative difference of losses that count as the same minimum."""
+"""Relative difference of losses up to which they count as the same minimum."""
 
 
 @rare_garbage_collection()
@@ -52,28 +53,29 @@ def calibrate(
     newton: NewtonOptions | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> Calibration:
-    """Fields of scenes from measurements at many operating points, with intervals and with what they cannot tell.
+    """Estimates fields of scenes, with intervals, from measurements at many operating points.
 
         data = {"conditions": {"operation.inner_speed": speeds}, "measured": {"power_loss.total": losses}}
         found = jb.calibrate(scene, data, ["drag.coefficient"])
         found["drag.coefficient"].value, found["drag.coefficient"].lower, found["drag.coefficient"].upper
 
-    Least squares on the solves of the scenes with their exact derivatives. Fields that must be positive are fitted as
-    logarithms. A field that the measurements cannot tell is held at its start and named, with the reason. The size of
-    the errors is estimated from the differences, unless `options.known_errors`.
+    The method is least squares with exact derivatives of the solves. Fields that must be positive are fitted as
+    logarithms. A field that the measurements do not determine is held at its start, and the reason is given. The size
+    of the errors is estimated from the differences between model and measurements, unless `options.known_errors`.
 
     **Arguments:**
     - `scene`: from `load_scene`, or built from parts; or several, one for each rig.
-    - `data`: `calibration.Data`, or a mapping with its names; several for several rigs.
+    - `data`: `calibration.Data`, or a mapping with the names of its fields; or several, one for each rig.
     - `free`: dotted paths of the fields; each is fitted in every scene that has it.
-    - `priors`: dotted path -> `Distribution` of what is known before; a uniform one is a pair of bounds.
+    - `priors`: dotted path -> `Distribution` of the prior knowledge; a uniform one is a pair of bounds.
     - `bounds`: dotted path -> lower and upper bound, SI; either may be `None`.
-    - `folds`: the points are parted into so many, and each is predicted from the others; 0: none.
+    - `folds`: number of parts for cross-validation: the operating points of each part are predicted from the others;
+      0: none.
     - `options`: of the calibration, `calibration.Options`; `newton`: of the solver.
     - `progress`: called with the number of operating points that were just solved.
 
-    **Raises:** `ValueError` for data, fields or options that do not fit together; `SolveError` where no operating point
-    can be solved with the fields as they are; `AttributeError` for a field that is not there.
+    **Raises:** `ValueError` for data, fields or options that do not fit together; `SolveError` where an operating point
+    cannot be solved with the start values of the fields; `AttributeError` for a field that does not exist.
     """
     require_x64()
     options = Options() if options is None else options
@@ -117,7 +119,7 @@ def _search(
     newton: NewtonOptions,
     progress: Callable[[int], None] | None,
 ) -> Search:
-    """The search with checked data: paths of conditions and of results as the scenes have them."""
+    """Search over checked data, in which conditions and results are named by their paths in the scenes."""
     evaluators, resolved = [], []
     for scene, data in zip(scenes, rigs, strict=True):
         own = [field.path for field in fields if scenes_with([scene], field.path)]
@@ -139,8 +141,10 @@ def _search(
 
 
 def _resolved(scene: AbstractScene, data: Data, newton: NewtonOptions) -> tuple[dict[str, Label], Data]:
-    """Labels of the measured results by their paths, and the data by these. **Raises:** `ValueError` for a name that is
-    no result."""
+    """Label of each measured result by its path, and the data with these paths as names.
+
+    **Raises:** `ValueError` for a name that is no result, and for a result that is named twice.
+    """
     found = labels_in(scene, list(data.measured), newton)
     labels = dict(found.values())
     if len(labels) < len(found):
@@ -150,7 +154,8 @@ def _resolved(scene: AbstractScene, data: Data, newton: NewtonOptions) -> tuple[
 
 
 def _check_start(search: Search) -> None:
-    """**Raises:** `SolveError` where a value that is to be fitted has no prediction at the start."""
+    """**Raises:** `SolveError` if an operating point with a value to fit cannot be solved at the start; `ValueError` if
+    it can be solved, but the value is not finite."""
     start = np.array([[field.coordinate(field.start) for field in search.fields]])
     values, _ = search.predicted(start)
     lost = np.flatnonzero(~np.isfinite(values[0]) & (search.weight > 0))
@@ -222,7 +227,7 @@ def _result(search: Search, scenes: Sequence[AbstractScene], found: Settled, fol
 def _failure(
     search: Search, held: Held, ended: bool, converged: bool, predicted: np.ndarray, undetermined: bool
 ) -> str:
-    """Why there is no result, or an empty text."""
+    """Reason why the calibration failed, or an empty text."""
     if undetermined:
         said = "; ".join(f"{search.fields[i].path}: {why}" for i, why in held.reasons.items())
         return f"the measurements cannot tell any field ({said})"
@@ -253,7 +258,7 @@ def _parameters(
 
 
 def _misfits(search: Search, predicted: np.ndarray, used: np.ndarray) -> tuple[Misfit, ...]:
-    """Differences by rig and quantity."""
+    """Differences between model and measurements, for each rig and quantity."""
     found = []
     for number, evaluator in enumerate(search.evaluators):
         for name, label in evaluator.labels.items():
@@ -276,7 +281,7 @@ def _notes(
     misfits: Sequence[Misfit],
     starts: tuple[int, int],
 ) -> list[str]:
-    """Notes that the user must know, a sentence each."""
+    """Notes for the user, one sentence each."""
     fields = search.fields
     notes = [
         f"{fields[i].path} cannot be determined: {why}." for i, why in held.reasons.items() if i not in held.pinned

@@ -1,4 +1,4 @@
-"""Tangential compliance of the bodies in series with the film."""
+"""Tangential compliance of the bodies, which acts in series with the compliance of the film."""
 
 import abc
 from typing import ClassVar
@@ -14,17 +14,17 @@ from .patch import ContactPatch
 
 
 class AbstractTangentialCompliance(Checked):
-    """Elastic surface displacement per shear stress, as if each point were on a spring of its own."""
+    """Elastic tangential displacement of the surfaces per local shear stress, as if each point had its own spring."""
 
     part: ClassVar[str] = "contact.compliance"
 
     @abc.abstractmethod
     def compliance(self, patch: ContactPatch) -> Float[Array, "..."]:
-        """L1, m/Pa, of both bodies together."""
+        """Compliance L1 of both bodies together, m/Pa."""
 
 
 class GivenCompliance(AbstractTangentialCompliance):
-    """One number. **Arguments:** `value`: L1, m/Pa, >= 0."""
+    """Given compliance, the same in all contacts. **Arguments:** `value`: L1, m/Pa, >= 0."""
 
     value: Scalar = bounded(">= 0", converter=as_float)
 
@@ -33,19 +33,20 @@ class GivenCompliance(AbstractTangentialCompliance):
 
 
 class HalfSpaceCompliance(AbstractTangentialCompliance):
-    r"""The spring whose creep force equals that of elastic half-spaces at small sliding.
+    r"""Compliance for which the traction at small sliding equals that of elastic half-spaces.
 
-    Line contact: $L_1 = 8a/(\pi E')$. Ellipse: $L_1 = 8a/(3G_sC_{11})$ with Kalker's $C_{11}(a/c, \nu)$, equal bodies.
+    Line contact: $L_1 = 8a/(\pi E')$. Ellipse: $L_1 = 8a/(3G_sC_{11})$ with Kalker's creep coefficient
+    $C_{11}(a/c, \nu)$. Both bodies have the shear modulus $G_s = E'(1 - \nu)/2$ and the Poisson's ratio $\nu$.
 
     **Limits:** 0 for rigid bodies.
-    **Validity:** 0.1 <= a/c <= 1, beyond that the nearer end; interpolated quadratically in nu and linearly in ln(a/c)
-    between a/c = 0.1, 0.5 and 1.
+    **Validity:** 0.1 <= a/c <= 1; outside this range the value at its nearer end is used. $C_{11}$ is interpolated
+    quadratically in nu and linearly in ln(a/c) between a/c = 0.1, 0.5 and 1.
     **Reference:** Carter (1926); Kalker (1967), thesis, TU Delft, and simplified theory (1982), Vehicle System Dynamics
-    11, 1; the coefficients as recalled, not verified against print.
+    11, 1; the coefficients are from memory, not verified against print.
 
     **Arguments:**
     - `reduced_modulus`: E', Pa.
-    - `poisson_ratio`: Poisson's ratio of both bodies; an ellipse needs it.
+    - `poisson_ratio`: Poisson's ratio of both bodies; used for an ellipse only.
     """
 
     reduced_modulus: Values
@@ -69,7 +70,8 @@ _C11 = ((2.51, 3.31, 4.85), (2.88, 3.62, 4.83), (3.40, 4.12, 5.20))
 
 
 def creep_coefficient(ratio: Values, poisson_ratio: Values) -> Float[Array, "..."]:
-    """Kalker's C11. **Arguments:** `ratio`: a/c, semi-axis along over across rolling; `poisson_ratio`."""
+    """Kalker's creep coefficient C11. **Arguments:** `ratio`: a/c, semi-axis along rolling over semi-axis across it;
+    `poisson_ratio`: of both bodies."""
     require_numbers("> 0", ratio=ratio)
     require_numbers("between 0 and 0.5", poisson_ratio=poisson_ratio)
     quadratic = [

@@ -31,16 +31,18 @@ SPEED_FLOOR = 1e-6
 """Speed with which the absolute value of the mean speed is smoothed near 0, m/s. At rest the oil has unlimited time to
 relax and flows as a viscous fluid."""
 UNCERTAIN_SHARE = 0.1
-"""Safety share of an error estimate: this fraction of the absolute value of each part is added (`error_estimate`)."""
+"""Safety margin of `error_estimate`: this fraction of the absolute value of each part is added to the estimate."""
 RISE_TOLERANCE = 1e-10
-"""Newton step at which the search for a temperature ends, relative to the rise or to 1 K, whichever is larger."""
+"""Length of the Newton step at which the search for a temperature rise ends, relative to the rise or to 1 K, whichever
+is larger."""
 
 
 class StripPower(NamedTuple):
-    """Dissipation on the strips of a contact along rolling, in order across it.
+    """Dissipated power of the strips of a contact. The strips run along rolling and are ordered across it.
 
-    - `power`: W; their sum is that of the contact. Strips of a half that is mirrored hold the power of both sides.
-    - `offset`: distance from the middle across rolling, m; `width`: of the strip, m.
+    - `power`: power of each strip, W. The sum is the power of the contact: if only one half of the contact is computed,
+      each strip also holds the power of its mirror image.
+    - `offset`: distance from the middle across rolling, m; `width`: width of the strip, m.
     """
 
     power: Float[Array, "*batch strip"]
@@ -55,9 +57,9 @@ class Traction(NamedTuple):
     - `film_rise`, `surface_rise`: largest rise of the mean film temperature and of the surface temperature above the
       base, K; with 40 steps they are too low by at most 0.2 and 0.4 %. `None` if isothermal.
     - `inner_residual`: residual of the nested solves for the temperature, K.
-    - `curvature`: integral of the rolling stress times y^2, N m^2, with the distance y of a strip from the middle;
+    - `curvature`: integral of the rolling stress times y^2, N m^2, where y is the distance of a strip from the middle;
       `None` if the sliding has no part that varies with y^2 (`Sliding.curvature`).
-    - `by_strip`: power by strips; `None` where it is not known.
+    - `by_strip`: power of each strip; `None` if it is not known.
     """
 
     rolling: Float[Array, "*batch"]
@@ -71,7 +73,7 @@ class Traction(NamedTuple):
     by_strip: StripPower | None = None
 
     def coefficient(self, load: Values) -> Float[Array, "*batch"]:
-        """Traction coefficient along rolling. **Arguments:** `load`: of the contact, N, > 0."""
+        """Traction coefficient along rolling. **Arguments:** `load`: load of the contact, N, > 0."""
         return self.rolling / load
 
 
@@ -143,7 +145,7 @@ class DistributedTraction(AbstractTraction):
         temperature: Values,
         lubricant: Lubricant,
     ) -> Traction:
-        """Forces, moment, power and temperatures of one film (the inlet's shear is not in it).
+        """Forces, moment, power and temperatures of one film, without the shear in the inlet.
 
         **Arguments:** `film`, m, > 0; `entrainment_speed`, m/s, of either sign; `temperature`: base temperature of the
         entering oil and of the surfaces, K. All broadcast against each other and the fields of `patch`.
@@ -194,7 +196,7 @@ class DistributedTraction(AbstractTraction):
 
 
 class _Problem(eqx.Module):
-    """One film on its strips: arrays of shape (*batch, strip)."""
+    """One film, cut into strips. The arrays have the shape (*batch, strip)."""
 
     law: DistributedTraction
     viscous: AbstractViscousFunction
@@ -207,7 +209,7 @@ class _Problem(eqx.Module):
     speed: Array
     strips: Strips
     compliance: Array | None
-    """L1/h, 1/Pa."""
+    """Tangential compliance of the bodies over the film thickness, L1/h, 1/Pa."""
     direction: Array
     """Sign of the mean speed; the problem is turned so that the mean speed becomes positive."""
     rate: Array
@@ -353,7 +355,7 @@ class _Problem(eqx.Module):
 
 class _Sums(NamedTuple):
     """Integrals over x/a on each strip: `rolling` and `transverse` of the stress components, `power` of stress times
-    shear rate, `moment` of x/a times the transverse stress."""
+    shear rate, and `moment` of x/a times the transverse stress."""
 
     rolling: Array
     power: Array

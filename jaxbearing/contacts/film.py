@@ -12,10 +12,12 @@ from ..numerics.safe import log_add, smooth_abs
 from .line import LOAD_FLOOR, LineContact, log_entrainment_sum, log_material_number
 
 MARTIN_CONSTANT = 4.894968
-"""h Q/(mu u R l) of a rigid isoviscous cylinder with the Reynolds exit condition, u the mean speed: Martin (1916).
-With the outlet at x = sqrt(2 R h) tan(25.4 deg), its half, 2.447, belongs to the sum speed."""
+"""Martin's (1916) constant h Q/(mu u R l) of a rigid cylinder in an isoviscous oil with the Reynolds exit condition,
+which puts the outlet at x = sqrt(2 R h) tan(25.4 deg). It belongs to the mean speed u; for the sum u1 + u2 of the
+speeds it is half as large, 2.447."""
 MOES_LOAD_FLOOR = 1e-6
-"""Smallest Moes load number M: an unloaded film is limited by geometry (3/M is then 3e6), not by the formula."""
+"""Smallest load number M of Moes. The film of an unloaded contact is then finite (H = 3/M = 3e6); the clearance limits
+it, not the formula."""
 LOG_2 = 0.6931471805599453
 
 
@@ -58,9 +60,15 @@ class AbstractLineFilm(Checked):
 
 
 class MoesNumbers(NamedTuple):
-    r"""Dimensionless groups of a film by Moes: load number M, material number L, and `film_unit`, m, by which a film is
-    divided to give H; of a line contact $M = \frac{Q}{\ell E'R}U^{-1/2}$, of a point contact
-    $M = \frac{Q}{E'R_x^2}U^{-3/4}$; $L = \alpha E'U^{1/4}$, $H = \frac hRU^{-1/2}$, $U = \mu(u_1+u_2)/(E'R)$."""
+    r"""Dimensionless groups of Moes.
+
+    - `load`: load number M, of a line contact $M = \frac{Q}{\ell E'R}U^{-1/2}$, of a point contact
+      $M = \frac{Q}{E'R_x^2}U^{-3/4}$.
+    - `material`: material number $L = \alpha E'U^{1/4}$.
+    - `film_unit`: unit $RU^{1/2}$ of the film thickness, m: the dimensionless film is $H = \frac hRU^{-1/2}$.
+
+    $U = \mu(u_1+u_2)/(E'R)$. In a point contact R is $R_x$.
+    """
 
     load: Float[Array, "..."]
     material: Float[Array, "..."]
@@ -75,11 +83,11 @@ class Moes(AbstractLineFilm):
     $H_{RI} = 3/M$, $H_{EI} = 2.621 M^{-1/5}$, $H_{RP} = 1.287 L^{2/3}$, $H_{EP} = 1.311 M^{-1/8}L^{3/4}$,
     $s = [7 + 8\exp(-2 H_{EI}/H_{RI})]/5$.
 
-    **Limits:** Martin's $3/M$ as M and L -> 0; the isoviscous film at $\alpha$ = 0, floored at 1e-25 1/Pa, within
-    1e-12; Ertel-Grubin's $H_{EP}$ and Blok's $H_{RP}$ at large L.
-    **Validity:** smooth, fully flooded, isothermal, Newtonian inlet. About 5 % below the source's full numerical
-    solution (table 18). M is floored as $\sqrt{M^2 + 10^{-12}}$, so the film of an unloaded contact is finite and
-    the caller limits it by the clearance; the speed levels off at 1e-6 m/s.
+    **Limits:** Martin's $3/M$ as M and L -> 0; at $\alpha$ = 0 the isoviscous film, within 1e-12, because 1e-25 1/Pa
+    is added to $\alpha$; Ertel-Grubin's $H_{EP}$ and Blok's $H_{RP}$ at large L.
+    **Validity:** smooth surfaces, fully flooded, isothermal, Newtonian inlet. About 5 % below the source's full
+    numerical solution (table 18). M is floored as $\sqrt{M^2 + 10^{-12}}$: the film of an unloaded contact is finite,
+    and the caller limits it by the clearance. $u_1+u_2$ levels off at 1e-6 m/s.
     **Reference:** Moes (1992), Wear 159, 57. The source names Cheng's line formula without printing it; this one
     stands in for it.
     """
@@ -124,7 +132,7 @@ class Moes(AbstractLineFilm):
     def _groups(
         contact: LineContact, load: Values, entrainment_speed: Values, viscosity: Values, pressure_viscosity: Values
     ) -> tuple[Array, Array, Array]:
-        """ln U, M and ln L."""
+        """Groups of Moes: ln U, M and ln L."""
         stiffness = contact.reduced_modulus * contact.reduced_radius
         log_u = log_entrainment_sum(entrainment_speed) + jnp.log(viscosity) - jnp.log(stiffness)
         m = load / (contact.length * stiffness) * jnp.exp(-0.5 * log_u)
@@ -134,7 +142,7 @@ class Moes(AbstractLineFilm):
 def _log_groups(
     contact: LineContact, load: Values, entrainment_speed: Values, viscosity: Values, pressure_viscosity: Values
 ) -> tuple[Array, Array, Array]:
-    r"""ln of $U = \mu u/(E'R)$ with the mean speed u, $G = \alpha E'$ and $W = Q/(E'R\ell)$."""
+    r"""Logarithms of $U = \mu u/(E'R)$ with the mean speed u, $G = \alpha E'$ and $W = Q/(E'R\ell)$."""
     stiffness = contact.reduced_modulus * contact.reduced_radius
     log_speed = log_entrainment_sum(entrainment_speed) - LOG_2 + jnp.log(viscosity) - jnp.log(stiffness)
     log_material = log_material_number(pressure_viscosity, contact.reduced_modulus)
@@ -150,7 +158,7 @@ def _power_law(
     material: float,
     load: float,
 ) -> Float[Array, "..."]:
-    """ln of R factor U^speed G^material W^load."""
+    """Logarithm of R factor U^speed G^material W^load."""
     log_speed, log_material, log_load = log_groups
     log_radius = jnp.log(contact.reduced_radius)
     return jnp.log(factor) + log_radius + speed * log_speed + material * log_material + load * log_load
@@ -162,8 +170,8 @@ class DowsonHigginson(AbstractLineFilm):
     $h_{min}/R = 2.65\,U^{0.70}G^{0.54}W^{-0.13}$, $U = \mu u/(E'R)$ with u the *mean* speed, $G = \alpha E'$,
     $W = Q/(E'R\ell)$.
 
-    **Validity:** the elastic-piezoviscous regime only: at light load it is far too thin (see `MartinBlend`). The
-    load levels off at 1e-9 N, the speed at 0.5e-6 m/s, alpha at 1e-25 1/Pa. About 4 % below the source's full
+    **Validity:** the elastic-piezoviscous regime only: at light load the film is far too thin (see `MartinBlend`). The
+    load levels off at 1e-9 N, the speed at 0.5e-6 m/s and alpha at 1e-25 1/Pa. About 4 % below the source's full
     numerical solution (table 18).
     **Reference:** Dowson and Higginson, *Elastohydrodynamic Lubrication* (1966, revised 1977).
     """
@@ -187,8 +195,8 @@ class DowsonToyoda(AbstractLineFilm):
 
     $h_c/R = 3.06\,U^{0.69}G^{0.56}W^{-0.10}$, groups as in `DowsonHigginson`.
 
-    **Validity:** the elastic-piezoviscous regime only, with the floors of `DowsonHigginson`. 4 and 0.1 % below the
-    source's full numerical solution (table 18).
+    **Validity:** the elastic-piezoviscous regime only, with the floors of `DowsonHigginson`. In the source's two
+    contacts 4 and 0.1 % below the full numerical solution (table 18).
     **Reference:** Dowson and Toyoda (1979), Proc. 5th Leeds-Lyon Symposium, 60.
     """
 
@@ -235,8 +243,8 @@ class PanHamrockMinimum(AbstractLineFilm):
 
     $h_{min}/R = 1.714\,U^{0.694}G^{0.568}W^{-0.128}$, groups as in `DowsonHigginson`.
 
-    **Validity:** the elastic-piezoviscous regime only, with the floors of `DowsonHigginson`. 11 and 9 % below the
-    source's full numerical solution (table 18).
+    **Validity:** the elastic-piezoviscous regime only, with the floors of `DowsonHigginson`. In the source's two
+    contacts 11 and 9 % below the full numerical solution (table 18).
     **Reference:** Pan and Hamrock (1989), ASME J. Tribology 111, 246.
     """
 
@@ -259,8 +267,8 @@ class Grubin(AbstractLineFilm):
 
     $h_c/R = 1.95\,(GU)^{8/11}W^{-1/11}$, groups as in `DowsonHigginson`.
 
-    **Validity:** the elastic-piezoviscous regime only, with the floors of `DowsonHigginson`. 11 and 13 % below the
-    source's full numerical solution (table 18).
+    **Validity:** the elastic-piezoviscous regime only, with the floors of `DowsonHigginson`. In the source's two
+    contacts 11 and 13 % below the full numerical solution (table 18).
     **Reference:** Grubin (1949), TsNIITMASh Book 30 (DSIR translation 337).
     """
 
@@ -283,10 +291,10 @@ class MartinBlend(AbstractLineFilm):
 
     $h_M = 4.894968\,\mu u R\ell/Q$ (Martin, u the mean speed), n = 3 by default.
 
-    **Limits:** the wrapped film at high load, Martin's film as Q -> 0: the film then grows without bound, so a
-    roller in any clearance carries a small positive load and has a place of its own.
-    **Validity:** an interpolation; at equal films the sum is 26 % above either (n = 3). Do not wrap `Moes`, which
-    contains Martin's film already.
+    **Limits:** the given film at high load. Martin's film as Q -> 0: it grows without bound and fills any clearance, so
+    that an unloaded roller carries a small positive load and has a definite position.
+    **Validity:** an interpolation; where both films are equal, the sum is 26 % above them (n = 3). Do not use it with
+    `Moes`, which contains Martin's film already.
     **Reference:** Martin (1916), Engineering 102, 119, for $h_M$; the blend is ours.
     """
 

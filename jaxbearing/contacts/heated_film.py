@@ -1,4 +1,4 @@
-"""Film of a contact whose inlet heats up: thermal factor, and the temperature of the oil that enters."""
+"""Film thickness with inlet heating: the thermal factor, and the temperature rise of the oil that corresponds to it."""
 
 from typing import Any, NamedTuple
 
@@ -16,8 +16,12 @@ from .thermal import AbstractThermalFactor, NoThermalReduction, inlet_temperatur
 
 
 class HeatedFilm(NamedTuple):
-    """`log_thickness`, ln of m; `rise`, K, of the oil in the contact above the inlet (None: isothermal); `residual` of
-    the nested solve for it, in units of ln(film)."""
+    """Film with inlet heating.
+
+    - `log_thickness`: ln of the film thickness in m.
+    - `rise`: temperature rise of the oil in the contact above the inlet temperature, K; `None` if isothermal.
+    - `residual`: residual of the nested solve for the rise, in units of ln(film).
+    """
 
     log_thickness: Float[Array, "..."]
     rise: Float[Array, "..."] | None
@@ -35,12 +39,13 @@ def heated_film(
     lubricant: Lubricant,
     inlet: InletOil,
 ) -> HeatedFilm:
-    """The isothermal film at the inlet temperature times the thermal factor, and the rise that explains the factor.
+    """Film thickness, the isothermal film at the inlet temperature times the thermal factor, and temperature rise at
+    which the isothermal film has this thickness.
 
-    **Arguments:** laws that fit the kind of contact; `load`, N, > 0; `speed`, mean of the surfaces, and
-    `sliding_speed`, m/s; `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
+    **Arguments:** `film`, `thermal`: laws for the kind of the contact; `load`, N, > 0; `speed`: mean speed of the
+    surfaces, m/s; `sliding_speed`, m/s; `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
     """
-    # laws of the contact's kind: seen to when the scene is made
+    # a scene checks that both laws fit the kind of its contacts
     law: Any = film
     factor: Any = thermal
     log_film = law.log_thickness(contact, load, speed, inlet.viscosity, inlet.pressure_viscosity)
@@ -53,7 +58,7 @@ def heated_film(
 
 
 def _log_film_at(temperature: Array, args: Any) -> Array:
-    """ln of the isothermal film with the oil at another inlet temperature."""
+    """Logarithm of the isothermal film with the oil properties at a given temperature, K."""
     law, contact, load, speed, lubricant = args
     viscosity = lubricant.viscosity.viscosity(0.0, temperature)
     return law.log_thickness(contact, load, speed, viscosity, lubricant.pressure_viscosity.coefficient(temperature))

@@ -1,4 +1,4 @@
-"""Heat of the sheared film in a contact: temperature across the film and of the surfaces."""
+"""Heating of a film by its shear: temperatures of the film and of the surfaces of a contact."""
 
 from typing import ClassVar, NamedTuple
 
@@ -12,34 +12,37 @@ from ..numerics.precision import as_float
 from ..numerics.safe import softplus_floor
 
 LARGEST_RISE = 500.0
-"""Rise of the film above the base temperature that is never exceeded, K."""
+"""Upper limit of the temperature rise of the film above the base temperature, K."""
 COLDEST = -200.0
-"""Lower end of the search for the rise, K: elastic energy given back may cool the film a little."""
+"""Lower end of the search for the temperature rise, K. It is negative because the film may cool a little where the oil
+gives back elastic energy."""
 LARGEST_FOLDS = 700.0
 RISE_WIDTH = 15.0
-"""Smoothing width of that limit, K: a rise of 100 K is changed by 4e-11 K."""
+"""Smoothing width of the limit `LARGEST_RISE`, K: a rise of 100 K changes by 4e-11 K."""
 
 
 class FilmHeating(Checked):
-    r"""Heat of shear, led across the film into two equal surfaces that carry it away.
+    r"""Heating of the film by its shear. The heat is conducted across the film into two equal, moving surfaces.
 
-    Source q = stress times shear rate, parabolic temperature profile, no conduction along the film:
-    $T_m = T_s + q h^2/(12k)$ (mean over the film), flux into each surface $\varphi = 6k(T_m - T_s)/h$ (= qh/2 without
-    convection), $T_s(x) = T_b + (\pi\rho_sc_sk_su)^{-1/2}\int_{-a}^x\varphi(\xi)(x-\xi)^{-1/2}d\xi$; with
-    `film_heat_capacity` the film itself carries heat along, $\rho c u h\,dT_m/dx = qh - 12k(T_m - T_s)/h$.
+    The heat source q is stress times shear rate. The temperature profile across the film is parabolic, and nothing is
+    conducted along the film: the mean temperature is $T_m = T_s + q h^2/(12k)$, and the flux into each surface is
+    $\varphi = 6k(T_m - T_s)/h$ (= qh/2 without convection). The surfaces have the temperature
+    $T_s(x) = T_b + (\pi\rho_sc_sk_su)^{-1/2}\int_{-a}^x\varphi(\xi)(x-\xi)^{-1/2}d\xi$, with the base temperature
+    $T_b$ and the mean speed u. With `film_heat_capacity` the film itself carries heat along:
+    $\rho c u h\,dT_m/dx = qh - 12k(T_m - T_s)/h$.
 
     **Limits:** uniform q without convection: $T_s - T_b = qh\sqrt{(x+a)/(\pi\rho_sc_sk_su)}$.
-    **Validity:** surfaces moving fast (Peclet number of the solids above about 5); half of the heat into each.
-    Convection in the film matters where $\rho cuh^2/(12ka)$ exceeds about 0.05. The mean rise is limited smoothly to
-    500 K (changed by < 1e-10 K at 100 K).
+    **Validity:** fast surfaces (Peclet number of the solids above about 5); half of the heat flows into each surface.
+    Convection in the film matters if $\rho cuh^2/(12ka)$ exceeds about 0.05. The mean rise is limited smoothly to
+    500 K (at 100 K this changes it by less than 1e-10 K).
     **Reference:** Carslaw and Jaeger, *Conduction of Heat in Solids*, ch. 10; Houpert (1985), ASME J. Tribology 107,
     241; source eqs. (71)-(72).
 
     **Arguments:**
-    - `conductivity`: k of the oil, W/(m K); None: the oil's own at the base temperature.
-    - `solid_density`, `solid_heat_capacity`, `solid_conductivity`: of the surfaces, kg/m^3, J/(kg K), W/(m K);
-      default: bearing steel.
-    - `film_heat_capacity`: rho c of the oil, J/(m^3 K); None: no convection in the film.
+    - `conductivity`: k of the oil, W/(m K); `None`: the conductivity of the lubricant at the base temperature.
+    - `solid_density`, `solid_heat_capacity`, `solid_conductivity`: properties of the surfaces, kg/m^3, J/(kg K),
+      W/(m K); default: bearing steel.
+    - `film_heat_capacity`: rho c of the oil, J/(m^3 K); `None`: no convection in the film.
     """
 
     part: ClassVar[str] = "contact.heating"
@@ -51,24 +54,31 @@ class FilmHeating(Checked):
     film_heat_capacity: Scalar | None = bounded(">= 0", default=None)
 
     def peclet_number(self, half_width: Values, film: Values, speed: Values, conductivity: Values) -> Array:
-        """rho c u h^2/(12 k a): heat carried along by the film over heat led across it."""
+        """Peclet number of the film: heat carried along it over heat conducted across it, rho c u h^2/(12 k a)."""
         if self.film_heat_capacity is None:
             raise ValueError("film_heat_capacity: found None, expected the oil's density times heat capacity")
         return jnp.asarray(self.film_heat_capacity * speed * film**2 / (12.0 * conductivity * half_width))
 
 
 class HeatStep(NamedTuple):
-    """Mean rise of the film in one cell as `base + slope * q`, q the heat source there, W/m^3; K above the base."""
+    """Mean temperature rise of the film in one cell above the base temperature, K: `base + slope * q` with the heat
+    source q in the cell, W/m^3."""
 
     base: Float[Array, "..."]
     slope: Float[Array, "..."]
 
 
 class HeatFlow:
-    """The linear relations between heat source and temperature on the mesh of a march.
+    """Linear relations between heat source and temperature rises in the cells of a strip, from inlet to exit.
 
-    All lengths in units of the strip's half-width: `film_resistance` = h^2/(12 k), `surface_rise` = rise of the
-    surface per flux that enters over one half-width, `length` = distance in which the film takes its temperature.
+    Lengths along the strip are in units of its half-width.
+
+    - `widths`: widths of the cells.
+    - `history`, `own`: integrals of (x - xi)^(-1/2) over xi for the middle x of a cell, over each cell before it and
+      over its own first half.
+    - `surface_rise`: factor of these integrals in the rise of the surface, a^(1/2)/(pi rho_s c_s k_s u)^(1/2), m^2 K/W.
+    - `conductance`: 6 k/h, W/(m^2 K); `film_resistance`: h^2/(12 k), m^3 K/W.
+    - `length`: distance over which the film temperature adapts to heat source and surfaces; `None`: no convection.
     """
 
     def __init__(
@@ -91,10 +101,10 @@ class HeatFlow:
             self.length = heating.peclet_number(half_width, film, speed, conductivity)
 
     def step(self, own: Values, width: Values, surface: Values, entering: Values) -> HeatStep:
-        """Rise of the film in a cell.
+        """Temperature rise of the film in a cell.
 
-        **Arguments:** `own`, `width`: of the cell; `surface`: rise of the surface there by the cells before;
-        `entering`: rise of the film that enters.
+        **Arguments:** `own`, `width`: those of the cell; `surface`: rise of the surface there caused by the cells
+        before, K; `entering`: rise of the film that enters the cell, K.
         """
         decay = self._decay(width)
         ratio = self.conductance * self.surface_rise * own
@@ -103,13 +113,20 @@ class HeatFlow:
         return HeatStep(base, (1.0 + ratio) * (1.0 - decay) * self.film_resistance / divisor)
 
     def surface(self, own: Values, before: Values, film_rise: Values) -> tuple[Array, Array]:
-        """Rise of the surface in the cell and flux into it, W/m^2."""
+        """Temperature rise of the surface in a cell, K, and heat flux into it, W/m^2.
+
+        **Arguments:** `own`: that of the cell; `before`: rise of the surface caused by the cells before, K;
+        `film_rise`: mean rise of the film in the cell, K.
+        """
         ratio = self.conductance * self.surface_rise * own
         rise = (before + ratio * film_rise) / (1.0 + ratio)
         return rise, self.conductance * (film_rise - rise)
 
     def leaving(self, width: Values, entering: Values, film_rise: Values) -> Array:
-        """Rise of the film at the end of the cell, from that at its beginning and its mean."""
+        """Temperature rise of the film at the end of a cell, K.
+
+        **Arguments:** `width`: that of the cell; `entering`: rise at its beginning, K; `film_rise`: mean rise in it, K.
+        """
         if self.length is None:
             return jnp.asarray(film_rise)
         decay = self._decay(width)
@@ -117,7 +134,7 @@ class HeatFlow:
         return settled + (entering - settled) * jnp.exp(-self._folds(width))
 
     def _folds(self, width: Values) -> Array:
-        """width/length, at most 700: there the film has long taken its temperature."""
+        """Cell width over `length`, limited to 700: exp(-700) is negligible and does not underflow."""
         assert self.length is not None
         short = self.length < width / LARGEST_FOLDS
         return jnp.where(short, LARGEST_FOLDS, width / jnp.where(short, width, self.length))

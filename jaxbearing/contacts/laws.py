@@ -1,4 +1,4 @@
-"""One lubricated contact put together: film, inlet heating and traction from load and surface speeds."""
+"""Laws of a lubricated line contact: film, inlet heating, traction and rolling resistance from load and speeds."""
 
 from typing import ClassVar, NamedTuple
 
@@ -28,11 +28,14 @@ SPEED_SMOOTHING = 5e-7
 
 
 class ContactState(NamedTuple):
-    """State of one contact: `film`, m; `temperature_rise` above the inlet, K; `traction`, N (None: frictionless);
-    `rolling_force`, N, which has the sign of the mean speed (None: no rolling resistance).
+    """State of one contact.
 
-    `inner_residual` is that of the nested solves for temperature rise and meniscus, in units of ln(film). `supply`
-    holds the factors of starvation (None: fully flooded).
+    - `film`: film thickness, m.
+    - `temperature_rise`: above the inlet temperature, K; `None` if isothermal.
+    - `traction`: friction force, N; `None` if frictionless.
+    - `rolling_force`: rolling resistance, N, with the sign of the mean speed; `None` without rolling resistance.
+    - `inner_residual`: residual of the nested solves for temperature rise and meniscus, in units of ln(film).
+    - `supply`: factors of starvation; `None` if fully flooded.
     """
 
     film: Float[Array, "*batch"]
@@ -44,9 +47,11 @@ class ContactState(NamedTuple):
 
     @property
     def separation(self) -> Float[Array, "*batch"]:
-        """Film thickness in the equations that place a rolling element between the rings, m. With a supply it is
-        kept a little above `film`: a starved film is too thin to bridge the clearance of an unloaded element, whose
-        equation would have no root."""
+        """Film thickness in the equations for the position of a rolling element between the rings, m.
+
+        With a supply it is kept a little above `film`: a starved film is too thin to fill the clearance of an unloaded
+        element, and the equation of this element would have no root.
+        """
         return self.film if self.supply is None else self.supply.separation
 
 
@@ -56,18 +61,18 @@ class ContactLaws(Checked):
     **Arguments:**
     - `film`: film thickness law.
     - `thermal`: thermal reduction of the film; `NoThermalReduction()` is neutral.
-    - `traction`: friction force law, or `None`: frictionless, and then the rolling elements roll without slip.
+    - `traction`: friction force law; `None`: no friction, the rolling elements then roll without slip.
     - `entrainment_offset`: added to the absolute value of the mean surface speed of every contact, m/s. 0 by default;
       the published check values were computed with 1 mm/s.
-    - `rolling`: rolling resistance, or `None`: left out.
+    - `rolling`: rolling resistance; `None`: no rolling resistance.
     - `rolling_heating`: how inlet heating lowers the rolling resistance, by a factor (`"aihara"`) or by the viscosity
       at the temperature that corresponds to the reduction by `thermal` (`"film_temperature"`); by default as the
       rolling law chooses if `thermal` is given, otherwise not at all.
     - `entrainment_smoothing`: speed that smooths the absolute value of the mean surface speed, m/s; it sets the film
       that remains at rest.
-    - `supply`: how much oil there is, or `None`: fully flooded.
-    - `mixed`: mixed friction of rough surfaces, or `None`: the film carries all of the load.
-    - `hysteresis`: fraction of the elastic work that rolling loses in the bodies, or `None`: left out.
+    - `supply`: oil supply; `None`: fully flooded.
+    - `mixed`: mixed friction of rough surfaces; `None`: the film carries all of the load.
+    - `hysteresis`: fraction of the elastic work that is lost in the bodies in rolling; `None`: no hysteresis.
     """
 
     part: ClassVar[str] = "contact"
@@ -117,7 +122,7 @@ class ContactLaws(Checked):
         lubricant: Lubricant,
         inlet: InletOil,
     ) -> tuple[Array, Array]:
-        """`ContactState.separation` alone, m, and the residual of nested solves; arguments as in `evaluate`."""
+        """`ContactState.separation`, m, and the residual of the nested solves; arguments as in `evaluate`."""
         found = self.heated_film(contact, load, mean_speed, sliding_speed, lubricant, inlet)
         if self.supply is None:
             return jnp.exp(found.log_thickness), found.residual
@@ -137,10 +142,10 @@ class ContactLaws(Checked):
         """Film, temperature rise, traction and rolling resistance.
 
         The flooded film is the thermal reduction factor phi_T times the isothermal film at the inlet temperature.
-        Starvation (`supply`) thins it and lowers the rolling resistance of the flooded contact. Traction is evaluated
-        at the inlet temperature plus the rise that corresponds to phi_T. With `film_temperature` rolling resistance
-        takes the viscosity at this temperature and the pressure-viscosity coefficient at the inlet temperature; with
-        `aihara` it takes both at the inlet temperature.
+        Starvation (`supply`) makes it thinner and lowers the rolling resistance of the flooded contact. Traction is
+        evaluated at the inlet temperature plus the rise that corresponds to phi_T. With `film_temperature` the rolling
+        resistance takes the viscosity at this temperature and the pressure-viscosity coefficient at the inlet
+        temperature; with `aihara` it takes both at the inlet temperature.
 
         **Arguments:** `contact`, the two bodies; `load`, N, > 0; `mean_speed` (u1 + u2)/2 and `sliding_speed` u1 - u2,
         m/s, of either sign; `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
@@ -180,8 +185,8 @@ class ContactLaws(Checked):
     def asperities(
         self, contact: LineContact, load: Values, film: Values, mean_speed: Values, inlet: InletOil
     ) -> Asperities:
-        """Film ratio and load share of scenes with mixed friction. **Arguments:** `film`, m; others as in
-        `evaluate`."""
+        """Film ratio and load share of the asperities; the scene must have mixed friction. **Arguments:** `film`, m;
+        others as in `evaluate`."""
         assert self.mixed is not None
         state = InletState(self.entrainment(mean_speed), inlet.viscosity, inlet.pressure_viscosity)
         return self.mixed.asperities(self.film, contact, load, film, state)
@@ -195,8 +200,8 @@ class ContactLaws(Checked):
         sliding_speed: Values,
         inlet: InletOil,
     ) -> MixedState | None:
-        """Mixed friction as results show it, `None` where the scene does not model it. **Arguments:** `state` of
-        `evaluate`; others as there."""
+        """Mixed friction of the contact for the results; `None` if the scene has no mixed friction. **Arguments:**
+        `state`: from `evaluate`; others as there."""
         if self.mixed is None:
             return None
         assert state.traction is not None

@@ -1,4 +1,4 @@
-"""Limits of the traction law: the one that a contact is near, and the closed forms there."""
+"""Viscous and elastic limits of the traction law: Deborah number and traction slope of the elastic limit."""
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -11,14 +11,14 @@ from .patch import ContactPatch
 def deborah_number(
     patch: ContactPatch, entrainment_speed: Values, temperature: Values, lubricant: Lubricant
 ) -> Float[Array, "..."]:
-    r"""$D = \mu u/(Ga)$ at the mean pressure: relaxation time of the oil over its time of transit a/u.
+    r"""$D = \mu u/(Ga)$ at the mean pressure: relaxation time of the oil over the transit time a/u.
 
-    Below about 0.1 the oil flows as a viscous fluid and its shear modulus cannot be seen in the traction; above about 3
+    Below about 0.1 the oil flows as a viscous fluid, and its shear modulus has no effect on the traction. Above about 3
     the slope of the traction curve at small sliding is elastic.
 
     **Reference:** source eqs. (80)-(81).
 
-    **Arguments:** `entrainment_speed`, m/s; `temperature`, K. **Raises:** `ValueError` without a rheology.
+    **Arguments:** `entrainment_speed`, m/s; `temperature`, K. **Raises:** `ValueError` if no rheology is given.
     """
     if lubricant.rheology is None:
         raise ValueError("The Deborah number needs the lubricant's rheology (shear modulus): none is given.")
@@ -31,14 +31,14 @@ def deborah_number(
 def elastic_slope(
     patch: ContactPatch, film: Values, temperature: Values, rheology: AbstractRheology
 ) -> Float[Array, "..."]:
-    r"""Slope of the traction coefficient over the slide-to-roll ratio for an oil that only strains elastically.
+    r"""Slope of the traction coefficient over the slide-to-roll ratio for a purely elastic oil.
 
-    $\partial c_f/\partial(\Delta u/u) = \frac{4}{\pi}\frac{G a}{h p_0}$, for point and line contacts, with a constant
-    G: integral of the stress $G\Delta u(x + a)/(uh)$ over the patch.
+    $\partial c_f/\partial(\Delta u/u) = \frac{4}{\pi}\frac{G a}{h p_0}$, for point and line contacts. It follows
+    from the integral of the stress $G\Delta u(x + a)/(uh)$ over the patch, with a constant G.
 
     **Validity:** D >> 1 and small sliding; G at the mean pressure.
-    **Reference:** derived; the source's eq. (84) prints area times exit stress, twice the mean, and factors that
-    contradict each other.
+    **Reference:** derived here. The source's eq. (84) multiplies the area by the stress at the exit, which is twice the
+    mean stress, and its factors contradict each other.
 
     **Arguments:** `film`, m; `temperature`, K.
     """

@@ -1,4 +1,4 @@
-"""Line contact of two parallel cylinders: Hertz size and pressure, Palmgren approach."""
+"""Line contact of two parallel cylinders: half-width and pressure by Hertz, elastic approach by Palmgren."""
 
 import dataclasses
 
@@ -11,28 +11,30 @@ from ..numerics.arguments import require_numbers
 from ..numerics.safe import positive_power, regular_power, smooth_abs
 
 LOAD_FLOOR = 1e-9
-"""Smoothing of |load| in size, pressure and film, N: the relative error of |load| is < 1e-12 above 1 mN."""
+"""Smoothing of |load| in half-width, pressure and film, N: the relative error of |load| is < 1e-12 above 1 mN."""
 SPEED_FLOOR = 1e-6
-"""Smoothing of |u1 + u2|, m/s: its relative error is < 1e-6 above 1 mm/s. A film at rest is tiny, not zero."""
+"""Smoothing of |u1 + u2|, m/s: its relative error is < 1e-6 above 1 mm/s. At rest the film is tiny, but not zero."""
 PRESSURE_VISCOSITY_FLOOR = 1e-25
-"""Added to the pressure-viscosity coefficient, 1/Pa: exact to round-off above 1e-9, ln is finite for isoviscous oil."""
+"""Added to the pressure-viscosity coefficient, 1/Pa, so that its logarithm is finite for an isoviscous oil.
+Coefficients above 1e-9 1/Pa are exact to round-off."""
 PALMGREN_LOAD_WIDTH = 1e-6
-"""Load below which the approach is linear in load instead of Q^0.9, N: relative error 5e-14 at 1 N."""
+"""Load below which the approach is linear in the load, not proportional to Q^0.9, N: relative error 5e-14 at 1 N."""
 
 
 class LineContact(eqx.Module):
-    r"""Two parallel elastic cylinders pressed together over a length, load spread evenly.
+    r"""Two parallel elastic cylinders pressed together, with the load evenly distributed over the contact length.
 
     $b = \sqrt{8 Q R/(\pi\ell E')}$, $p_0 = \sqrt{Q E'/(2\pi R\ell)}$, $\bar p = \frac{\pi}{4}p_0$;
     Palmgren: $\delta = 0.39\,(8/E')^{0.9} Q^{0.9}/\ell^{0.8}$, where $8/E'$ is the bracket
     $4(1-\nu_1^2)/E_1 + 4(1-\nu_2^2)/E_2$ of the source.
 
-    The fields broadcast against the load: (2, 1) against (2, N) is the two races of N rollers.
+    The fields broadcast against the load: for both races of N rollers, fields of shape (2, 1) and a load of shape
+    (2, N).
 
-    **Limits:** load 0 gives size, pressure and approach 0 (size and pressure: those of 1e-9 N), all with finite
-    gradients. A negative load counts as |Q| in size and pressure and as 0 in the approach.
-    **Validity:** half-space (b much smaller than R and length), elastic, no misalignment, no edge pressure.
-    Palmgren's law is empirical, for finite rollers of steel; in E' and SI it is dimensionally homogeneous.
+    **Limits:** at load 0 the approach is 0, and half-width and pressure are those of 1e-9 N; all gradients are finite.
+    A negative load counts as |Q| in half-width and pressure and as 0 in the approach.
+    **Validity:** elastic half-spaces (b much smaller than R and length), no misalignment, no edge pressure. Palmgren's
+    law is empirical, for finite rollers of steel; with E' and in SI units it is dimensionally homogeneous.
     **Reference:** Hertz (1881); Johnson, *Contact Mechanics*, ch. 4; Palmgren (1959); source eq. (41).
     """
 
@@ -64,7 +66,7 @@ class LineContact(eqx.Module):
 
     @property
     def palmgren_compliance(self) -> Float[Array, "..."]:
-        """k of delta = k Q^0.9, m/N^0.9."""
+        """Constant k of Palmgren's approach delta = k Q^0.9, m/N^0.9."""
         return jnp.asarray(0.39 * (8.0 / self.reduced_modulus) ** 0.9 / self.length**0.8, dtype=float)
 
     def palmgren_approach(self, load: Values) -> Float[Array, "..."]:
@@ -74,7 +76,7 @@ class LineContact(eqx.Module):
         return self.palmgren_compliance * regular_power(pressed, 0.9, PALMGREN_LOAD_WIDTH)
 
     def palmgren_load(self, approach: Values) -> Float[Array, "..."]:
-        """Load at an approach, N; 0 with slope 0 at approach <= 0. **Arguments:** `approach`, m."""
+        """Load that gives an elastic approach, N; 0 with slope 0 at approach <= 0. **Arguments:** `approach`, m."""
         return positive_power(approach / self.palmgren_compliance, 10.0 / 9.0)
 
 
@@ -86,10 +88,10 @@ LineContact.__init__.__doc__ = """**Arguments:**
 
 
 def log_entrainment_sum(entrainment_speed: Values) -> Float[Array, "..."]:
-    """ln |u1 + u2| from the mean speed, m/s; levels off at 1e-6 m/s, gradient 0 at rest."""
+    """Logarithm of |u1 + u2| in m/s, from the mean speed; |u1 + u2| levels off at 1e-6 m/s, with gradient 0 at rest."""
     return jnp.log(smooth_abs(2.0 * entrainment_speed, SPEED_FLOOR))
 
 
 def log_material_number(pressure_viscosity: Values, reduced_modulus: Values) -> Float[Array, "..."]:
-    """ln of G = alpha E', with 1e-25 1/Pa added to alpha: finite for an isoviscous oil."""
+    """Logarithm of G = alpha E', with 1e-25 1/Pa added to alpha: finite for an isoviscous oil."""
     return jnp.log((pressure_viscosity + PRESSURE_VISCOSITY_FLOOR) * reduced_modulus)

@@ -1,4 +1,4 @@
-"""Minimum over central film of a lubricated contact, from the film law that a scene names."""
+"""Ratio of the minimum film thickness of a lubricated contact to the central one, or to that of a film law."""
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -10,19 +10,19 @@ from .point import PointContact
 from .point_film import AbstractPointFilm, HamrockDowsonCentral, HamrockDowsonMinimum, RigidBlend
 
 LINE_SHARE = 0.75
-"""Ratio of minimum to central film of a line contact: 0.750 and 0.746 in own full solutions of the source's two
-contacts (table 18), 0.75 by Dowson and Higginson's minimum and Dowson and Toyoda's central film at U = 1e-11, W =
-1e-4."""
+"""Ratio of the minimum to the central film thickness of a line contact. In our full solutions of the source's two
+contacts (table 18) it is 0.750 and 0.746. Dowson and Higginson's minimum film and Dowson and Toyoda's central film give
+0.75 at U = 1e-11 and W = 1e-4."""
 
 
 def of_minimum(law: AbstractLineFilm | AbstractPointFilm) -> bool:
-    """True if a law is one of the minimum film."""
+    """True if a law gives the minimum film thickness, False if it gives the central one."""
     law = law.film if isinstance(law, MartinBlend | RigidBlend) else law
     return isinstance(law, DowsonHigginson | PanHamrockMinimum | HamrockDowsonMinimum)
 
 
 def line_share(law: AbstractLineFilm | AbstractPointFilm) -> float:
-    """Minimum film over the film of a law of line contacts."""
+    """Ratio of the minimum film thickness of a line contact to that of a film law."""
     return 1.0 if of_minimum(law) else LINE_SHARE
 
 
@@ -34,9 +34,9 @@ def minimum_share(
     viscosity: Values,
     pressure_viscosity: Values,
 ) -> Float[Array, "..."]:
-    """Minimum film over the film of a law: 1 where the law is one of the minimum film.
+    """Ratio of the minimum film thickness to that of a film law: 1 for a law of the minimum film.
 
-    **Arguments:** `law`: of the film; others as for `minimum_over_central`.
+    **Arguments:** `law`: film law; others as for `minimum_over_central`.
     """
     if of_minimum(law):
         return jnp.ones(())
@@ -50,9 +50,10 @@ def minimum_over_central(
     viscosity: Values,
     pressure_viscosity: Values,
 ) -> Float[Array, "..."]:
-    """Minimum over central film.
+    """Ratio of the minimum to the central film thickness.
 
-    Line contacts have `LINE_SHARE`. Point contacts have the ratio of Hamrock and Dowson's two laws, at most 1.
+    It is `LINE_SHARE` for line contacts. For point contacts it is the ratio of Hamrock and Dowson's two films, at most
+    1.
 
     **Arguments:** `contact`; `load`, N; `entrainment_speed`, m/s; `viscosity`, Pa s, and `pressure_viscosity`, 1/Pa, of
     the oil in the inlet.

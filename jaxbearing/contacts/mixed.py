@@ -1,8 +1,8 @@
-r"""Mixed friction: asperities carry a part of a contact's load and rub, the film carries and shears the rest.
+r"""Mixed friction: the asperities carry a part of the load of a contact and rub, the film carries the rest and is sheared.
 
-$F = (1 - \varphi)F_{film} + \varphi Q\mu_bv/\sqrt{v^2 + v_s^2}$ with the load share $\varphi(\Lambda)$ of
-`load_share`, $\Lambda = h/\sigma$. Rolling resistance comes from the inlet and is not multiplied. Force and power are
-formed from one and the same sliding speed v, that of the contact's centre.
+$F = (1 - \varphi)F_{film} + \varphi Q\mu_bv/\sqrt{v^2 + v_s^2}$ with the load share $\varphi(\Lambda)$ of the asperities
+(`load_share`) and the film ratio $\Lambda = h/\sigma$. Boundary force and boundary power use the same sliding speed v,
+that at the centre of the contact. Rolling resistance arises in the inlet and is not reduced.
 """
 
 from typing import ClassVar, Literal, NamedTuple
@@ -27,15 +27,15 @@ from .point_film import AbstractPointFilm
 from .shear import Sliding
 
 FLASH_CONSTANT = 1.11155
-"""Factor of `flash_temperature` for a band source with Hertz's distribution, by own quadrature; a uniform source has
-2/sqrt(pi)."""
+"""Constant of `flash_temperature` for a band-shaped heat source with Hertz's distribution, from our quadrature. For a
+uniform source it is 2/sqrt(pi)."""
 FLASH_SPEED = 1e-6
 """Smoothing of the surface speeds in the flash temperature, m/s."""
 
 
 class InletState(NamedTuple):
-    """The inputs of a film: mean surface speed, m/s, viscosity, Pa s, and pressure-viscosity coefficient,
-    1/Pa, of the oil in the inlet."""
+    """Inputs of a film law: mean surface speed, m/s, and viscosity, Pa s, and pressure-viscosity coefficient, 1/Pa, of
+    the oil in the inlet."""
 
     speed: Values
     viscosity: Values
@@ -43,15 +43,15 @@ class InletState(NamedTuple):
 
 
 class Asperities(NamedTuple):
-    """Film over roughness, and the part of the load that asperities carry."""
+    """Film ratio, which is film thickness over roughness, and fraction of the load that the asperities carry."""
 
     film_ratio: Float[Array, "..."]
     share: Float[Array, "..."]
 
 
 class MixedState(NamedTuple):
-    """Mixed friction of contacts as results: film ratio, load share, boundary force along rolling, N, power of the
-    boundary friction, W, and flash temperature, K, which no force depends on."""
+    """Mixed friction of contacts in the results: film ratio, load share, boundary force along rolling, N, power of the
+    boundary friction, W, and flash temperature, K. No force depends on the flash temperature."""
 
     film_ratio: Float[Array, "..."]
     share: Float[Array, "..."]
@@ -63,21 +63,23 @@ class MixedState(NamedTuple):
 class MixedFriction(Checked):
     r"""Rough surfaces whose asperities touch through the film.
 
-    **Limits:** no film, share 1: dry friction $\mu_bQ$ with a smooth start, nothing of the film's force; a thick film:
-    the film's force alone. At rest the force is 0 with the slope $\varphi Q\mu_b/v_s$.
-    **Validity:** the boundary force is that of the sliding at the centre of the contact. The boundary moment against
-    spin ($3\pi/16\,\mu_b\varphi Qa$ for a circle) is left out, and spin does not lower the force along rolling. $\mu_b$
-    does not change with the speed. The smooth start makes the force 0.5 % too small at $10v_s$, 0.005 % at $100v_s$.
+    **Limits:** without a film the share is 1, and the force is dry friction $\mu_bQ$, smoothed at low sliding speed.
+    With a thick film it is the force of the film alone. Without sliding the boundary force is 0, with the slope
+    $\varphi Q\mu_b/v_s$.
+    **Validity:** the boundary force follows from the sliding at the centre of the contact. The boundary moment against
+    spin ($3\pi/16\,\mu_b\varphi Qa$ for a circle) is neglected, and spin does not lower the force along rolling. $\mu_b$
+    does not change with the speed. The smoothing makes the force 0.5 % too small at $10v_s$ and 0.005 % at $100v_s$.
     **Reference:** load-sharing concept of Johnson, Greenwood and Poon (1972), Wear 19, 91.
 
     **Arguments:**
-    - `roughness`: root of the sum of squares of both surfaces' root mean square roughness, m.
+    - `roughness`: composite roughness of both surfaces, m: root of the sum of the squares of their root mean square
+      roughness.
     - `share`: law of the load share.
     - `mu_boundary`: friction coefficient of the asperities; 0.10 to 0.15.
-    - `slide_width`: sliding speed over which the boundary friction starts, m/s; a run that starts from rest needs 1 to
-      10 % of the rolling speed.
-    - `film`: the film over the roughness, "central" or "minimum", whichever of them the film law is of. The constants
-      of the load shares were fitted with the central one.
+    - `slide_width`: sliding speed below which the boundary friction falls smoothly to 0, m/s; a run that starts from
+      rest needs 1 to 10 % of the rolling speed.
+    - `film`: film thickness in the film ratio, "central" or "minimum". The film of a law of the other kind is
+      converted. The constants of the load shares were fitted with the central film.
     """
 
     part: ClassVar[str] = "contact.mixed"
@@ -98,7 +100,7 @@ class MixedFriction(Checked):
     ) -> Asperities:
         """Film ratio and load share.
 
-        **Arguments:** `law`: of the film; `load`, N, > 0; `film`: of the law, inlet heating included, m, > 0.
+        **Arguments:** `law`: film law; `load`, N, > 0; `film`: film thickness from this law, with inlet heating, m, > 0.
         """
         ratio = film / self.roughness
         if self.film == "minimum":
@@ -109,20 +111,20 @@ class MixedFriction(Checked):
         return Asperities(jnp.asarray(ratio), self.share.share(ratio, pressure, contact.reduced_modulus))
 
     def boundary_force(self, load: Values, share: Values, sliding_speed: Values) -> Float[Array, "..."]:
-        """Friction force of the asperities, N, of the sign of the sliding speed. **Arguments:** `load`, N; `share` of
-        it; `sliding_speed`, m/s."""
+        """Friction force of the asperities, N, with the sign of the sliding speed. **Arguments:** `load`, N; `share`:
+        fraction of it that the asperities carry; `sliding_speed`, m/s."""
         return share * load * self.mu_boundary * smooth_sign(sliding_speed, self.slide_width)
 
     def force(self, load: Values, share: Values, film_force: Values, sliding_speed: Values) -> Float[Array, "..."]:
-        """Friction force of film and asperities, N. **Arguments:** `film_force`: of a film that carries all of the
-        load, N; others as for `boundary_force`."""
+        """Friction force of film and asperities, N. **Arguments:** `film_force`: friction force of a film that carries
+        all of the load, N; others as for `boundary_force`."""
         return (1.0 - share) * film_force + self.boundary_force(load, share, sliding_speed)
 
     def traction(self, load: Values, share: Values, sheared: Traction, sliding: Sliding) -> Traction:
         """Traction of film and asperities of a point contact.
 
-        **Arguments:** `sheared`: that of a film that carries all of the load; `sliding`: of body 1 over body 2, as for
-        `sheared`.
+        **Arguments:** `sheared`: traction of a film that carries all of the load; `sliding`: sliding of body 1 over
+        body 2, as for `sheared`.
         """
         left = 1.0 - share
         along, across = self._boundary(load, share, sliding)
@@ -136,7 +138,7 @@ class MixedFriction(Checked):
         )
 
     def _boundary(self, load: Values, share: Values, sliding: Sliding) -> tuple[Array, Array]:
-        """Boundary force along and across rolling, N, along the sliding of the centre."""
+        """Components of the boundary force along and across rolling, N. The force acts along the sliding at the centre."""
         if sliding.transverse is None:
             along = self.boundary_force(load, share, sliding.rolling)
             return along, jnp.zeros_like(along)
@@ -157,10 +159,10 @@ class MixedFriction(Checked):
         sliding: Sliding,
         power: Values,
     ) -> MixedState:
-        """Mixed friction of contacts as results.
+        """Mixed friction of contacts for the results.
 
-        **Arguments:** `asperities`: of the contacts; `mean_speed`, m/s, signed; `sliding`: of body 1 over body 2;
-        `power`: friction power of each contact, of film and asperities, W.
+        **Arguments:** `asperities`: film ratio and load share of the contacts; `mean_speed`, m/s, signed; `sliding`:
+        sliding of body 1 over body 2; `power`: friction power of film and asperities in each contact, W.
         """
         along, across = self._boundary(load, asperities.share, sliding)
         heat = flash_temperature(contact, load, power, mean_speed, sliding.rolling)
@@ -168,7 +170,7 @@ class MixedFriction(Checked):
 
 
 def require_traction(part: str, mixed: MixedFriction | None, traction: object) -> None:
-    """**Raises:** `ValueError` for mixed friction without a traction law: only that makes contacts slide."""
+    """Check that mixed friction comes with a traction law, without which contacts do not slide. **Raises:** `ValueError`."""
     if mixed is not None and traction is None:
         raise ValueError(f"{part}.mixed: mixed friction is of contacts that slide, and needs {part}.traction")
 
@@ -181,23 +183,23 @@ def flash_temperature(
     sliding_speed: Values,
     heating: FilmHeating | None = None,
 ) -> Float[Array, "..."]:
-    r"""Rise of the surfaces where they rub, K: $1.11155\,P/(\ell\sqrt{2a}\,\epsilon(\sqrt{u_1} + \sqrt{u_2}))$.
+    r"""Flash temperature: largest temperature rise of the rubbing surfaces, K, $1.11155\,P/(\ell\sqrt{2a}\,\epsilon(\sqrt{u_1} + \sqrt{u_2}))$.
 
-    The friction power P has Hertz's distribution, both bodies are alike, $\epsilon = \sqrt{k\rho c}$. A point contact
-    counts with the strip through its middle, $\ell = 4c/3$.
+    The friction power P has Hertz's distribution, and both bodies have the same effusivity
+    $\epsilon = \sqrt{k\rho c}$. A point contact is represented by its middle strip, $\ell = 4c/3$.
 
-    The rise is a result and changes no force. The boundary friction coefficient is one number that no temperature
-    changes. The rise belongs to the surface temperature of a heated film (`FilmHeating`), and no scene has both:
-    asperities are of bearings, whose films have the temperature of the inlet, and heated films of two-disk machines,
-    which have no asperities.
+    The flash temperature is a result and changes no force: the boundary friction coefficient does not depend on
+    temperature. It would add to the surface temperature of a heated film (`FilmHeating`), but no scene has both.
+    Bearings have asperities, and their films have the temperature of the inlet; two-disk machines have heated films
+    and no asperities.
 
-    **Limits:** the speeds count as $\sqrt{u^2 + u_\epsilon^2}$, $u_\epsilon$ = 1e-6 m/s: finite where a surface stands
-    still, and far too high there.
+    **Limits:** the speeds count as $\sqrt{u^2 + u_\epsilon^2}$, $u_\epsilon$ = 1e-6 m/s: the rise is finite if a surface
+    is at rest, but far too high.
     **Validity:** Peclet numbers $ua/(2\kappa)$ above 5.
-    **Reference:** Carslaw and Jaeger, *Conduction of Heat in Solids*, ch. 10; the constant by own quadrature.
+    **Reference:** Carslaw and Jaeger, *Conduction of Heat in Solids*, ch. 10; the constant is from our quadrature.
 
-    **Arguments:** `load`, N; `power`, W; `mean_speed` (u1 + u2)/2 and `sliding_speed` u1 - u2, m/s; `heating`: with the
-    properties of the surfaces, those of bearing steel if not given.
+    **Arguments:** `load`, N; `power`, W; `mean_speed` (u1 + u2)/2 and `sliding_speed` u1 - u2, m/s; `heating`: holds
+    the properties of the surfaces; `None`: bearing steel.
     """
     steel = FilmHeating() if heating is None else heating
     effusivity = jnp.sqrt(steel.solid_density * steel.solid_heat_capacity * steel.solid_conductivity)

@@ -1,4 +1,4 @@
-"""The lubricated contacts of balls put together: film, inlet heating, traction with spin, rolling resistance."""
+"""Laws of lubricated ball contacts: film, inlet heating, traction with spin, rolling resistance."""
 
 from typing import ClassVar, NamedTuple
 
@@ -27,9 +27,15 @@ from .thermal import AbstractThermalFactor, NoThermalReduction
 
 
 class PointFilm(NamedTuple):
-    """Film, m, temperature of the oil that enters the contact and of the surfaces, K, rise above the bearing's inlet, K
-    (None: isothermal), viscosity there, Pa s, residual of the nested solves, what little oil does (None: fully
-    flooded)."""
+    """Film of a ball contact and the oil at its inlet.
+
+    - `film`: film thickness, m.
+    - `temperature`: of the oil that enters the contact and of the surfaces, K.
+    - `rise`: that temperature minus the bearing's inlet temperature, K; `None`: isothermal film.
+    - `viscosity`: at that temperature and ambient pressure, Pa s.
+    - `residual`: of the nested solves.
+    - `supply`: effect of the oil supply on the contact; `None`: fully flooded.
+    """
 
     film: Float[Array, "*batch"]
     temperature: Float[Array, "*batch"]
@@ -40,12 +46,12 @@ class PointFilm(NamedTuple):
 
     @property
     def separation(self) -> Float[Array, "*batch"]:
-        """Film in the equations that place a ball between the rings, m."""
+        """Film thickness that enters the position of a ball between the rings, m (`Starvation.separation`)."""
         return self.film if self.supply is None else self.supply.separation
 
     @property
     def flooded(self) -> Float[Array, "*batch"]:
-        """Film with all the oil, m."""
+        """Film thickness of the fully flooded contact, m."""
         return self.film if self.supply is None else self.supply.flooded
 
 
@@ -57,14 +63,14 @@ class PointLaws(Checked):
     - `thermal`: thermal reduction of the film; its rise also warms the oil in the contact.
     - `traction`: the sheared film, or `None`: frictionless, and then the balls roll without sliding.
     - `rolling`: rolling resistance, or `None`: left out.
-    - `rolling_heating`: how inlet heating lowers the rolling resistance, by a factor (`"aihara"`) or by the viscosity
-      at the temperature that explains `thermal` (`"film_temperature"`); not given: the law's own way where `thermal`
-      is given, otherwise none.
+    - `rolling_heating`: how inlet heating lowers the rolling resistance: by a factor (`"aihara"`), or by the viscosity
+      at the inlet temperature that explains `thermal` (`"film_temperature"`); not given: the default of the law of
+      rolling resistance where `thermal` is given, otherwise no heating.
     - `heathcote`: whether the race's curvature across rolling counts in the sliding (`Sliding.curvature`); the source's
       patch is flat.
     - `supply`: how much oil there is, or `None`: fully flooded.
     - `mixed`: mixed friction of rough surfaces, or `None`: the film carries all of the load.
-    - `hysteresis`: part of the elastic work that rolling loses in the bodies, or `None`: left out.
+    - `hysteresis`: fraction of the elastic work that the bodies lose in rolling, or `None`: left out.
     """
 
     part: ClassVar[str] = "contact"
@@ -86,7 +92,7 @@ class PointLaws(Checked):
 
     @property
     def resists_rolling(self) -> bool:
-        """True if rolling takes power."""
+        """True if rolling resistance or hysteresis is modelled."""
         return self.rolling is not None or self.hysteresis is not None
 
     def film_state(
@@ -98,7 +104,10 @@ class PointLaws(Checked):
         lubricant: Lubricant,
         inlet: InletOil,
     ) -> PointFilm:
-        """**Arguments:** `load`, N, > 0; `mean_speed` and `sliding_speed` along rolling, m/s, of either sign."""
+        """Film thickness and inlet state of the contact.
+
+        **Arguments:** `load`, N, > 0; `mean_speed` and `sliding_speed` along rolling, m/s, of either sign.
+        """
         speed = smooth_abs(mean_speed, SPEED_SMOOTHING)
         found = heated_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
         temperature = inlet.temperature + (jnp.zeros_like(found.log_thickness) if found.rise is None else found.rise)
@@ -118,7 +127,7 @@ class PointLaws(Checked):
         sliding: Sliding,
         lubricant: Lubricant,
     ) -> Traction:
-        """Forces of the ball on the race and what they dissipate."""
+        """Traction forces of the ball on the race and the power that they dissipate."""
         assert self.traction is not None
         patch = contact_patch(contact, load)
         found = self.traction.traction(patch, film.film, mean_speed, sliding, film.temperature, lubricant)
@@ -130,7 +139,7 @@ class PointLaws(Checked):
     def asperities(
         self, contact: PointContact, load: Values, film: PointFilm, mean_speed: Values, lubricant: Lubricant
     ) -> Asperities:
-        """Film ratio and load share of scenes with mixed friction; arguments as in `shear`."""
+        """Film ratio and load share of the asperities in mixed friction; arguments as in `shear`."""
         assert self.mixed is not None
         coefficient = lubricant.pressure_viscosity.coefficient(film.temperature)
         state = InletState(smooth_abs(mean_speed, SPEED_SMOOTHING), film.viscosity, coefficient)
@@ -146,8 +155,10 @@ class PointLaws(Checked):
         sheared: Traction,
         lubricant: Lubricant,
     ) -> MixedState | None:
-        """Mixed friction as results show it, `None` where the scene does not model it. **Arguments:** `sheared`: what
-        `shear` found; others as there."""
+        """Mixed friction for the results, `None` where it is not modelled.
+
+        **Arguments:** `sheared`: the result of `shear`; others as in `shear`.
+        """
         if self.mixed is None:
             return None
         found = self.asperities(contact, load, film, mean_speed, lubricant)
@@ -158,10 +169,10 @@ class PointLaws(Checked):
     ) -> Float[Array, "..."] | None:
         r"""Moment against the roll of the ball over the race, N m (None: not modelled).
 
-        The law is for rolling without sliding, $\omega_rR_x = u$, and has no sign. Where a skidding ball rolls at
-        another rate, $x = \omega_rR_x/|u|$, it is multiplied by $\sqrt2\,x/\sqrt{1 + x^2}$: it always takes power
-        (a moment of the sign of u would drive a ball that turns backwards), 1 at x = 1, not above $\sqrt2$. The moment
-        of hysteresis has the sign of the roll.
+        The law holds for rolling without sliding, $\omega_rR_x = u$, and gives a modulus. For a skidding ball, which
+        rolls at another rate, $x = \omega_rR_x/|u|$, it is multiplied by $\sqrt2\,x/\sqrt{1 + x^2}$, which is 1 at
+        x = 1 and at most $\sqrt2$ in modulus. With the sign of x the moment always takes power; with that of u it would
+        drive a ball that turns backwards. The moment of hysteresis has the sign of the roll.
 
         **Arguments:** `roll`, rad/s: rate of the relative roll about the axis across rolling, of the sign of the mean
         speed, m/s, in rolling without sliding.

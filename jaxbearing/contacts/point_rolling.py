@@ -1,4 +1,4 @@
-"""Rolling resistance of point contacts: one moment a contact, the couple between the two bodies."""
+"""Rolling resistance of point contacts: one moment per contact, a couple between the two bodies."""
 
 import abc
 from typing import ClassVar
@@ -16,23 +16,22 @@ from .rolling import RollingInlet
 from .rolling_heating import AIHARA, FILM_TEMPERATURE
 
 MOMENT_LOAD_WIDTH = 1e-2
-"""Smoothing of the load that shapes the moment of a point contact, N."""
+"""Smoothing of the load in the lever arm of the moment, N."""
 WIDTH_JOINT = 40.0
-"""Exponent of the smooth minimum of 1 and ellipse over race width."""
+"""Exponent of the smooth minimum of 1 and the ratio of ellipse width to race width."""
 
 
 class AbstractPointRollingResistance(eqx.Module):
-    """The moment that opposes the rolling of two bodies in a point contact; it takes the power of their relative roll
-    rate."""
+    """Moment M against the rolling of two bodies in a point contact; its power is M times the relative roll rate."""
 
     name: ClassVar[str]
     """Name in scene files and on the screen."""
     own_heating: ClassVar[str]
-    """Inlet heating with which the law is used unless a scene names another one: one of `rolling_heating.HEATINGS`."""
+    """Default inlet heating of the law, one of `rolling_heating.HEATINGS`; a scene may name the other."""
 
     @abc.abstractmethod
     def moment(self, contact: PointContact, inlet: RollingInlet) -> Float[Array, "..."]:
-        """M, N m, of the sign of the entrainment speed. **Arguments:** `contact`, the two bodies; `inlet`."""
+        """M, N m, with the sign of the entrainment speed. **Arguments:** `contact`, the two bodies; `inlet`."""
 
 
 class SourceRollingResistance(AbstractPointRollingResistance):
@@ -41,12 +40,12 @@ class SourceRollingResistance(AbstractPointRollingResistance):
     $g_V = GW^3/U^2$, $g_E = W^{8/3}/U^2$, $U = \mu u/(E'R_x)$ with u the *mean* speed, $G = \alpha E'$,
     $W = Q/(E'R_x^2)$: the pressure of the film acts $\delta'$ ahead of the centre.
 
-    **Limits:** grows as $Q^{0.47}u^{0.656}$; 0 at load 0 and at rest, with finite slopes: the load inside
-    $\delta'$ counts as $\sqrt{Q^2 + Q_\epsilon^2}$, $Q_\epsilon$ = 0.01 N (relative error 0.27 $(Q_\epsilon/Q)^2$),
-    the speed levels off at 0.5e-6 m/s, alpha at 1e-25 1/Pa.
-    **Validity:** elastohydrodynamic contacts. At 5 to 40 m/s and c/a = 1 to 9 it is 0.64 to 1.22 of
-    `BibouletHoupertPointRollingResistance` at p0 = 1.5 to 2.2 GPa, and 0.46 to 0.85 of it at 1 GPa.
-    **Reference:** source eqs. (86)-(87); Houpert (1987), whose exponents it has.
+    **Limits:** grows as $Q^{0.47}u^{0.656}$; 0 at load 0 and at rest, with finite slopes: in $\delta'$ the load is
+    smoothed to $\sqrt{Q^2 + Q_\epsilon^2}$, $Q_\epsilon$ = 0.01 N (relative error 0.27 $(Q_\epsilon/Q)^2$), the speed
+    levels off at 0.5e-6 m/s and alpha at 1e-25 1/Pa.
+    **Validity:** elastohydrodynamic contacts. At 5 to 40 m/s and c/a = 1 to 9 it is 0.64 to 1.22 times
+    `BibouletHoupertPointRollingResistance` at p0 = 1.5 to 2.2 GPa, and 0.46 to 0.85 times it at 1 GPa.
+    **Reference:** source eqs. (86)-(87); the exponents are those of Houpert (1987).
     """
 
     name: ClassVar[str] = "source_86"
@@ -69,12 +68,12 @@ class SourceRollingResistance(AbstractPointRollingResistance):
 def point_rolling_moment(
     contact: PointContact, load: Values, entrainment_speed: Values, viscosity: Values, pressure_viscosity: Values
 ) -> Float[Array, "..."]:
-    """The moment of `SourceRollingResistance`, N m, under a name that goes with the next release.
+    """Moment of `SourceRollingResistance`, N m; deprecated, the next release removes this function.
 
     **Arguments:** `contact`, the two bodies; `load`, N, >= 0; `entrainment_speed`, (u1 + u2)/2, m/s, signed;
     `viscosity`, Pa s, and `pressure_viscosity`, 1/Pa, >= 0, of the oil in the inlet.
     """
-    # the law has no use for the film
+    # the law does not use the film
     inlet = RollingInlet(load, entrainment_speed, viscosity, pressure_viscosity, jnp.nan)
     return SourceRollingResistance().moment(contact, inlet)
 
@@ -85,17 +84,18 @@ class BibouletHoupertPointRollingResistance(AbstractPointRollingResistance):
     $f = \frac{2c}{R_x}\frac{f_R + f_EM_p/6.6}{1 + M_p/6.6}U^{3/4}$, $f_R = 0.77\beta^{-1/3}\kappa^{0.12}U^{-1/12}$,
     $f_E = 1.8\beta^{-1/4}$, with $\kappa = a/c$, $U = 2\mu u/(E'R_x)$, $W = Q/(E'R_x^2)$,
     $M_p = \beta^{1/4}\kappa WU^{-3/4}$, $\beta = \frac4\pi E(1 - \kappa^2)/(1 + R_x/R_y)$ (E: complete elliptic
-    integral). f is the force on one surface. A race of the width $L_r$ cuts off what lies beside it:
+    integral). f is the force on one surface. A race of the width $L_r$ cuts off the film beside it, a factor
     $C = 1/[1 + (1/c_0 - 1)s^n]$, $n = (2 - \kappa)(0.0018M_p + 1.33)$, $c_0 = 0.85/(1 +
-    4.72M_p^{-0.39}\kappa^{0.484M_p^{0.165}})$, s the smaller of 1 and $2c/L_r$.
+    4.72M_p^{-0.39}\kappa^{0.484M_p^{0.165}})$, s the smaller of 1 and $2c/L_r$; C = 1 without a race width.
 
     **Limits:** rigid and isoviscous as $M_p\to0$. $P = Q\,P(Q_e)/Q_e$, $Q_e = \sqrt{Q^2 + Q_\epsilon^2}$,
-    $Q_\epsilon$ = 0.01 N: 0 without load, with a finite slope. |u| counts as $\sqrt{u^2 + u_\epsilon^2}$,
-    $u_\epsilon$ = 1e-6 m/s, and the moment has the smooth sign of u. s is $x/(1 + x^{40})^{1/40}$, x = $2c/L_r$.
-    **Validity:** flooded, isothermal, ellipses that are not longer along rolling than across it. For longer ones
-    ($\kappa > 1$) there is no law: $\kappa$ = 1 and $\beta$ = 1 stand in, with the ellipse's own c. The line law summed
-    over strips of the ellipse gives 0.81 to 0.87 of it at p0 = 1.5 to 2.2 GPa; 26 % of the moment arises outside of
-    the ellipse, where strips have nothing.
+    $Q_\epsilon$ = 0.01 N: 0 without load, with a finite slope. |u| is smoothed to $\sqrt{u^2 + u_\epsilon^2}$,
+    $u_\epsilon$ = 1e-6 m/s, and the sign of the moment to $u/\sqrt{u^2 + u_\epsilon^2}$. s is
+    $x/(1 + x^{40})^{1/40}$, x = $2c/L_r$.
+    **Validity:** flooded, isothermal, ellipses at most as long along rolling as across it ($\kappa\le1$). For longer
+    ones there is no law: $\kappa$ = 1 and $\beta$ = 1 are used, with the actual c of the ellipse. The line law summed
+    over strips of the ellipse gives 0.81 to 0.87 of this moment at p0 = 1.5 to 2.2 GPa: 26 % of the moment arises
+    outside the ellipse, where there are no strips.
     **Reference:** Biboulet and Houpert (2010), Proc. IMechE J 224, part 2, eqs. (14), (31), (32), (35), (36).
     """
 
@@ -129,7 +129,7 @@ BibouletHoupertPointRollingResistance.__init__.__doc__ = """**Arguments:**
 
 
 def _shape(contact: PointContact) -> tuple[Array, Array]:
-    """ln of kappa = a/c and of beta; 0 and 0 for an ellipse that is longer along rolling than across it."""
+    """Logarithms of kappa = a/c and of beta; both 0 for an ellipse that is longer along rolling than across it."""
     log_kappa = -jnp.log(contact.ellipticity())
     wide = log_kappa <= 0.0
     log_kappa = jnp.where(wide, log_kappa, 0.0)
@@ -139,7 +139,7 @@ def _shape(contact: PointContact) -> tuple[Array, Array]:
 
 
 def _race_share(log_kappa: Array, log_number: Array, ratio: Array) -> Array:
-    """C of a race on which the ellipse takes this part of the width."""
+    """Factor C of a race of finite width; `ratio` is ellipse width over race width, 2c/L_r."""
     kappa, number = jnp.exp(log_kappa), jnp.exp(log_number)
     log_narrow = jnp.log(4.72) - 0.39 * log_number + 0.484 * jnp.exp(0.165 * log_number) * log_kappa
     log_excess = log_add(jnp.log(0.15), log_narrow) - jnp.log(0.85)  # of 1/c_0 over 1

@@ -1,4 +1,4 @@
-"""Profiles of rollers: how much is ground off towards the ends, so that the load does not peak there."""
+"""Profiles of rollers: how much is ground off towards the ends to avoid pressure peaks there."""
 
 import abc
 import math
@@ -14,22 +14,24 @@ from ..numerics.precision import as_float
 
 
 class AbstractProfile(Checked):
-    """Radial drop of a roller over its length; a straight roller has no profile."""
+    """Radial drop of a roller's surface along its length; a straight roller has none."""
 
     part: ClassVar[str] = "profile"
 
     @abc.abstractmethod
     def drop_at(self, position: Values) -> Float[Array, "..."]:
-        """Depth below the straight generator, m, >= 0. **Arguments:** `position`: -1 and 1 at the ends, 0 in the
-        middle."""
+        """Depth below the straight generator, m, >= 0.
+
+        **Arguments:** `position`: -1 and 1 at the ends of the roller, 0 in the middle.
+        """
 
 
 class CrownedProfile(AbstractProfile):
     r"""Parabola, $h = h_e[(|x| - x_0)_+/(1 - x_0)]^2$: crowned over the whole length, or beyond a straight middle.
 
     **Arguments:**
-    - `drop`: h_e, what is ground off at the ends, m, >= 0.
-    - `straight_fraction`: x0, part of the length that is straight, >= 0 and below 1.
+    - `drop`: h_e, radial drop at the ends, m, >= 0.
+    - `straight_fraction`: x0, fraction of the length that is straight, >= 0 and below 1.
     """
 
     drop: Scalar = bounded(">= 0", unit="m", converter=as_float)
@@ -41,16 +43,16 @@ class CrownedProfile(AbstractProfile):
 
 
 class LogarithmicProfile(AbstractProfile):
-    r"""Logarithm that ends in a finite drop, $h = h_e\frac{\ln[1 - (1 - r)x^2]}{\ln r}$.
+    r"""Logarithmic profile with a finite drop at the ends, $h = h_e\frac{\ln[1 - (1 - r)x^2]}{\ln r}$.
 
-    **Limits:** with $h_e = A\ln(1/r)$ and r to 0 it is Lundberg's $A\ln[1/(1 - x^2)]$, which has an even pressure
-    under the load that fits A and is infinite at the ends; r to 1: the parabola $h_ex^2$.
-    **Reference:** Lundberg (1939), in the spirit of Johns and Gohar (1981), who made it finite; the standard profile of
-    ISO 16281, $0.00035D\ln[1/(1 - x^2)]$, has r = 0 and A = 0.00035 D ([M]).
+    **Limits:** with $h_e = A\ln(1/r)$ and r -> 0 it is Lundberg's $A\ln[1/(1 - x^2)]$, which is infinite at the ends
+    and gives a uniform pressure at the one load that A is made for; r -> 1: the parabola $h_ex^2$.
+    **Reference:** Lundberg (1939), made finite in the manner of Johns and Gohar (1981); the standard profile of
+    ISO 16281, $0.00035D\ln[1/(1 - x^2)]$, has r = 0 and A = 0.00035 D (from memory).
 
     **Arguments:**
-    - `drop`: h_e, what is ground off at the ends, m, >= 0.
-    - `end_ratio`: r, above 0 and below 1: the smaller, the nearer to the ends the roller falls off.
+    - `drop`: h_e, radial drop at the ends, m, >= 0.
+    - `end_ratio`: r, above 0 and below 1: the smaller it is, the more the drop is confined to the ends.
     """
 
     drop: Scalar = bounded(">= 0", unit="m", converter=as_float)
@@ -61,7 +63,7 @@ class LogarithmicProfile(AbstractProfile):
 
 
 def lundberg_drop(amplitude: float, end_ratio: float) -> float:
-    """Drop at the ends of the `LogarithmicProfile` that follows A ln[1/(1 - x^2)] away from them, m."""
+    """Drop h_e, m, with which a `LogarithmicProfile` follows Lundberg's A ln[1/(1 - x^2)] away from the ends."""
     require_numbers(">= 0", amplitude=amplitude)
     require_numbers("above 0 and below 1", end_ratio=end_ratio)
     return amplitude * math.log(1.0 / end_ratio)

@@ -1,4 +1,4 @@
-"""Stress at the end of an implicit step of Maxwell's equation: one increasing scalar equation, solved elementwise."""
+"""Stress after an implicit step of Maxwell's equation: the root of an increasing scalar function, elementwise."""
 
 from typing import NamedTuple, Protocol, runtime_checkable
 
@@ -8,24 +8,25 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 EYRING_STEPS = 4
-"""Halley steps of `sinh_root`: round-off for relaxation numbers from 1e-30 to 1e30 and trial stresses up to 1000."""
+"""Halley steps of `sinh_root`: enough for round-off at relaxation numbers of 1e-30 to 1e30, trial stresses to 1000."""
 LARGEST_EYRING_STRESS = 600.0
-"""Stress in units of the Eyring stress that is never exceeded: sinh would overflow."""
+"""Upper bound of the stress, in units of the Eyring stress; beyond it sinh would overflow."""
 LIMITING_STEPS = 3
-"""Halley steps of `limiting_root`: round-off over the same range; for an exponent n < 1, 2e-10 in the fourth
-decade of q (see the tests)."""
+"""Halley steps of `limiting_root`: enough for round-off over the same range; with an exponent n < 1 the error reaches
+2e-10 in the fourth decade of q (see the tests)."""
 RELAXATION_FLOOR = 1e-100
-"""Relaxation number below which `limiting_root` does not go: far below, the stress is the trial or the limiting one."""
+"""Smallest relaxation number in `limiting_root`: there the stress is already the trial or the limiting stress."""
 
 
 @jax.custom_jvp
 def sinh_root(trial: Array, relaxation: Array) -> Array:
-    """s >= 0 with s + relaxation sinh(s) = trial, for trial and relaxation >= 0, elementwise; s at most 600.
+    """Root s >= 0 of s + relaxation sinh(s) = trial, for trial and relaxation >= 0, elementwise; s at most 600.
 
-    Halley's method from above: the left side is convex and increasing, the iteration falls monotonically on the root.
+    Halley's method, started above the root: the left side is convex and increasing, so the iterates decrease
+    monotonically to the root.
     """
     flow = trial / jnp.where(relaxation > 0, relaxation, 1.0)
-    # asinh(flow), which bounds s; of no use where it is not accurate, at small flow
+    # asinh(flow) is an upper bound of s; inaccurate at small flow, where the other bound decides
     bound = jnp.where(relaxation > 0, jnp.log(flow + jnp.sqrt(jnp.square(flow) + 1.0)), jnp.inf)
     s = jnp.minimum(jnp.minimum(trial / (1.0 + relaxation), bound), LARGEST_EYRING_STRESS)
     for _ in range(EYRING_STEPS):
@@ -45,14 +46,14 @@ def _sinh_root_jvp(primals, tangents):
 
 
 def _sinh_and_cosh(s: Array) -> tuple[Array, Array]:
-    """sinh(s) and cosh(s) from one exponential, exact to round-off for small s too."""
+    """Values of sinh(s) and cosh(s) from one exponential, exact to round-off for small s too."""
     grown = jnp.expm1(s)
     shrunk = grown / (grown + 1.0)
     return 0.5 * (grown + shrunk), 1.0 + 0.5 * (grown - shrunk)
 
 
 class Slopes(NamedTuple):
-    """Stress s at the rate q, ds/dq and d2s/dq2."""
+    """Stress s at the shear rate q, and its derivatives ds/dq and d2s/dq2."""
 
     stress: Float[Array, "..."]
     first: Float[Array, "..."]
@@ -61,33 +62,33 @@ class Slopes(NamedTuple):
 
 @runtime_checkable
 class Limiting(Protocol):
-    """A flow law s(q), concave and increasing from 0 with slope 1 to the limit 1. All for q >= 0, 0 <= s < 1."""
+    """A flow law s(q) for q >= 0, concave and increasing from s = 0 with slope 1 to the limit s = 1."""
 
     def rate_ratio(self, s: Array) -> Array:
-        """q(s); it may overflow to infinity at s = 1."""
+        """Rate q(s); it may overflow to infinity at s = 1."""
         ...
 
     def stress_slopes(self, q: Array) -> Slopes:
-        """s and its derivatives."""
+        """Stress s(q) and its derivatives."""
         ...
 
     def stress_ratio(self, q: Array) -> Array:
-        """s(q), to be differentiated in the numbers of the law."""
+        """Stress s(q), differentiable with respect to the parameters of the law."""
         ...
 
     def corner(self, slope: Array) -> tuple[Array, Array]:
-        """q and s where ds/dq has a value, in (0, 1]."""
+        """Rate q and stress s at which ds/dq = `slope`, in (0, 1]."""
         ...
 
 
 @eqx.filter_custom_jvp
 def limiting_root(law: Limiting, trial: Array, relaxation: Array) -> Array:
-    r"""q >= 0 with s(q) + relaxation q = trial, for trial and relaxation >= 0, elementwise.
+    r"""Root q >= 0 of s(q) + relaxation q = trial, for trial and relaxation >= 0, elementwise.
 
-    The left side is concave, with a corner where the slope of s falls below the relaxation number. Beyond it the slope
-    of the left side changes by a factor of 2 only, so that the corner itself is a good start; before it, the same
-    holds over s instead of q, and a stress below the root comes from the chord between 0 and the corner. Both starts
-    are below the root, from where Halley's method rises.
+    The left side is concave in q, with a corner where ds/dq falls to the relaxation number. For a root beyond the
+    corner, the slope of the left side changes by at most a factor of 2 from there on, so that the corner is a good
+    start. For a root before the corner, the same holds for the left side as a function of s, and the chord between 0
+    and the corner gives a start. Both starts lie below the root, and Halley's method rises from them.
     """
     relaxation = jnp.maximum(relaxation, RELAXATION_FLOOR)
     corner_rate, corner_stress = law.corner(jnp.minimum(relaxation, 1.0))

@@ -1,8 +1,8 @@
 """Discretisation of a contact for its traction: steps along rolling, strips across.
 
 Measured relative error of the force without spin (`tests/benchmarks/traction.py`): 800 random contacts, Deborah number
-1e-2 to 3e2, slide ratio 1e-4 to 1, Mobil Jet II and Pennzane; each entry is the worse one of line and point contact,
-first the bound of 95 % of the errors, then the largest.
+1e-2 to 3e2, slide ratio 1e-4 to 1, Mobil Jet II and Pennzane; each entry gives the 95th percentile of the errors and
+the largest error, for line or point contacts, whichever is worse.
 
 | accuracy | steps, strips | Ree-Eyring | Bair-Winer | Gecim-Winer | Elsharkawy-Hamrock | us, point |
 |---|---|---|---|---|---|---|
@@ -11,19 +11,21 @@ first the bound of 95 % of the errors, then the largest.
 | 1e-4 | 128, 24 | 6.4e-5, 1.2e-4 | 5.6e-5, 1.1e-4 | 8.4e-5, 2.6e-4 | 5.4e-5, 7.5e-5 | 86 |
 | 1e-6 | 1200, 80 | 7.3e-7, 1.4e-6 | 6.5e-7, 1.9e-6 | 8.9e-7, 1.4e-6 | 6.3e-7, 7.9e-7 | 3600 |
 
-(us: an evaluation in a batch, Ree-Eyring, one core of a small server.) What is special:
+The last column is the time of one evaluation in a batch in us, with Ree-Eyring, on one core of a small server. Remarks:
 - Extrapolation needs a smooth stress. Ree-Eyring: (32, 16) extrapolated has 95 % of the errors below 6e-5 and (128, 24)
-  below 6e-7, at a fifth and a thirtieth of the presets' work. With a limiting stress it gains little: 4e-5 for a line
-  contact at 128 steps, as without.
-- A limiting stress has kinks across strips: 95 % of the errors of point contacts are below 2e-4 to 3e-4 with 16 strips
-  however many steps, 7e-5 with 24, 3e-5 with 32, 6e-6 with 48, 2e-6 with 64, and 8e-7 with 80.
-- Strips go through the machine in fours (twice as many, of which half are computed): multiples of 8 are fastest.
-- With spin the stress nearly jumps where the shear rate changes sign, and strips, not steps, make the error: such
-  contacts have presets of their own.
+  below 6e-7, at a fifth and a thirtieth of the work of the presets of this accuracy. With a limiting stress
+  extrapolation gains little: the error of a line contact at 128 steps stays at 4e-5.
+- A limiting stress makes kinks of the stress across the strips: 95 % of the errors of point contacts are below 2e-4 to
+  3e-4 with 16 strips however many steps, 7e-5 with 24, 3e-5 with 32, 6e-6 with 48, 2e-6 with 64, and 8e-7 with 80.
+- The processor takes four strips at a time, and by symmetry only half of the strips are computed: multiples of 8 are
+  fastest.
+- With spin the stress nearly jumps where the shear rate changes sign, and the strips, not the steps, limit the
+  accuracy: such contacts have presets of their own.
 
 Measured with spin (`tests/benchmarks/accuracy.py`): 40 random ellipses of 0.7 to 2.2 GPa, c/a up to 12, the sliding
 along rolling changing sign inside or near the contact. 95 % of the errors are below the first number, all below the
-second: of the force in units of the larger one of force and moment over sqrt(ac), of the moment, of the power.
+second. Errors of the force are relative to the larger one of force and moment over sqrt(ac); those of moment and power
+are relative to their own values.
 
 | accuracy | steps, strips | viscous function | force | moment | power |
 |---|---|---|---|---|---|
@@ -38,8 +40,8 @@ second: of the force in units of the larger one of force and moment over sqrt(ac
 | 1e-6 | 1200, 192 | Ree-Eyring | 1.9e-5, 5.5e-5 | 1.2e-5, 9.3e-5 | 9.6e-7, 3.3e-6 |
 | | | Elsharkawy-Hamrock | 9.4e-7, 3.3e-6 | 1.8e-6, 5.0e-6 | 6.6e-7, 3.4e-6 |
 
-With spin 1e-6 is reached in the power only: Ree and Eyring's forces would take some 600 strips. `error_estimate` tells
-the error of one contact.
+With spin an accuracy of 1e-6 is reached in the power only: forces with Ree-Eyring would take some 600 strips.
+`error_estimate` gives the error of one contact.
 """
 
 import dataclasses
@@ -52,11 +54,11 @@ class Resolution:
     """Steps and strips of the traction integral.
 
     **Arguments:**
-    - `steps`: of the march along each strip, >= 1, even where `extrapolate`.
-    - `strips`: Gauss points across the whole contact, >= 1; a contact without spin computes half of them, a line
+    - `steps`: number of steps of the march along each strip, >= 1; even with `extrapolate`.
+    - `strips`: number of Gauss points across the whole contact, >= 1; without spin half of them are computed, in a line
       contact one.
-    - `extrapolate`: whether the march is repeated with half the steps and the leading error, of second order in the
-      step, taken out (Richardson); half as much work again.
+    - `extrapolate`: whether the march is repeated with half the steps to remove the leading error, of second order in
+      the step (Richardson); takes half as much work again.
 
     **Raises:** `ValueError` for other numbers.
     """
@@ -75,10 +77,10 @@ class Resolution:
 
     @classmethod
     def for_accuracy(cls, accuracy: float, spin: bool = False) -> "Resolution":
-        """The cheapest measured preset whose forces are as accurate as asked in 95 % of the contacts.
+        """The cheapest measured preset whose forces have the given accuracy in 95 % of the contacts.
 
-        **Arguments:** `accuracy`: relative error of the forces, one of the keys of `PRESETS`; with spin 1e-6 stands for
-        2e-5. `spin`: whether the bodies spin against each other (`SPIN_PRESETS`).
+        **Arguments:** `accuracy`: relative error of the forces, one of the keys of `PRESETS`; with spin, 1e-6 reaches
+        only 2e-5. `spin`: whether the bodies spin relative to each other (`SPIN_PRESETS`).
 
         **Raises:** `ValueError` for another number.
         """
@@ -95,7 +97,7 @@ PRESETS = {
     1e-4: Resolution(128, 24),
     1e-6: Resolution(1200, 80),
 }
-"""Relative error of the forces -> resolution; see the table above."""
+"""Resolution by relative error of the forces, without spin; see the first table above."""
 
 SPIN_PRESETS = {
     1e-2: Resolution(14, 24),
@@ -103,4 +105,4 @@ SPIN_PRESETS = {
     1e-4: Resolution(128, 160),
     1e-6: Resolution(1200, 192),
 }
-"""The same for contacts that spin; see the second table."""
+"""Resolution by relative error of the forces, with spin; see the second table above."""

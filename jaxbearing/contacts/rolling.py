@@ -18,29 +18,29 @@ from .rolling_heating import AIHARA, FILM_TEMPERATURE
 
 RIGID_CONSTANT = 6.506905
 r"""$\int h\,dp$ of a rigid isoviscous film in units of $\mu u\sqrt{2R/h}$ (Martin 1916):
-$12(\beta - I_2/\sin^2\beta)$ at the Reynolds exit."""
+$12(\beta - I_2/\sin^2\beta)$ at the Reynolds exit, as `gaps.MARTIN_ROLLING`."""
 INLET_CONSTANT = 6.532471
-r"""$\int(h - h_c)\,dp$ over a piezoviscous inlet in units of $h_c/\alpha$, with the gap $h_c(1 + \xi^{3/2})$ next to a
-Hertz zone long against the inlet; 6.2 at an inlet a tenth as long as the half-width."""
+r"""$\int(h - h_c)\,dp$ over a piezoviscous inlet in units of $h_c/\alpha$, with the gap $h_c(1 + \xi^{3/2})$ before a
+Hertz zone much longer than the inlet; 6.2 for an inlet of a tenth of the half-width."""
 LIGHT_LOAD = 1.2
-"""Moes' load number at which the rigid law and Ertel and Grubin's count alike."""
+"""Moes' load number at which the rigid law and that of Ertel and Grubin have equal weights."""
 LIGHT_LOAD_CONSTANT = RIGID_CONSTANT / 4.894968**0.5
-r"""C of the rigid isoviscous film over $\sqrt M$: Martin's force at Martin's film."""
+r"""Factor C of the rigid isoviscous film, divided by $\sqrt M$: Martin's force at Martin's film."""
 JOINT = 3.778
-"""Exponent that joins light and heavy load in `FullRangeRollingResistance`."""
+"""Exponent n of the blend of light and heavy load in `FullRangeRollingResistance`."""
 LOAD_NUMBER_FLOOR = 1e-6
-"""Load number M below which the heavily loaded branch no longer rises."""
+"""Smoothing of the load number M in the heavily loaded branch, which levels off below it."""
 
 
 class RollingInlet(NamedTuple):
-    """The inlet of a rolling contact, as a law of rolling resistance sees it; a law takes from it what it needs.
+    """Inputs of a law of rolling resistance; a law may use only some of them.
 
     - `load`: N, >= 0.
     - `speed`: mean surface speed (u1 + u2)/2 relative to the contact, m/s, signed.
     - `viscosity`: of the oil in the inlet, at ambient pressure, Pa s.
     - `pressure_viscosity`: reciprocal isoviscous pressure in the inlet, 1/Pa, >= 0.
-    - `film`: thickness of the contact's film, m, > 0, by the film law of the bearing; laws that use it say which
-      film they mean.
+    - `film`: film thickness by the film law of the bearing, m, > 0; a law that uses it says whether it means the
+      central or the minimum film.
     """
 
     load: Values
@@ -53,20 +53,20 @@ class RollingInlet(NamedTuple):
 class AbstractRollingResistance(eqx.Module):
     r"""The rolling force $P = \ell\int h\,(dp/dx)\,dx$ of a line contact, x along the entrainment.
 
-    The pressure flow drags each surface with P/2 against the entrainment, and the pressure pushes body k (radius R_k,
-    reduced radius R) with P R/R_k along it. Together they dissipate P u, u the mean speed.
+    The pressure flow drags each surface with P/2 against the entrainment, and the pressure pushes body k (of radius
+    R_k, R the reduced radius) with P R/R_k along the entrainment. Together they dissipate P u, u the mean speed.
     """
 
     name: ClassVar[str]
     """Name in scene files and on the screen."""
     piezoviscous_only: ClassVar[bool]
-    """True if the law means nothing for an oil whose viscosity does not rise with pressure."""
+    """True if the law does not apply to an oil whose viscosity does not rise with pressure."""
     own_heating: ClassVar[str]
-    """Inlet heating with which the law is used unless a scene names another one: one of `rolling_heating.HEATINGS`."""
+    """Default inlet heating of the law, one of `rolling_heating.HEATINGS`; a scene may name the other."""
 
     @abc.abstractmethod
     def force(self, contact: LineContact, inlet: RollingInlet) -> Float[Array, "..."]:
-        """P, N, of the sign of the entrainment speed. **Arguments:** `contact`, the two cylinders; `inlet`."""
+        """P, N, with the sign of the entrainment speed. **Arguments:** `contact`, the two cylinders; `inlet`."""
 
 
 class RigidRollingResistance(AbstractRollingResistance):
@@ -74,9 +74,9 @@ class RigidRollingResistance(AbstractRollingResistance):
 
     **Limits:** linear in the speed at a given film.
     **Validity:** isoviscous oil, h the minimum film: then exact for rigid cylinders and within 4 % of own full
-    solutions for elastic ones. A piezoviscous oil makes a thicker film and, at that film, 30 to 55 % more resistance
-    than this law. An upper bound is only $4.16\sqrt{\mu u\ell Q}$, this law at the film of rigid cylinders under the
-    same load.
+    solutions for elastic ones. A piezoviscous oil has a thicker film and, at that film, 30 to 55 % more resistance
+    than this law gives. It is no upper bound; that is $4.16\sqrt{\mu u\ell Q}$, the same law at the film of rigid
+    cylinders under the same load.
     **Reference:** Martin (1916), Engineering 102, 119.
     """
 
@@ -94,7 +94,7 @@ class ErtelGrubinRollingResistance(AbstractRollingResistance):
 
     **Limits:** the sign is $u/\sqrt{u^2 + u_\epsilon^2}$, $u_\epsilon$ = 1e-6 m/s: smooth at rest.
     **Validity:** the elastic-piezoviscous regime only: 1, 11 and 25 % above own full solutions of a turbine bearing's
-    contact at M = 24, 10 and 4 (L = 9.5), and unbounded as alpha -> 0, which is floored at 1e-25 1/Pa. h is the
+    contact at M = 24, 10 and 4 (L = 9.5), and unbounded as alpha -> 0 (1e-25 1/Pa is added to alpha). h is the
     *central* film.
     **Reference:** own derivation with the inlet of Ertel and Grubin (1949).
     """
@@ -109,14 +109,14 @@ class ErtelGrubinRollingResistance(AbstractRollingResistance):
 
 
 class JoinedRollingResistance(AbstractRollingResistance):
-    r"""The rigid law at light load, Ertel and Grubin's under load: $P = (P_R M_0^2 + P_{EG} M^2)/(M_0^2 + M^2)$.
+    r"""Rigid law at light load, Ertel and Grubin's at heavy load: $P = (P_R M_0^2 + P_{EG} M^2)/(M_0^2 + M^2)$.
 
     M is Moes' load number, $Q/(\ell E' R)\,[\mu(u_1 + u_2)/(E'R)]^{-1/2}$, $M_0 = 1.2$.
 
     **Limits:** the rigid law as Q -> 0, Ertel and Grubin's at M >> 1.
     **Validity:** a piezoviscous oil, h the *central* film. Within -2 and +21 % of full solutions of the isothermal
     contact at M = 1.2 to 24, L = 6.7 to 9.5.
-    **Reference:** the two laws; the interpolation is ours.
+    **Reference:** those of the two laws; the interpolation is our own.
     """
 
     name: ClassVar[str] = "ertel_grubin"
@@ -137,12 +137,11 @@ class FullRangeRollingResistance(AbstractRollingResistance):
 
     $C = (C_R^{-n} + C_E^{-n})^{-1/n}$, n = 3.778, $C_R = 2.94103\sqrt M$ (Martin's rigid isoviscous film),
     $C_E = 4.1156\,M^{-0.02816}(L^2 + 4)^{-0.04105}$, $U = 2\mu u/(E'R)$, $W = Q/(\ell E'R)$, $M = W/\sqrt U$,
-    $L = \alpha E'U^{1/4}$. No film thickness enters.
+    $L = \alpha E'U^{1/4}$. The film thickness is not used.
 
-    **Limits:** $4.16\sqrt{\mu u\ell Q}$ as Q -> 0; in it |Q| counts as $\sqrt{Q^2 + Q_\epsilon^2}$, $Q_\epsilon$ =
-    1e-9 N. |u| counts as $\sqrt{u^2 + u_\epsilon^2}$ and its sign is $u/\sqrt{u^2 + u_\epsilon^2}$, $u_\epsilon$ = 1e-6
-    m/s. In $C_E$ M counts as $\sqrt{M^2 + 10^{-12}}$. An isoviscous oil (L = 0) has the plateau
-    $3.89\,M^{-0.028}$.
+    **Limits:** $4.16\sqrt{\mu u\ell Q}$ as Q -> 0. |Q| is smoothed to $\sqrt{Q^2 + Q_\epsilon^2}$, $Q_\epsilon$ = 1e-9
+    N, |u| to $\sqrt{u^2 + u_\epsilon^2}$ and the sign of u to $u/\sqrt{u^2 + u_\epsilon^2}$, $u_\epsilon$ = 1e-6 m/s,
+    and M in $C_E$ to $\sqrt{M^2 + 10^{-12}}$. For an isoviscous oil (L = 0) $C_E = 3.89\,M^{-0.028}$.
     **Validity:** flooded and isothermal. Within -3.0 and +3.3 % of the 48 compressible full solutions of Barus oils
     that it was fitted to (M = 0.5 to 200, L = 4 to 16, p0 < 3 GPa); 2 to 19 % below those of an incompressible oil; 3
     to 6 % below those of a Roelands oil; 10 % low at L < 1 and M >= 24; within 11 % of elastic isoviscous solutions.
@@ -166,10 +165,10 @@ class BibouletHoupertRollingResistance(AbstractRollingResistance):
     r"""Biboulet and Houpert's line contact: $P = C\,\ell E'R\,U^{3/4}$, with the sign of the speed.
 
     $C = \frac12(8/\pi)^{3/2}M^{3/2}T^*$, $T^* = 1.4M^{-1}/[1 + (\frac{1.4}{1.45}\sqrt M)^{10}]^{1/10}$; M and U as in
-    `FullRangeRollingResistance`. Their force is that on one surface; P is twice it.
+    `FullRangeRollingResistance`. Their force is that on one surface; P is twice as large.
 
-    **Limits:** $2.845\sqrt M$ at light load, 3 % below the rigid isoviscous film; the plateau 2.946 under load. Load
-    and speed are smooth at 0 as in `FullRangeRollingResistance`.
+    **Limits:** $C = 2.845\sqrt M$ at light load, 3 % below the rigid isoviscous film; $C = 2.946$ at heavy load. Load
+    and speed are smoothed at 0 as in `FullRangeRollingResistance`.
     **Validity:** fitted for L = 4 to 16, M = 0.2 to 200, an incompressible oil. Within -16 and +5 % of own full
     solutions.
     **Reference:** Biboulet and Houpert (2010), Proc. IMechE J 224, part 1, eq. (42).
@@ -188,7 +187,7 @@ class BibouletHoupertRollingResistance(AbstractRollingResistance):
 
 
 class _Groups(NamedTuple):
-    """ln U, ln M and L^2 of a line contact, U with the sum of both surface speeds."""
+    """Dimensionless groups ln U, ln M and L^2 of a line contact, U with the sum of both surface speeds."""
 
     log_speed: Array
     log_load: Array
@@ -204,6 +203,6 @@ def _groups(contact: LineContact, inlet: RollingInlet) -> _Groups:
 
 
 def _scaled(contact: LineContact, groups: _Groups, log_constant: Array, speed: Values) -> Array:
-    """C l E' R U^(3/4) with the sign of the speed, N."""
+    """Force C l E' R U^(3/4), N, with the sign of the speed."""
     size = contact.length * contact.reduced_modulus * contact.reduced_radius
     return size * jnp.exp(log_constant + 0.75 * groups.log_speed) * smooth_sign(speed, SPEED_FLOOR)

@@ -1,4 +1,4 @@
-"""Inlet heating of the rolling resistance, by name: the viscosity that a law sees, and the factor on its result."""
+"""Inlet heating of the rolling resistance: which viscosity a law is given, and a factor on its result."""
 
 from typing import Any
 
@@ -12,8 +12,8 @@ from .thermal import LOADING_WIDTH, AbstractThermalFactor, NoThermalReduction, t
 AIHARA = "aihara"
 FILM_TEMPERATURE = "film_temperature"
 HEATINGS = (AIHARA, FILM_TEMPERATURE)
-"""`aihara`: the law at the inlet temperature times `aihara_factor`; `film_temperature`: the law with the viscosity at
-the temperature that explains the thermal factor of the film."""
+"""Kinds of inlet heating. `aihara`: the law with the viscosity at the inlet temperature, times `aihara_factor`;
+`film_temperature`: the law with the viscosity at the inlet temperature that explains the film's thermal factor."""
 
 
 def aihara_factor(mean_speed: Values, inlet: InletOil) -> Float[Array, "..."]:
@@ -21,10 +21,10 @@ def aihara_factor(mean_speed: Values, inlet: InletOil) -> Float[Array, "..."]:
 
     **Limits:** 1 at rest; the power is linear below L = 1e-9.
     **Validity:** within 0.025 of own inlet calculations at L = 0.1 to 7 (Hertz gap, heat of the parabolic flow
-    conducted to isothermal walls, no convection). The outlet, 28 % of the resistance of a loaded contact, is not in it.
+    conducted to isothermal walls, no convection). The outlet, 28 % of the resistance of a loaded contact, is left out.
     **Reference:** Aihara (1987), ASME J. Tribology 109, 471, as Manjunath et al. (2023) cite it.
 
-    **Arguments:** `mean_speed`, (u1 + u2)/2, m/s, of either sign; `inlet`, the oil there, with a conductivity.
+    **Arguments:** `mean_speed` u = (u1 + u2)/2, m/s, of either sign; `inlet`, the oil there, with a conductivity.
     **Raises:** `ValueError` for an oil without a conductivity.
     """
     loading = thermal_loading(mean_speed, inlet, "Aihara's inlet heating of the rolling resistance")
@@ -32,10 +32,11 @@ def aihara_factor(mean_speed: Values, inlet: InletOil) -> Float[Array, "..."]:
 
 
 def heating_of(law: Any, named: str | None, thermal: AbstractThermalFactor) -> str:
-    """The inlet heating of a law of rolling resistance: the one that is named; otherwise the law's own, or none in an
-    isothermal film, to whose temperature `film_temperature` adds nothing.
+    """Inlet heating of a law of rolling resistance: `named`; if that is `None`, the default of the law, but
+    `film_temperature`, which then heats nothing, where the film is isothermal.
 
-    **Arguments:** `law`, of a line or a point contact; `named`, one of `HEATINGS`; `thermal`, of the film.
+    **Arguments:** `law`, of a line or a point contact; `named`, one of `HEATINGS` or `None`; `thermal`, the thermal
+    factor of the film.
     """
     if named is not None:
         return named
@@ -43,8 +44,11 @@ def heating_of(law: Any, named: str | None, thermal: AbstractThermalFactor) -> s
 
 
 def rolling_words(laws: Any) -> str:
-    """The law of rolling resistance and its inlet heating, for the screen. **Arguments:** `laws` of line or point
-    contacts, with rolling resistance of the films, by hysteresis of the bodies, or both."""
+    """Name of the law of rolling resistance and of its inlet heating, for the screen.
+
+    **Arguments:** `laws` of line or point contacts with rolling resistance of the films, hysteresis of the bodies, or
+    both.
+    """
     said = []
     if laws.rolling is not None:
         heating = heating_of(laws.rolling, laws.rolling_heating, laws.thermal)

@@ -1,4 +1,4 @@
-"""Thermal reduction of the film by heating in the inlet, and the inlet temperature that explains it."""
+"""Thermal reduction of the film by inlet heating, and the temperature rise in the inlet that explains it."""
 
 import abc
 from collections.abc import Callable
@@ -16,25 +16,29 @@ from .line import LOAD_FLOOR, SPEED_FLOOR, LineContact, log_material_number
 from .point import PointContact
 
 NUMERATOR_FLOOR = 0.05
-"""Smallest numerator of Gupta's factor: the printed one turns negative at large thermal loading."""
+"""Smallest numerator of Gupta's factor, which as printed turns negative at large thermal loading."""
 NUMERATOR_WIDTH = 0.02
 LOADING_WIDTH = 1e-9
 """Thermal loading below which its powers are linear: the factor changes by < 1e-11 at loading >= 1e-3."""
 SLIDE_WIDTH = 1e-6
 """Slide ratio below which its power is linear."""
 SLIDE_LIMIT = 10.0
-"""Slide ratio beyond which Hsu and Lee's exponential no longer rises."""
+"""Largest slide ratio in Hsu and Lee's exponential."""
 SLIDE_LIMIT_WIDTH = 0.2
-"""Smoothing of that limit: below 1e-12 at a slide ratio of 4.5."""
+"""Smoothing width of `SLIDE_LIMIT`; a slide ratio of 4.5 changes by less than 1e-12."""
 RISE_BELOW = -5.0
-"""Lower bracket end of the temperature rise, K: below 0, so that a rise of 0 is an ordinary root."""
+"""Lower end of the bracket of the temperature rise, K; below 0, so that a rise of 0 is an ordinary root."""
 RISE_TOLERANCE = 1e-9
-"""Newton step at which the search for the rise ends, relative to the rise or 1 K: ln h is then met to about 1e-11."""
+"""Last Newton step of the temperature rise, relative to the rise or 1 K; leaves an error of about 1e-11 in ln h."""
 
 
 def thermal_loading(speed: Values, oil: InletOil, user: str) -> Float[Array, "..."]:
-    r"""$L = -(\partial\mu/\partial T)\,u^2/k$. **Arguments:** u, m/s; `oil` at the inlet, with a conductivity; `user`:
-    what messages say needs it. **Raises:** `ValueError` for an oil without a conductivity."""
+    r"""Thermal loading $L = -(\partial\mu/\partial T)\,u^2/k$.
+
+    **Arguments:** `speed` u, m/s; `oil` at the inlet, with a conductivity k; `user`, name of the law that needs it, for
+    the error message.
+    **Raises:** `ValueError` for an oil without a conductivity.
+    """
     if oil.conductivity is None:
         raise ValueError(f"{user} needs the lubricant's conductivity: none given.")
     slope = -jnp.multiply(oil.viscosity, oil.log_slope)
@@ -45,11 +49,17 @@ class AbstractThermalFactor(eqx.Module):
     """Ratio of the film with inlet heating to the isothermal film."""
 
     def thermal_loading(self, entrainment_speed: Values, oil: InletOil) -> Float[Array, "..."]:
-        r"""$L = -(\partial\mu/\partial T)\,u^2/k$. **Arguments:** u, m/s; `oil` at the inlet, with a conductivity."""
+        r"""Thermal loading $L = -(\partial\mu/\partial T)\,u^2/k$.
+
+        **Arguments:** `entrainment_speed` u, m/s; `oil` at the inlet, with a conductivity k.
+        """
         return thermal_loading(entrainment_speed, oil, f"{type(self).__name__}'s thermal factor")
 
     def slide_ratio(self, entrainment_speed: Values, sliding_speed: Values) -> Float[Array, "..."]:
-        """S = 2|u1 - u2|/|u1 + u2|, >= 0; finite at rest. **Arguments:** (u1 + u2)/2 and u1 - u2, m/s."""
+        """Slide ratio S = 2|u1 - u2|/|u1 + u2|, >= 0; finite at rest.
+
+        **Arguments:** `entrainment_speed`, (u1 + u2)/2, and `sliding_speed`, u1 - u2, m/s.
+        """
         return 2.0 * jnp.abs(sliding_speed) / smooth_abs(2.0 * entrainment_speed, SPEED_FLOOR)
 
     @abc.abstractmethod
@@ -73,7 +83,7 @@ class AbstractThermalFactor(eqx.Module):
 
 
 class NoThermalReduction(AbstractThermalFactor):
-    """Factor 1: the isothermal film of a line or point contact."""
+    """No thermal reduction (factor 1): the isothermal film of a line or point contact."""
 
     def log_factor(
         self,
@@ -94,11 +104,11 @@ class Gupta(AbstractThermalFactor):
     $L = -(\partial\mu/\partial T) u^2/k$ (u the mean speed) and $S = 2|u_1 - u_2|/|u_1 + u_2|$.
 
     **Limits:** 1 as u -> 0 at any sliding.
-    **Validity:** fitted for S up to about 2 and L up to about 20 (`slide_ratio` and `thermal_loading` let a caller
-    check). The numerator, negative at very large L in print, is floored smoothly at 0.05; the powers are linear
-    below L = 1e-9 and S = 1e-6.
-    **Reference:** Gupta et al. (1992), ASME J. Tribology 114, 55; source eqs. (61)-(64). The square in the source's
-    eq. (63) is ambiguous: the mean speed of the literature is taken.
+    **Validity:** fitted for S up to about 2 and L up to about 20 (see `slide_ratio` and `thermal_loading`). The
+    numerator, as printed negative at very large L, is floored smoothly at 0.05; the powers are linear below L = 1e-9
+    and S = 1e-6.
+    **Reference:** Gupta et al. (1992), ASME J. Tribology 114, 55; source eqs. (61)-(64). What the source squares
+    in its eq. (63) is ambiguous; here it is the mean speed, as in the literature.
     """
 
     def log_factor(
@@ -127,8 +137,8 @@ class HsuLee(AbstractThermalFactor):
     **Limits:** 1 as u -> 0, as the load -> 0 and for an isoviscous oil.
     **Validity:** fitted for S up to about 2 and L up to about 20; S is limited smoothly to 10, the power of L is
     linear below 1e-9.
-    **Reference:** Hsu and Lee (1994); source eq. (65), whose garbled "1 -" is read as the
-    exponent -1 of a sum 1 + ..., for a reduction is at most 1.
+    **Reference:** Hsu and Lee (1994); source eq. (65), whose garbled "1 -" is read as 1/(1 + ...), since a thermal
+    factor is at most 1.
     """
 
     def log_factor(
@@ -157,20 +167,20 @@ def inlet_temperature_rise(
     log_factor: Values,
     maximum: float = 500.0,
 ) -> Root:
-    r"""The rise $\Delta T$ that thins the isothermal film as much as the thermal factor does.
+    r"""Temperature rise $\Delta T$, K, that thins the isothermal film as much as the thermal factor does.
 
     $\ln h(T_0 + \Delta T) = \ln\phi_T + \ln h(T_0)$, elementwise.
 
-    **Limits:** factor 1 gives exactly 0, with the derivative $1/(\partial\ln h/\partial T)$.
-    **Validity:** where no rise up to `maximum` thins the film enough, the value is `maximum` and `residual`, in units
-    of ln h, says by how much it fails.
+    **Limits:** a factor of 1 gives exactly 0, with the derivative $1/(\partial\ln h/\partial T)$.
+    **Validity:** where no rise up to `maximum` thins the film enough, the value is `maximum`, and `residual` is the
+    remaining error of ln h.
 
     **Arguments:**
     - `log_film(temperature, args)`: ln of the isothermal film with the oil at that temperature, elementwise,
       decreasing.
-    - `args`: pytree of arrays; everything that the film depends on (it must not close over what is differentiated).
+    - `args`: pytree of arrays with all that the film depends on (`log_film` must not close over differentiated arrays).
     - `temperature`: $T_0$ of the inlet, K.
-    - `log_isothermal`: $\ln h(T_0)$, which the caller has.
+    - `log_isothermal`: $\ln h(T_0)$.
     - `log_factor`: $\ln\phi_T$, <= 0.
     - `maximum`: upper end of the search, K.
     """

@@ -1,8 +1,8 @@
-r"""Line contacts along which the approach varies: $\delta(s) = f + gs$, less the roller's profile, $0\le s\le\ell$.
+r"""Line contacts of tilted rollers, with the approach $\delta(s) = f + gs$, less the profile, at $0\le s\le\ell$.
 
-Each slice carries $q = K\delta_+^{10/9}$ per length (Palmgren, source eq. (51)), $K = E'\ell^{-1/9}/(8\cdot
-0.39^{10/9})$: the source prints $\ell^{+0.11}$ and 0.35, but only -1/9 follows from its eq. (41) and is dimensionally
-homogeneous. All of it is the gradient of an energy, $Q = \partial w/\partial f$, $M = \partial w/\partial g$.
+The load per length is $q = K\delta_+^{10/9}$ (Palmgren, source eq. (51)), $K = E'\ell^{-1/9}/(8\cdot 0.39^{10/9})$:
+the source prints $\ell^{+0.11}$ and 0.35, but only -1/9 follows from its eq. (41) and is dimensionally homogeneous.
+Load and moment are the gradient of an energy, $Q = \partial w/\partial f$, $M = \partial w/\partial g$.
 """
 
 import abc
@@ -25,36 +25,39 @@ from .profile import AbstractProfile
 EXPONENT = 10.0 / 9.0
 NODES = 16
 EVEN = 0.3
-"""Smaller over larger approach of the two ends from which on Gauss-Legendre quadrature replaces the closed form, which
-loses its digits as g goes to 0; its error is below 1e-15 there."""
+"""Ratio of the smaller to the larger end approach above which Gauss-Legendre quadrature, then accurate to 1e-15,
+replaces the closed form, which loses digits as g -> 0."""
 LEAST_RISE = 1e-30
-"""Rise of the approach over the length, m, below which a contact that is not even is taken as open."""
+"""Change of the approach over the length, m, below which an uneven contact (see `EVEN`) is taken as unloaded."""
 POINTS = 2
-"""Gauss-Legendre points in each lamina: with its middle alone 30 laminae give a moment that is 2e-4 off."""
+"""Gauss-Legendre points in each lamina; with one point, 30 laminae have an error of 2e-4 in the moment."""
 
 
 def palmgren_stiffness(length: Scalar, reduced_modulus: Scalar) -> Float[Array, ""]:
-    """K, N/m^(19/9), of a contact of this length, m, and modulus E', Pa."""
+    """Stiffness K of a line contact, N/m^(19/9). **Arguments:** `length`, m; `reduced_modulus` E', Pa."""
     require_numbers("> 0", length=length, reduced_modulus=reduced_modulus)
     return jnp.asarray(reduced_modulus / (8.0 * 0.39**EXPONENT) * length ** (-1.0 / 9.0))
 
 
 def alike_modulus(reduced_modulus: Float[Array, ""] | Float[Array, "2 1"]) -> Float[Array, ""]:
-    r"""E' of two contacts that are alike and that a load brings as near as both contacts of a roller together, Pa:
-    $\delta\propto E'^{-9/10}$ at a load. **Arguments:** one number for both, or inner and outer."""
+    r"""Common E' of both contacts of a roller, Pa, that gives the same total approach under a load as the two E'.
+
+    At a given load $\delta\propto E'^{-9/10}$. **Arguments:** `reduced_modulus`, Pa: one number for both contacts, or
+    inner and outer.
+    """
     if not jnp.ndim(reduced_modulus):
         return reduced_modulus
     return jnp.mean(reduced_modulus ** (-1.0 / EXPONENT)) ** -EXPONENT
 
 
 class AbstractTiltedLine(Checked):
-    """Load of a contact whose approach is f + g s, m; s from one end of the roller, m.
+    """Load of a contact with the approach f + g s, m, s the distance from one end of the roller, m.
 
     **Arguments:**
-    - `stiffness`: K of the line load by the approach, N/m^(19/9), > 0.
+    - `stiffness`: K of the load per length, N/m^(19/9), > 0.
     - `length`: of the contact, m, > 0.
-    - `ratio`: of contacts with the inner and the outer race that differ, K of either over `stiffness`, against
-      approaches with races on the last axis but one; `None`: all contacts are alike.
+    - `ratio`: K of the inner and of the outer contact over `stiffness`, where they differ; approaches then have the
+      races on the last axis but one; `None`: all contacts are alike.
     """
 
     stiffness: eqx.AbstractVar[Scalar]
@@ -62,36 +65,36 @@ class AbstractTiltedLine(Checked):
     ratio: eqx.AbstractVar[Float[Array, "2 1"] | None]
 
     def of_race(self, race: int) -> "AbstractTiltedLine":
-        """The contact with one race alone. **Arguments:** `race`: 0 inner, 1 outer."""
+        """Contact with one race only. **Arguments:** `race`: 0 inner, 1 outer."""
         if self.ratio is None:
             return self
         return dataclasses.replace(self, stiffness=self.stiffness * self.ratio[race, 0], ratio=None)
 
     def _constant(self, axes: int) -> Values:
-        """K of all contacts, N/m^(19/9). **Arguments:** `axes`: number of axes of what it is multiplied with."""
+        """K of all contacts, N/m^(19/9). **Arguments:** `axes`: number of axes of the array that K multiplies."""
         if self.ratio is None:
             return self.stiffness
         return self.stiffness * jnp.expand_dims(self.ratio, range(axes - 2))
 
     @abc.abstractmethod
     def load_and_moment(self, f: Values, g: Values) -> tuple[Float[Array, "..."], Float[Array, "..."]]:
-        """Q, N, and its moment about s = 0, N m; 0 with slope 0 where nothing touches."""
+        """Load Q, N, and its moment about s = 0, N m; both 0 with slope 0 without contact."""
 
     @abc.abstractmethod
     def energy(self, f: Values, g: Values) -> Float[Array, "..."]:
-        """w, J."""
+        """Elastic energy w, J."""
 
     @abc.abstractmethod
     def drop(self, position: Values) -> Float[Array, "..."]:
-        """Depth of the roller's profile, m, at a place, s/l from 0 to 1."""
+        """Depth of the roller's profile, m. **Arguments:** `position`: s/l, from 0 to 1."""
 
     def load_per_length(self, f: Values, g: Values, position: Values) -> Float[Array, "..."]:
-        """q, N/m, at a place s/l."""
+        """Load per length q, N/m. **Arguments:** `position`: s/l, from 0 to 1."""
         approach = f + g * self.length * position - self.drop(position)
         return self._constant(jnp.ndim(approach)) * positive_power(approach, EXPONENT)
 
     def laminae(self, f: Float[Array, " batch"], g: Float[Array, " batch"], count: int) -> Float[Array, "batch lamina"]:
-        """Loads of `count` equal laminae, N, by two Gauss-Legendre points in each."""
+        """Loads of `count` equal laminae, N, from two Gauss-Legendre points in each."""
         places, weights = lamina_points(count)
         density = self.load_per_length(f[:, None], g[:, None], jnp.asarray(places)[None, :])
         each = density * jnp.asarray(weights)[None, :] * self.length
@@ -99,10 +102,10 @@ class AbstractTiltedLine(Checked):
 
 
 class StraightLine(AbstractTiltedLine):
-    r"""Straight generators: the integrals in closed form, exact for partial contact at either end.
+    r"""Straight roller: the integrals in closed form, exact for partial contact at either end.
 
-    $Q = \frac{9}{19}\frac Kg(d_1^{19/9} - d_0^{19/9})$ with the approaches of the ends, $d_0 = f_+$, $d_1 = (f +
-    g\ell)_+$; M and w alike. Finite values, gradients and, but at first touch, second derivatives.
+    $Q = \frac{9}{19}\frac Kg(d_1^{19/9} - d_0^{19/9})$ with the end approaches $d_0 = f_+$, $d_1 = (f + g\ell)_+$; M
+    and w likewise. Values and gradients are finite, and so are second derivatives except at first touch.
 
     **Arguments:** `stiffness` K, N/m^(19/9), `length`, m.
     """
@@ -127,8 +130,10 @@ class StraightLine(AbstractTiltedLine):
 
 
 def _ninth_power(x: Array, whole: int) -> Array:
-    """x^(whole + 1/9) for x > 0, 0 for x <= 0, whole >= 0: the ninth root is the one power that is formed, and is
-    shared. Its own slope at x = 0 is left out."""
+    """Power x^(whole + 1/9) for x > 0, 0 for x <= 0, with whole >= 0.
+
+    The ninth root is the only non-integer power; its infinite slope at x = 0 counts as 0.
+    """
     positive = x > 0
     root = jnp.where(positive, jnp.where(positive, x, 1.0) ** (1.0 / 9.0), 0.0)
     return root * jnp.maximum(x, 0.0) ** whole if whole else root
@@ -139,12 +144,12 @@ def _sums(f: Array, g: Array, length: Array, power: int, orders: int) -> list[Ar
     rise = g * length
     first, last = jnp.maximum(f, 0.0), jnp.maximum(f + rise, 0.0)
     even = jnp.minimum(first, last) > EVEN * jnp.maximum(first, last)
-    # each branch sees arguments of its own kind only, so that the other's derivative is finite
+    # each branch gets arguments of its own case only, so that the derivative of the unused branch is finite
     nodes, weights = gauss_legendre(NODES)
     at = jnp.asarray(nodes).reshape(-1, *(1,) * f.ndim)
     weight = jnp.asarray(weights).reshape(at.shape)
     density = weight * _ninth_power(jnp.where(even, f, 1.0)[None] + jnp.where(even, rise, 0.0)[None] * at, power)
-    # not even, and hardly rising: an approach that is smaller still
+    # uneven with hardly any rise: the approach is even smaller than the rise, and any slope will do
     slope = jnp.where(even | (jnp.abs(rise) < LEAST_RISE), 1.0, g)
     ends = jnp.stack([last, first])
     ending, plain = _ninth_power(ends, power), []
@@ -165,7 +170,7 @@ def _sums(f: Array, g: Array, length: Array, power: int, orders: int) -> list[Ar
 def _straight(f: Array, g: Array, length: Array) -> tuple[Array, Array]:
     """Integrals of delta^(10/9) and delta^(10/9) s over the contact."""
     load, moment = _sums(f, g, length, power=1, orders=2)
-    # 0 over a negative slope is -0
+    # 0 divided by a negative slope is -0
     return jnp.where(load > 0, load, 0.0), jnp.where(load > 0, moment, 0.0)
 
 
@@ -181,13 +186,15 @@ def _straight_jvp(primals, tangents):
 
 
 class SlicedLine(AbstractTiltedLine):
-    """Laminae, each by the approach at two Gauss-Legendre points: error O(n^-4) where all of the length touches and the
-    profile is smooth, O(n^-2) with an edge of contact inside.
+    """Profiled roller cut into n laminae, with two Gauss-Legendre points in each.
+
+    The error is O(n^-4) where the whole length is in contact and the profile is smooth, O(n^-2) where the contact ends
+    within the length.
 
     **Arguments:**
     - `stiffness` K, N/m^(19/9), `length`, m.
     - `profile`: of the roller; `None`: straight.
-    - `count`: laminae (structure).
+    - `count`: number n of laminae (structure).
     """
 
     stiffness: Scalar = bounded("> 0")
@@ -202,7 +209,7 @@ class SlicedLine(AbstractTiltedLine):
         return self.profile.drop_at(2.0 * position - 1.0)
 
     def _points(self, f: Values, g: Values) -> tuple[Array, Array, Array]:
-        """Places s/l, weights (together 1) and approaches of all points, on the first axis."""
+        """Positions s/l, weights (of sum 1) and approaches, m, of all points, on the first axis."""
         f, g = jnp.broadcast_arrays(jnp.asarray(f, dtype=float), jnp.asarray(g, dtype=float))
         places, weights = lamina_points(self.count)
         shape = (-1, *(1,) * f.ndim)
@@ -222,7 +229,7 @@ class SlicedLine(AbstractTiltedLine):
 
 
 def lamina_points(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Places and weights of `POINTS` points in each of `count` laminae of [0, 1], in their order."""
+    """Positions and weights of `POINTS` Gauss-Legendre points in each of `count` equal laminae of [0, 1], in order."""
     nodes, weights = gauss_legendre(POINTS)
     places = (np.arange(count)[:, None] + nodes[None, :]) / count
     return places.ravel(), np.tile(weights / count, count)

@@ -15,8 +15,8 @@ from .line import LineContact, log_entrainment_sum
 from .viscous import AbstractViscousFunction, ReeEyring, viscous_function_for, viscous_notes
 
 INLET_COUETTE_CONSTANT = 2.01435
-r"""$\int dx/h$ over the inlet up to the Reynolds exit, in units of $\sqrt{2R/h}$: pi/2 + 25.415 degrees, the exit
-angle of the rigid isoviscous film (Martin 1916)."""
+r"""Integral $\int dx/h$ from the inlet to the Reynolds exit in units of $\sqrt{2R/h}$: pi/2 plus the exit angle of the
+rigid isoviscous film, 25.415 degrees (Martin 1916)."""
 
 
 class AbstractTraction(eqx.Module):
@@ -48,7 +48,7 @@ class AbstractTraction(eqx.Module):
         """
 
     def notes(self, lubricant: Lubricant) -> tuple[str, ...]:
-        """Notes for the user about this law with this oil, a sentence each."""
+        """Notes for the user about the use of this law with this oil, one sentence each."""
         return ()
 
 
@@ -57,17 +57,16 @@ class MeanPressureTraction(AbstractTraction):
 
     $F = \tau_0\,F^{-1}\!\left(\frac{\mu_l\,\Delta u}{h\tau_0}\right) 2 b\ell
     + 2.01435\,\mu_{in}\,\Delta u\,\ell\sqrt{2R/h}$, $\;1/\mu_l = 1/\mu(\bar p, T) + u/(G b)$:
-    an element of oil crosses the contact in about b/u and cannot relax its elastic strain in a shorter time, so a
-    glassy oil answers with G b/u and not with its viscosity. $F^{-1}$ is that of the viscous function: asinh for Ree
-    and Eyring's; by default it is the one with which the oil's rheology was fitted. Without `elastic` it is the viscous
-    limit, $\mu_l = \mu$.
+    the oil crosses the contact in about b/u, and a glassy oil, which relaxes more slowly, acts with G b/u in place of
+    its viscosity. $F^{-1}$ is the inverse of the viscous function (asinh for Ree-Eyring), by default of the one that
+    the oil's rheology was fitted with. Without `elastic` it is the viscous limit, $\mu_l = \mu$.
 
-    **Limits:** linear at rest with slope $2b\ell\mu_l/h$ plus the inlet term (Newton's law for small
-    $\Delta u$ and large G); at large sliding $\tau_0\ln(2x)$ (Ree-Eyring) or the limiting stress times the area
-    $2b\ell$ (the others), plus the inlet term; 0 at load 0 except for the inlet term.
-    **Validity:** isothermal; one pressure (the mean) for the whole contact; increasing in sliding, so without the
-    thermal fall of traction at high sliding. Rheology fits hold for 0.6 to 1.8 GPa, and each for the viscous function
-    it was made with.
+    **Limits:** for small $\Delta u$ linear with slope $2b\ell\mu_l/h$ plus the inlet term (Newton's law if G is large);
+    for large $\Delta u$ the area $2b\ell$ times $\tau_0\ln(2x)$ (Ree-Eyring, x the argument of $F^{-1}$) or times the
+    limiting stress (the others), plus the inlet term; at load 0 the inlet term alone.
+    **Validity:** isothermal; the mean pressure for the whole contact; increasing in sliding, so without the thermal
+    fall of traction at high sliding. Rheology fits hold for 0.6 to 1.8 GPa, and each only with the viscous function
+    that it was made with.
     **Reference:** Johnson and Tevaarwerk (1977), Proc. R. Soc. A 356, 215 (Maxwell-Eyring model); Houpert (1985), ASME
     J. Tribology 107, 241 (one mean pressure per contact); rheology of the source, eqs. (78)-(79), viscous limit
     eqs. (82)-(83).
@@ -120,12 +119,12 @@ MeanPressureTraction.__init__.__doc__ = """**Arguments:**
 
 
 def MaxwellEyring(elastic: bool = True) -> MeanPressureTraction:
-    """Ree and Eyring's flow with the Maxwell correction, whatever the oil's rheology was fitted with."""
+    """Mean-pressure traction with Ree and Eyring's viscous function, whatever the oil's rheology was fitted with."""
     return MeanPressureTraction(ReeEyring(), elastic)
 
 
 def inlet_shear(contact: LineContact, film: Values, sliding_speed: Values, viscosity: Values) -> Float[Array, "..."]:
-    r"""Shear force of the converging film before a line contact, N: $2.01435\,\mu\,\Delta u\,\ell\sqrt{2R/h}$.
+    r"""Shear force of the converging film at the inlet of a line contact, N: $2.01435\,\mu\,\Delta u\,\ell\sqrt{2R/h}$.
 
     **Arguments:** `film`, m, > 0; `sliding_speed`, m/s; `viscosity`, Pa s, at the inlet temperature.
     """

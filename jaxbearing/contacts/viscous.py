@@ -13,51 +13,54 @@ from ..numerics.checks import Checked, bounded
 from .relaxation import Slopes, limiting_root, sinh_root
 
 LOG_SATURATED = 230.0
-"""ln|q| beyond which q is frozen at 1e100: every limiting stress is reached long before."""
+"""Value of ln|q| beyond which q is frozen at 1e100; every limiting stress is reached long before."""
 LOG_SCALE_CAP = 600.0
 SMALLEST_RATE = 1e-100
-"""q below which slopes are those at 1e-100."""
+"""Smallest q at which slopes are evaluated."""
 
 
 class AbstractViscousFunction(Checked):
-    r"""$q = F(s)$, odd and increasing with F'(0) = 1: s the stress in units of the oil's characteristic stress, q the
-    shear rate in units of that stress over the viscosity."""
+    r"""Viscous function $q = F(s)$, odd and increasing with F'(0) = 1.
+
+    s is the stress over the oil's characteristic stress, q the shear rate times viscosity over that stress.
+    """
 
     part: ClassVar[str] = "contact.traction"
     name: ClassVar[str]
 
     @abc.abstractmethod
     def rate_ratio(self, s: Values) -> Float[Array, "..."]:
-        """q = F(s). **Arguments:** `s`, dimensionless, |s| < 1 where there is a limiting stress."""
+        """Rate q = F(s). **Arguments:** `s`, dimensionless; |s| < 1 if there is a limiting stress."""
 
     @abc.abstractmethod
     def stress_ratio(self, q: Values) -> Float[Array, "..."]:
-        """s, the inverse of F: odd, slope 1 at 0, finite with its gradient at every finite q."""
+        """Stress s, the inverse of F: odd, with slope 1 at 0; value and gradient are finite at every finite q."""
 
     @abc.abstractmethod
     def stress_ratio_of_scaled(self, log_scale: Values, x: Values) -> Float[Array, "..."]:
-        """s at q = exp(log_scale) x without overflow, for log_scale up to 600 and any finite x."""
+        """Stress s at q = exp(log_scale) x without overflow, for log_scale up to 600 and any finite x."""
 
     @abc.abstractmethod
     def relaxed_stress_ratio(self, trial: Values, relaxation: Values) -> Float[Array, "..."]:
-        r"""s >= 0 of $s + \kappa F(s) = \rho$: what an implicit step leaves of an elastic trial stress.
+        r"""Root s >= 0 of $s + \kappa F(s) = \rho$: the stress that an implicit step leaves of an elastic trial stress.
 
-        **Arguments:** `trial` $\rho$ >= 0, in units of the characteristic stress; `relaxation` $\kappa$ >= 0, the step
-        in units of viscosity over shear modulus. Both elementwise; the value is $\rho$ at $\kappa$ = 0, or the limiting
-        stress.
+        At $\kappa$ = 0 it is the smaller of $\rho$ and the limiting stress.
+
+        **Arguments:** `trial` $\rho$ >= 0, in units of the characteristic stress; `relaxation` $\kappa$ >= 0, time step
+        times shear modulus over viscosity; elementwise.
         """
 
 
 class AbstractLimitingFunction(AbstractViscousFunction):
-    """A viscous function with a limiting stress, |s| < 1: what its root needs to be found safely."""
+    """Viscous function with a limiting stress, |s| < 1, and the slopes and corner that `limiting_root` needs."""
 
     @abc.abstractmethod
     def stress_slopes(self, q: Array) -> Slopes:
-        """s, ds/dq > 0 and d2s/dq2 <= 0 at q >= 0, to round-off up to q = 1e100."""
+        """Values of s, ds/dq > 0 and d2s/dq2 <= 0 at q >= 0, exact to round-off up to q = 1e100."""
 
     @abc.abstractmethod
     def corner(self, slope: Array) -> tuple[Array, Array]:
-        """q and s where ds/dq = `slope`, in (0, 1]."""
+        """Rate q and stress s at which ds/dq = `slope`, in (0, 1]."""
 
     def relaxed_stress_ratio(self, trial: Values, relaxation: Values) -> Float[Array, "..."]:
         return self.stress_ratio(limiting_root(self, *_same_shape(trial, relaxation)))
@@ -66,7 +69,7 @@ class AbstractLimitingFunction(AbstractViscousFunction):
 class ReeEyring(AbstractViscousFunction):
     r"""$F(s) = \sinh s$; the characteristic stress is the Eyring stress.
 
-    **Limits:** $s\approx\ln 2q$ at large q: no limiting stress.
+    **Limits:** $s\approx\ln 2q$ at large q; no limiting stress.
     **Reference:** Ree and Eyring (1955), J. Appl. Phys. 26, 793; source eqs. (66)-(67).
     """
 
@@ -88,7 +91,7 @@ class ReeEyring(AbstractViscousFunction):
 class BairWiner(AbstractLimitingFunction):
     r"""$F(s) = -\ln(1 - s)$ for s >= 0, odd; the characteristic stress is the limiting stress.
 
-    **Limits:** s < 1; only C1 at 0.
+    **Limits:** s < 1; at s = 0 only the first derivative is continuous.
     **Reference:** Bair and Winer (1979), ASME J. Lubr. Technol. 101, 258; the source prints a garbled factor.
     """
 
@@ -194,12 +197,11 @@ VISCOUS_LAWS: dict[str, type[AbstractViscousFunction]] = {
 }
 """Viscous functions by name."""
 ASSUMED = ReeEyring
-"""Viscous function of a rheology that does not say with which one it was fitted."""
+"""Viscous function assumed for a rheology that does not name the one it was fitted with."""
 
 
 def viscous_function(name: str, rheology: AbstractRheology | None) -> AbstractViscousFunction:
-    """The viscous function of this name; that of Elsharkawy and Hamrock has the exponent with which the oil's data
-    were fitted, or 2."""
+    """Viscous function by name; Elsharkawy and Hamrock's has the exponent of the oil's rheology, or 2 by default."""
     require_choice("name", name, VISCOUS_LAWS)
     if name != ElsharkawyHamrock.name or rheology is None or rheology.exponent is None:
         return VISCOUS_LAWS[name]()
@@ -207,8 +209,7 @@ def viscous_function(name: str, rheology: AbstractRheology | None) -> AbstractVi
 
 
 def viscous_function_for(given: AbstractViscousFunction | None, lubricant: Lubricant) -> AbstractViscousFunction:
-    """The viscous function that is given, or the one with which the oil's rheology was fitted: Ree and Eyring's where
-    the oil does not say."""
+    """The given viscous function, or that which the oil's rheology was fitted with (`ASSUMED` if not known)."""
     if given is not None:
         return given
     fitted = None if lubricant.rheology is None else lubricant.rheology.viscous_function
@@ -216,8 +217,11 @@ def viscous_function_for(given: AbstractViscousFunction | None, lubricant: Lubri
 
 
 def viscous_notes(given: AbstractViscousFunction | None, lubricant: Lubricant) -> tuple[str, ...]:
-    """Notes for the user about a traction law with this viscous function (None: the oil's own) and this oil, a
-    sentence each: that another one was fitted, or that none is known."""
+    """Notes for the user, one sentence each, where the rheology of the oil was fitted with another viscous function, or
+    does not name the one it was fitted with.
+
+    **Arguments:** `given`: viscous function of the traction law; `None`: that of the oil's rheology.
+    """
     if lubricant.rheology is None:
         return ()
     if given is not None:
@@ -233,19 +237,19 @@ def _same_shape(trial: Values, relaxation: Values) -> tuple[Array, Array]:
 
 
 def _sign_and_size(x: Values) -> tuple[Array, Array]:
-    """sign(x) and |x| with the derivative of x >= 0 at 0, where the jnp functions give slope 0 and not 1."""
+    """Sign and modulus of x; at x = 0 the slope of the modulus is 1, as for x > 0, not 0 as in jnp."""
     x = jnp.asarray(x, dtype=float)
     return jnp.where(x >= 0, 1.0, -1.0), jnp.where(x >= 0, x, -x)
 
 
 def _power(base: Array, exponent: Values) -> Array:
-    """base**exponent for base >= 0, exponent > 0; all derivatives 0 at base 0."""
+    """Power base**exponent for base >= 0, exponent > 0; all derivatives are 0 at base 0."""
     positive = base > 0
     return jnp.where(positive, jnp.where(positive, base, 1.0) ** exponent, 0.0)
 
 
 def _saturated_product(log_scale: Values, x: Values) -> Array:
-    """exp(log_scale) x, frozen beyond +-1e100."""
+    """Product exp(log_scale) x, frozen beyond +-1e100."""
     log_scale, x = jnp.broadcast_arrays(jnp.asarray(log_scale, dtype=float), jnp.asarray(x, dtype=float))
     size = jnp.abs(x)
     far = log_scale + jnp.log(jnp.where(size > 0, size, 1.0)) > jnp.where(size > 0, LOG_SATURATED, jnp.inf)
@@ -254,11 +258,11 @@ def _saturated_product(log_scale: Values, x: Values) -> Array:
 
 
 def asinh_of_scaled(log_scale: Values, x: Values) -> Float[Array, "..."]:
-    r"""asinh(exp(log_scale) x): odd in x, slope exp(log_scale) at x = 0, no overflow for log_scale up to 600.
+    r"""Function asinh(exp(log_scale) x): odd in x, slope exp(log_scale) at x = 0, no overflow for log_scale up to 600.
 
-    $\ln(1 + w + w^2/(1 + r))$ with w = e^log_scale |x| up to 1 and, beyond, $-\ln w + \ln(1 + r)$ with w its inverse;
-    $r = \sqrt{1 + w^2}$. A finite x with log_scale > 600 and |x| < e^-600 is the only place where the slope is not
-    exact.
+    Its modulus is $\ln(1 + w + w^2/(1 + r))$, $r = \sqrt{1 + w^2}$, for w = e^log_scale |x| <= 1; for larger ones it is
+    $-\ln w + \ln(1 + r)$ with the inverse, w = 1/(e^log_scale |x|). The slope is exact except at log_scale > 600 and
+    |x| < e^-600.
     """
     log_scale, x = jnp.broadcast_arrays(jnp.asarray(log_scale, dtype=float), jnp.asarray(x, dtype=float))
     sign, size = _sign_and_size(x)

@@ -1,8 +1,8 @@
 """Formulas of fatigue life (ISO 281, ISO 16281) and of the ratings that it needs.
 
-The standards themselves were not at hand. Each formula says how far its constants are supported:
-[T] it reproduces well-known values of the standard's tables, [D] derived here by computation, [C] it passes a test of
-consistency, [M] from memory only.
+The standards themselves were not at hand. Each formula states the evidence for its constants:
+[T] they reproduce well-known values of the standard's tables, [D] they are derived here by computation, [C] they pass
+a check of consistency, [M] they come from memory only.
 """
 
 from .basic import basic_life as basic_life

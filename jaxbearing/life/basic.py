@@ -8,15 +8,16 @@ from .._types import Scalar, Values
 from ..numerics.arguments import require_angle, require_numbers
 
 RELIABILITY_FACTORS = {0.90: 1.0, 0.95: 0.64, 0.96: 0.55, 0.97: 0.47, 0.98: 0.37, 0.99: 0.25}
-"""a_1 of ISO 281:2007 by reliability [M]; the edition before had 0.62, 0.53, 0.44, 0.33, 0.21."""
+"""Reliability factor a_1 of ISO 281:2007, by reliability [M]; in the edition before from 0.95 on: 0.62, 0.53, 0.44,
+0.33, 0.21."""
 BALL_EXPONENT, ROLLER_EXPONENT = 3.0, 10.0 / 3.0
 EXPONENTS = {"ball": BALL_EXPONENT, "roller": ROLLER_EXPONENT}
 """Exponent p of the load in ISO 281, by family."""
 HOURS = 1e6 * 2.0 * np.pi / 3600.0
-"""Hours of a million revolutions at 1 rad/s."""
+"""Time of a million revolutions at 1 rad/s, h."""
 MINIMUM_LOADS = {"ball": 0.01, "roller": 0.02}
-"""Least load over C that keeps elements from skidding, by family: a maker's general rule (SKF, bearing selection
-process, requisite minimum load, as read on its pages). It knows neither speed, oil nor cage."""
+"""Minimum load over C, by family: elements skid below it, by a maker's general rule (SKF, bearing selection process,
+requisite minimum load, as read on its pages). The rule ignores speed, oil and cage."""
 
 _GROOVE = np.array(
     [
@@ -35,14 +36,21 @@ _GROOVE = np.array(
 
 
 def basic_life(capacity: Values, equivalent_load: Values, exponent: float) -> Float[Array, "..."]:
-    """L10 = (C/P)^p, 10^6 revolutions; infinite at no load. **Arguments:** N; `exponent` 3 (balls), 10/3 (rollers)."""
+    """Basic rating life L10 = (C/P)^p, 10^6 revolutions; infinite without load.
+
+    **Arguments:** `capacity` C and `equivalent_load` P, N; `exponent` p: 3 for balls, 10/3 for rollers.
+    """
     require_numbers("> 0", capacity=capacity, exponent=exponent)
     require_numbers(">= 0", equivalent_load=equivalent_load)
     return jnp.asarray(capacity / jnp.asarray(equivalent_load)) ** exponent
 
 
 def tapered_equivalent_load(radial: Values, axial: Values, contact_angle: Values) -> Float[Array, "..."]:
-    """P = Fr where Fa/Fr <= e = 1.5 tan(alpha), else 0.4 Fr + 0.4 cot(alpha) Fa, N [M]."""
+    """Equivalent load P of tapered roller bearings, N: Fr if Fa/Fr <= e = 1.5 tan(alpha), else
+    0.4 Fr + 0.4 cot(alpha) Fa [M].
+
+    **Arguments:** `radial` Fr, `axial` Fa, N; `contact_angle` alpha, rad.
+    """
     require_angle("contact_angle", contact_angle)
     require_numbers("above 0 and below 90 degrees", contact_angle=contact_angle)
     require_numbers(">= 0", radial=radial, axial=axial)
@@ -54,9 +62,11 @@ def tapered_equivalent_load(radial: Values, axial: Values, contact_angle: Values
 def deep_groove_equivalent_load(
     radial: Values, axial: Values, static_capacity: Scalar, load_factor: Scalar
 ) -> Float[Array, "..."]:
-    """P = Fr where Fa/Fr <= e, else 0.56 Fr + Y Fa, N, with e and Y interpolated over f0 Fa/C0 [M].
+    """Equivalent load P of deep-groove ball bearings, N: Fr if Fa/Fr <= e, else 0.56 Fr + Y Fa [M].
 
-    **Arguments:** `load_factor` f0 of the bearing, about 14.
+    The limit e and the factor Y are interpolated over f0 Fa/C0.
+
+    **Arguments:** `radial` Fr, `axial` Fa, `static_capacity` C0, N; `load_factor`: f0 of the bearing, about 14.
     """
     require_numbers(">= 0", radial=radial, axial=axial)
     require_numbers("> 0", static_capacity=static_capacity, load_factor=load_factor)

@@ -1,10 +1,11 @@
 r"""Life under a load spectrum: the damage of all states adds up (Palmgren and Miner).
 
-A state k lasts a share $s_k$ of the time, in which the rings turn against each other at $n_k$. Of all revolutions it
-has $\varphi_k = s_k|n_k|/\sum s|n|$, and the life is $1/L = \sum\varphi_k/L_k$, in revolutions as $L_k$. It is the life
-under the load $P = (\sum\varphi_kP_k^p)^{1/p}$. Computed with rates of damage, which are 0 without load.
+A state k lasts a share $s_k$ of the time, and the rings turn relative to each other at the speed $n_k$. Its share of
+the revolutions is $\varphi_k = s_k|n_k|/\sum s|n|$. The life follows from $1/L = \sum\varphi_k/L_k$; L and $L_k$ are in
+revolutions. The constant load $P = (\sum\varphi_kP_k^p)^{1/p}$ gives the same life. The computation uses damage rates
+$1/L_k$, which are 0 without load.
 
-**Evidence:** [D] from the rule that damages add up, which is Palmgren's and Miner's.
+**Evidence:** [D] from the rule of Palmgren and Miner that damages add up.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -22,7 +23,7 @@ from .basic import EXPONENTS, HOURS
 from .result import AtReliability, Life, reliability_field
 
 SUM_TOLERANCE = 1e-6
-"""Difference from 1 that the sum of the shares of time may have."""
+"""Largest deviation from 1 that the sum of the time shares may have."""
 _States = Float[Array, " state"]
 _Number = Float[Array, ""]
 
@@ -36,8 +37,10 @@ def _optional(unit: str, description: str):
 
 
 class SpectrumLife(AtReliability):
-    """Life under a load spectrum, with the names of `Life`; what a state does not have is `None`. Lives count millions
-    of revolutions of the rings against each other."""
+    """Life under a load spectrum, with the field names of `Life`; a life that some state lacks is `None`.
+
+    Lives are in hours or in millions of revolutions of the rings relative to each other.
+    """
 
     Lnmr_hours: _Number | None = _optional("h", "modified reference rating life of the spectrum at the reliability n")
     Lnmr: _Number | None = _optional(
@@ -63,9 +66,9 @@ class SpectrumLife(AtReliability):
 
 
 def revolution_shares(time_shares: _States, speeds: _States) -> _States:
-    r"""$\varphi_k = s_k|n_k|/\sum s|n|$; the shares of time where nothing turns.
+    r"""Shares of the states in the revolutions, $\varphi_k = s_k|n_k|/\sum s|n|$; the time shares if no state turns.
 
-    **Arguments:** `time_shares` s, which add up to 1; `speeds` of the rings against each other, rad/s.
+    **Arguments:** `time_shares` s, which add up to 1; `speeds` n of the rings relative to each other, rad/s.
     """
     require_numbers(">= 0", time_shares=time_shares)
     turned = jnp.asarray(time_shares) * jnp.abs(jnp.asarray(speeds))
@@ -76,13 +79,19 @@ def revolution_shares(time_shares: _States, speeds: _States) -> _States:
 
 
 def miner_rate(revolutions: _States, rates: _States) -> _Number:
-    r"""$1/L = \sum\varphi_k/L_k$. **Arguments:** shares of the revolutions; rates $1/L_k$."""
+    r"""Damage rate of a spectrum, $1/L = \sum\varphi_k/L_k$.
+
+    **Arguments:** `revolutions`: shares of the states in the revolutions; `rates` $1/L_k$.
+    """
     require_numbers(">= 0", revolutions=revolutions, rates=rates)
     return jnp.sum(jnp.asarray(revolutions) * rates)
 
 
 def mean_load(revolutions: _States, loads: _States, exponent: float) -> _Number:
-    r"""$P = (\sum\varphi_kP_k^p)^{1/p}$, N. **Arguments:** shares of the revolutions; loads, N; p (`basic`)."""
+    r"""Mean load of a spectrum, $P = (\sum\varphi_kP_k^p)^{1/p}$, N.
+
+    **Arguments:** `revolutions`: shares of the states in the revolutions; `loads`, N; `exponent` p (`basic.EXPONENTS`).
+    """
     require_numbers(">= 0", revolutions=revolutions, loads=loads)
     require_numbers("> 0", exponent=exponent)
     mean = jnp.sum(jnp.asarray(revolutions) * jnp.asarray(loads) ** exponent)
@@ -91,10 +100,10 @@ def mean_load(revolutions: _States, loads: _States, exponent: float) -> _Number:
 
 
 def spectrum_life(lives: Sequence[Life], time_shares: _States, speeds: _States) -> SpectrumLife:
-    """Life of one bearing under all states, pure; NaN where one of them has none.
+    """Life of one bearing under all states; a pure function. A life that is NaN in one state is NaN.
 
-    **Arguments:** `lives` of the states; `time_shares`, which add up to 1; `speeds` of the rings against each other,
-    rad/s.
+    **Arguments:** `lives` of the states; `time_shares`, which add up to 1; `speeds` of the rings relative to each
+    other, rad/s.
 
     **Raises:** `ValueError` for states of different families or reliabilities.
     """
@@ -125,11 +134,11 @@ def spectrum_life(lives: Sequence[Life], time_shares: _States, speeds: _States) 
 
 
 IN_HOURS = {"Lnmr": "Lnmr_hours", "L10r": "L10r_hours", "L10m": "L10mh", "L10": "L10h"}
-"""Life in revolutions -> the same in hours."""
+"""Field of a life in revolutions -> field of the same life in hours."""
 
 
 def damage_rates(life: Life) -> dict[str, Array]:
-    """1/L by the name of each kind of life that a bearing has, per million revolutions; 0 without load."""
+    """Damage rate 1/L for each kind of life of a bearing, by its name, per million revolutions; 0 without load."""
     rates = {"L10r": life.damage_rate}
     if life.modification_factor is not None:
         rates["Lnmr"] = life.damage_rate / (life.reliability_factor * life.modification_factor)
@@ -142,21 +151,24 @@ def damage_rates(life: Life) -> dict[str, Array]:
 
 
 def common_rates(rates: Iterable[Mapping[str, Array]]) -> dict[str, list[Array]]:
-    """The rates of each kind of life that all states, or all bearings, have."""
+    """Damage rates of all states (or all bearings), as one list for each kind of life that all of them have."""
     each = list(rates)
     return {name: [one[name] for one in each] for name in IN_HOURS if all(name in one for one in each)}
 
 
 def miner_rates(lives: Sequence[Life], revolutions: _States) -> dict[str, Array]:
-    """1/L of one bearing under all states, of each kind that all states have. **Arguments:** as `miner_rate`."""
+    """Damage rates of one bearing under the spectrum, for the kinds of life that all states have.
+
+    **Arguments:** `lives` of the states; `revolutions`: shares of the states in the revolutions.
+    """
     rates = common_rates(map(damage_rates, lives))
     return {name: miner_rate(revolutions, jnp.stack(each)) for name, each in rates.items()}
 
 
 def lives_of(rates: Mapping[str, Array], speed: Scalar) -> dict[str, Array]:
-    """Lives by their names, in millions of revolutions and in hours, from 1/L by kind.
+    """Lives in millions of revolutions and in hours, by field name, from the damage rates 1/L.
 
-    **Arguments:** `speed`: of the rings against each other, rad/s.
+    **Arguments:** `rates`: per million revolutions; `speed`: of the rings relative to each other, rad/s.
     """
     found = {}
     for name, rate in rates.items():
@@ -166,18 +178,18 @@ def lives_of(rates: Mapping[str, Array], speed: Scalar) -> dict[str, Array]:
 
 
 def life_of(rate: Float[Array, "..."]) -> Float[Array, "..."]:
-    """1/rate; infinite without damage. A rate that is NaN has no life, not an endless one."""
+    """Life 1/rate; infinite if the rate is 0, NaN if it is NaN."""
     damaged = rate > 0
     return jnp.where(damaged, 1.0 / jnp.where(damaged, rate, 1.0), jnp.where(rate == 0, jnp.inf, jnp.nan))
 
 
 def _parts(damages: _States) -> _States:
-    """Each over the sum; 0 where there is no damage."""
+    """Share of each state in the total damage; 0 without damage."""
     total = jnp.sum(damages)
     damaged = total != 0
     return jnp.where(damaged, damages / jnp.where(damaged, total, 1.0), 0.0 * damages)
 
 
 def governing(life: SpectrumLife) -> int:
-    """Number of the state with the largest share in the damage."""
+    """Index, from 0, of the state with the largest share in the damage."""
     return int(np.argmax(np.asarray(life.damage)))

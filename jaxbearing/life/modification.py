@@ -12,11 +12,11 @@ from .capacity import MILLIMETRE
 Family = Literal["ball", "roller"]
 
 LARGEST = 50.0
-"""Largest a_ISO."""
+"""Upper limit of a_ISO."""
 LEAST_BRACKET = 0.05
-"""Least bracket of a_ISO before the power: 0.1 * 0.05^-9.185 is far beyond 50 already."""
+"""Smallest bracket in the formula of a_ISO. It changes no result: 0.1 * 0.05^-9.185 is far above 50."""
 KAPPA_RANGE = (0.1, 4.0)
-"""Viscosity ratios: below, ISO 281 gives no factor; above, that of 4 holds."""
+"""Range of the viscosity ratio kappa: below it ISO 281 gives no factor, above it the factor at 4 holds."""
 
 _BRANCH_ENDS = (0.4, 1.0)
 _EXPONENTS = (0.054381, 0.19087, 0.071739)
@@ -36,18 +36,20 @@ CLEANLINESS = {
     "grease_severe": (0.0115, 2.662),
     "grease_very_severe": (0.00617, 4.06),
 }
-"""k and c of the contamination factor [M]: circulating oil with on-line filters by the code -/13/10 to -/19/16 of ISO
-4406, and grease by its cleanliness (`typical` of pitch diameters of 500 mm and more has another c)."""
+"""Constants k and c of the contamination factor [M]: circulating oil with on-line filters, by ISO 4406 codes -/13/10 to
+-/19/16; grease, by its cleanliness (`grease_typical` has another c for pitch diameters of 500 mm and more)."""
 _TYPICAL_LARGE, _LARGE = 1.677, 500.0
 
 
 def modification_factor(kappa: Values, load_ratio: Values, family: Family) -> Float[Array, "..."]:
-    r"""$a_{ISO} = 0.1[1 - (2.5671 - b\kappa^{-e})^{0.83}x^{1/3}]^{-9.3}$ of radial ball bearings,
-    $0.1[1 - (1.5859 - b\kappa^{-e})x^{0.4}]^{-9.185}$ of roller bearings, $x = e_CC_u/P$; at most 50.
+    r"""Life modification factor, at most 50: $a_{ISO} = 0.1[1 - (2.5671 - b\kappa^{-e})^{0.83}x^{1/3}]^{-9.3}$ of
+    radial ball bearings, $0.1[1 - (1.5859 - b\kappa^{-e})x^{0.4}]^{-9.185}$ of roller bearings, $x = e_CC_u/P$.
 
-    **Limits:** 0.1 at x = 0; 50, with gradient 0, where the bracket vanishes. Kinks at kappa = 0.4, 1, 4 and at 50.
-    **Validity:** kappa between 0.1 and 4 (outside: those of the ends).
+    **Limits:** 0.1 at x = 0; 50 (gradient 0) for a small or negative bracket; kinks at kappa = 0.4, 1, 4 and at 50.
+    **Validity:** kappa between 0.1 and 4 (outside: the factor at the nearer end).
     **Evidence:** [C] the three branches in kappa join; constants otherwise [M].
+
+    **Arguments:** `kappa`: viscosity ratio; `load_ratio`: x.
     """
     require_choice("family", family, _CONSTANTS)
     require_numbers(">= 0 or infinite", kappa=kappa, load_ratio=load_ratio)
@@ -63,10 +65,11 @@ def modification_factor(kappa: Values, load_ratio: Values, family: Family) -> Fl
 
 
 def reference_viscosity(speed: Scalar, pitch_diameter: Scalar) -> Float[Array, ""]:
-    r"""$\nu_1$, m^2/s: $45000n^{-0.83}D_{pw}^{-0.5}$ below 1000 r/min, $4500n^{-0.5}D_{pw}^{-0.5}$ above (mm^2/s, mm).
+    r"""Reference viscosity $\nu_1$, m^2/s: $45000n^{-0.83}D_{pw}^{-0.5}$ below 1000 r/min, $4500n^{-0.5}D_{pw}^{-0.5}$
+    above (mm^2/s, r/min, mm).
 
-    **Evidence:** [M]; the branches differ by 2.3 % at 1000 r/min. **Arguments:** `speed` of the rings against each
-    other, rad/s (held at 1 r/min and above); `pitch_diameter`, m.
+    **Evidence:** [M]; the branches differ by 2.3 % at 1000 r/min. **Arguments:** `speed` of the rings relative
+    to each other, rad/s (below 1 r/min it is replaced by 1 r/min); `pitch_diameter`, m.
     """
     require_numbers("finite", speed=speed)
     require_numbers("> 0", pitch_diameter=pitch_diameter)
@@ -76,9 +79,12 @@ def reference_viscosity(speed: Scalar, pitch_diameter: Scalar) -> Float[Array, "
 
 
 def contamination_factor(kappa: Values, pitch_diameter: Scalar, cleanliness: str) -> Float[Array, "..."]:
-    r"""$e_C = a(1 - cD_{pw}^{-1/3})$, $a = \min(1, k\kappa^{0.68}D_{pw}^{0.55})$, D_pw in mm; not below 0.
+    r"""Contamination factor $e_C = a(1 - cD_{pw}^{-1/3})$, $a = \min(1, k\kappa^{0.68}D_{pw}^{0.55})$, at least 0;
+    $D_{pw}$ in mm.
 
-    **Evidence:** [M]. **Arguments:** `pitch_diameter`, m; `cleanliness`: one of `CLEANLINESS`.
+    **Evidence:** [M].
+
+    **Arguments:** `kappa`: viscosity ratio; `pitch_diameter`, m; `cleanliness`: one of `CLEANLINESS`.
     """
     require_choice("cleanliness", cleanliness, CLEANLINESS)
     require_numbers(">= 0 or infinite", kappa=kappa)
@@ -92,9 +98,12 @@ def contamination_factor(kappa: Values, pitch_diameter: Scalar, cleanliness: str
 
 
 def fatigue_load_limit(static_capacity: Scalar, pitch_diameter: Scalar, family: Family) -> Float[Array, ""]:
-    """C_u, N: C0/22 of ball, C0/8.2 of roller bearings, times (100/D_pw)^0.5 and ^0.3 above 100 mm.
+    """Fatigue load limit C_u, N: C0/22 of ball bearings, C0/8.2 of roller bearings.
 
-    **Evidence:** [M], the simplified way of ISO 281. **Arguments:** N, m.
+    Above D_pw = 100 mm it is multiplied by (100 mm/D_pw)^0.5 (ball) or (100 mm/D_pw)^0.3 (roller).
+
+    **Evidence:** [M], the simplified method of ISO 281. **Arguments:** `static_capacity` C0, N; `pitch_diameter` D_pw,
+    m.
     """
     require_choice("family", family, _CONSTANTS)
     require_numbers("> 0", static_capacity=static_capacity, pitch_diameter=pitch_diameter)
@@ -104,8 +113,10 @@ def fatigue_load_limit(static_capacity: Scalar, pitch_diameter: Scalar, family: 
 
 
 def film_ratio(film: Values, roughness_a: Values, roughness_b: Values) -> Float[Array, "..."]:
-    r"""$\Lambda = h/\sqrt{R_{q1}^2 + R_{q2}^2}$: below 1 mixed, above 3 full film. **Arguments:**
-    `film`, the minimum one, m."""
+    r"""Film ratio $\Lambda = h/\sqrt{R_{q1}^2 + R_{q2}^2}$: below 1 mixed lubrication, above 3 full film.
+
+    **Arguments:** `film`: minimum film thickness, m; `roughness_a`, `roughness_b`: rms roughness of the surfaces, m.
+    """
     require_numbers(">= 0", film=film, roughness_a=roughness_a, roughness_b=roughness_b)
     roughness = jnp.sqrt(jnp.square(roughness_a) + jnp.square(roughness_b))
     require_numbers("> 0", roughness=roughness)

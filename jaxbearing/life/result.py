@@ -20,16 +20,16 @@ def _optional(unit: str, description: str):
 
 
 def reliability_field():
-    """Field of the reliability n that a rating asks for (structure)."""
+    """Static field that holds the reliability n of the rating."""
     described = label("1", "reliability n of Lnmr, Lnr, Lnm and Ln")
     return eqx.field(static=True, default=0.90, kw_only=True, metadata=described)
 
 
 class AtReliability(eqx.Module):
-    """Lives at the reliability n of the rating: a_1 times those at 90 %, which the classes that derive from this have.
+    """Lives at the reliability n of the rating: a_1 times the lives at 90 %, which are fields of the subclasses.
 
-    a_1 is that of ISO 281 for one bearing, and holds for several together as well: their lives at n make a life of the
-    system at n by the same law of survival as their lives at 90 % do (`shafts.lives`).
+    ISO 281 gives a_1 for one bearing. It holds for several bearings together as well: their lives at n combine to the
+    life of the system at n by the same law of survival as their lives at 90 % (`shafts.lives`).
     """
 
     reliability: eqx.AbstractVar[float]
@@ -64,7 +64,7 @@ class AtReliability(eqx.Module):
 
 
 class CatalogueLife(eqx.Module):
-    """Life by the formulas of catalogues, from loads alone; NaN where they have none for these loads."""
+    """Rating life by catalogue formulas, from the loads alone; NaN if the formulas do not cover these loads."""
 
     L10h: _Number = _result("h", "basic rating life of ISO 281 by catalogue formulas at 90 % reliability")
     L10: _Number = _result(
@@ -75,11 +75,12 @@ class CatalogueLife(eqx.Module):
 
 
 class Life(AtReliability):
-    """Life of a solved bearing; what the scene does not model is `None`. Lives count millions of revolutions of the
-    rings against each other. The order is that of the reports: the modified life is the one to design by.
+    """Life of a solved bearing; results that the scene does not model are `None`.
 
-    Lives whose names begin with L10 are those that 90 % of bearings reach; those whose names begin with Ln are those
-    that the part `reliability` (n) reaches, which the rating asks for."""
+    Lives are in hours or in millions of revolutions of the rings relative to each other. 90 % of bearings
+    reach a life whose name begins with L10; the part `reliability` (n), set in the rating, reaches a life whose name
+    begins with Ln. The fields stand in the order of the reports: first the modified life, the one to design by.
+    """
 
     Lnmr_hours: _Number | None = _optional("h", "modified reference rating life at the reliability n")
     Lnmr: _Number | None = _optional(
@@ -136,7 +137,7 @@ class Life(AtReliability):
 
     @property
     def catalogue_factor(self) -> Float[Array, "*batch"] | None:
-        """a_ISO at the catalogue's load; that of `modification_factor` is at `equivalent_load`."""
+        """Factor a_ISO at `catalogue_load`, whereas `modification_factor` is a_ISO at `equivalent_load`."""
         load, kappa, limit = self.catalogue_load, self.viscosity_ratio, self.fatigue_load_limit
         if load is None or kappa is None or limit is None or self.contamination_factor is None:
             return None

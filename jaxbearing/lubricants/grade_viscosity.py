@@ -1,4 +1,4 @@
-"""Viscosity of a standard oil: a grade of its base stock, whose pressure-viscosity coefficient follows from it."""
+"""Viscosity of a standard oil, given by grade and base stock; its pressure-viscosity coefficient follows from it."""
 
 import jax.numpy as jnp
 
@@ -12,11 +12,11 @@ from .two_viscosities import log_dynamic, log_kinematic, require_falling
 from .viscosity import AbstractViscosity, capped
 
 COEFFICIENT_PRESSURE = 0.2e9
-"""Pressure, Pa, up to which the coefficient is the mean rise of ln(viscosity)."""
+"""Pressure, Pa, up to which the coefficient is the mean slope of ln(viscosity)."""
 LARGEST_LOG_VISCOSITY = 16.0
-"""ln of the viscosity in cSt (8.9e6 cSt) beyond which the coefficient does not grow with it."""
+"""Natural logarithm of the viscosity in cSt above which the coefficient is constant (8.9e6 cSt)."""
 LARGEST_WIDTH = 0.1
-"""Smoothing width of that bound: below 4e5 cSt the coefficient is exact to 1e-13."""
+"""Smoothing width of that bound, in ln(viscosity): below 4e5 cSt the coefficient is exact to 1e-13."""
 
 
 class WaltherPower(AbstractViscosity):
@@ -30,9 +30,9 @@ class WaltherPower(AbstractViscosity):
     **Limits:** $\rho\nu_1$, $\rho\nu_2$ at p = 0 and $T_1$, $T_2$; $\alpha$ as the mean slope of $\ln\mu$ up to 0.2
     GPa. The coefficient of film formulas, by integral, is 0.96 to 1.09 of $\alpha$ at 40 and 100 C for the oils of the
     grade table.
-    **Validity:** temperature and density as for `WaltherRoelands`; pressure as for `Roelands`. $\alpha$ stays that of
-    8.9e6 cSt in the cold beyond (smoothly). The source of s and t does not say to which pressure $\alpha$ belongs: 0.2
-    GPa is assumed.
+    **Validity:** temperature and density as for `WaltherRoelands`; pressure as for `Roelands`. In the cold,
+    above 8.9e6 cSt, $\alpha$ stays constant (with a smooth transition). The source of s and t does not say to which
+    pressure $\alpha$ belongs: 0.2 GPa is assumed.
     **Reference:** ASTM D341; Roelands (1966), thesis, TU Delft; the power law of the library GEARpie (2022).
     """
 
@@ -59,7 +59,7 @@ class WaltherPower(AbstractViscosity):
         return capped(log_ambient + span * jnp.expm1(exponent * log_compression(pressure)))
 
     def coefficient(self, temperature: Values) -> Batch:
-        """alpha(T), the mean slope of ln(viscosity) up to 0.2 GPa, 1/Pa. **Arguments:** `temperature`, K, > 0."""
+        """Mean slope alpha(T) of ln(viscosity) up to 0.2 GPa, 1/Pa. **Arguments:** `temperature`, K, > 0."""
         require_temperature(temperature)
         return self._coefficient(self._log_kinematic(jnp.asarray(temperature, dtype=float)))
 

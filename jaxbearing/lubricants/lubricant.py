@@ -39,7 +39,7 @@ InletOil.__init__.__doc__ = """**Arguments:**
 
 
 class Lubricant(eqx.Module):
-    """The laws of one lubricant. A law that is not known is None: whoever needs it says so, nobody guesses it."""
+    """The laws of one lubricant. A law that is not known is None; a model that needs it reports it as missing."""
 
     viscosity: AbstractViscosity
     pressure_viscosity: AbstractPressureViscosity
@@ -50,8 +50,14 @@ class Lubricant(eqx.Module):
     notes: tuple[str, ...] = eqx.field(static=True, default=())
 
     def tied(self, changes: Mapping[str, object]) -> dict[str, Any]:
-        """The changes of fields, with those that follow: a viscosity that holds the density takes the new one, and a
-        coefficient that is the integral of the viscosity is that of the new one."""
+        """Changes of fields, together with the changes that follow from them.
+
+        A viscosity law that holds the density takes a new density. A pressure-viscosity coefficient that is the
+        integral of the viscosity law is integrated from a new law of the same class. A law that is among the changes
+        stays as given.
+
+        **Arguments:** `changes`: field -> new value.
+        """
         new = dict(changes)
         law: Any = new.get("viscosity", self.viscosity)
         density = new.get("density")
@@ -64,7 +70,7 @@ class Lubricant(eqx.Module):
         return new
 
     def at(self, temperature: Values) -> InletOil:
-        """The oil at a contact inlet. **Arguments:** `temperature`, K, > 0."""
+        """Properties of the oil at a contact inlet. **Arguments:** `temperature`, K, > 0."""
         require_temperature(temperature)
         temperature = jnp.asarray(temperature, dtype=float)
         return InletOil(

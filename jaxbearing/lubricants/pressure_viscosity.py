@@ -20,14 +20,14 @@ from .simple_viscosity import ISOVISCOUS
 from .viscosity import AbstractViscosity
 
 SUBSTITUTION_SCALES = 4.0
-"""P of the substitution p = P t/(1 - t), in pressure scales of the viscosity law."""
+"""Scale P of the substitution p = P t/(1 - t), in units of the `pressure_scale` of the viscosity law."""
 NODES = 32
-"""Gauss-Legendre nodes: relative error <= 1e-8 for the four oils of the source on -20 to 150 C, < 1e-12 for the laws
-of Barus and Roelands."""
+"""Number of Gauss-Legendre nodes: relative error <= 1e-8 for the four oils of the source on -20 to 150 C, < 1e-12 for
+the laws of Barus and Roelands."""
 FIT_MARGIN = 50.0
-"""The fitted form is trusted down to this many kelvin above its pole."""
+"""Smallest distance, K, of the temperature from the pole of the fitted form; colder temperatures are clamped."""
 FIT_WIDTH = 1.0
-"""Smoothing width of that clamp, K: 57 K above it (243 K for Mobil Jet II) T is exact to round-off."""
+"""Smoothing width of that clamp, K: 57 K above the clamp (243 K for Mobil Jet II) T is exact to round-off."""
 
 
 class AbstractPressureViscosity(Checked):
@@ -68,7 +68,7 @@ class FittedPressureViscosity(AbstractPressureViscosity):
 
     **Validity:** $T > T_c + 50$ K. Below, T is clamped smoothly (width 1 K), so the coefficient levels off. The
     coefficients of the source for three oils follow the integral within 0.04, 0.03 and 0.23 % on -30 to 300 C;
-    those of Mobil Jet II are our own fit (0.003 % on -20 to 200 C), the source's own form for it being illegible.
+    those of Mobil Jet II are our own fit (0.003 % on -20 to 200 C), since the source's own are illegible.
     **Reference:** source eq. (93) and table 11.
     """
 
@@ -98,7 +98,7 @@ FittedPressureViscosity.__init__.__doc__ = """**Arguments:**
 
 
 class NoPressureViscosity(AbstractPressureViscosity):
-    """Coefficient 0, exactly: the isoviscous fluid (water, kerosene)."""
+    """The coefficient 0 of an isoviscous fluid (water, kerosene)."""
 
     def coefficient(self, temperature: Values) -> Batch:
         require_temperature(temperature)
@@ -106,15 +106,16 @@ class NoPressureViscosity(AbstractPressureViscosity):
 
 
 class IntegratedPressureViscosity(AbstractPressureViscosity):
-    r"""$1/\alpha^* = \int_0^{p_{lim}} \mu(0,T)/\mu(p,T)\,dp$ by 32 Gauss-Legendre nodes in $t = p/(P + p)$.
+    r"""Integral $1/\alpha^* = \int_0^{p_{lim}} \mu(0,T)/\mu(p,T)\,dp$, by 32 Gauss-Legendre nodes in $t = p/(P + p)$.
 
     The upper limit is `pressure_limit(T)` of the viscosity law, not infinity: beyond F = 0 the printed modified WLF
-    law falls again and would add a spurious branch. It is a constant to autodiff, like P, four times the law's
-    `pressure_scale(T)`; for the modified WLF law the integrand at the limit is <= 2.5e-7 on -20 to 164 C.
+    law falls again and would add a spurious branch. P is four times `pressure_scale(T)` of the viscosity law. Automatic
+    differentiation treats the limit and P as constants. For the modified WLF law the integrand at the limit is
+    <= 2.5e-7 on -20 to 164 C.
 
     **Limits:** $\alpha$ for Barus' law.
     **Validity:** relative error <= 1e-8 for the modified WLF law on -20 to 150 C, < 1e-6 for the others; finite at
-    every temperature, but without meaning where the ambient viscosity itself is near the cap.
+    every temperature, but meaningless if the viscosity at ambient pressure is already near the cap.
     **Reference:** source eq. (77); Blok's inverse isoviscous asymptotic pressure (1963).
     """
 

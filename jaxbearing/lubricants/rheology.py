@@ -13,10 +13,10 @@ from ..numerics.safe import smooth_abs
 from ..numerics.structure import choice, constant
 
 EXPONENT_CAP = 60.0
-"""Exponents are clipped to +-60 (26 decades): beyond, the law is constant and its gradient 0."""
+"""Largest exponent of `ExponentialRheology`, +-60 (26 decades); beyond, the law is constant and its gradient 0."""
 
 PRESSURE_FLOOR = 1e7
-"""Smallest pressure of a rheology that is proportional to pressure, Pa: keeps modulus and stress above 0 in an unloaded
+"""Pressure p_f of `ProportionalRheology`, Pa, added in squares: it keeps modulus and stress above 0 in an unloaded
 contact. It raises them by 0.5 % at 0.1 GPa, by 0.005 % at 1 GPa."""
 
 VISCOUS_FUNCTIONS = ("ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock")
@@ -26,8 +26,8 @@ VISCOUS_FUNCTIONS = ("ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamr
 class AbstractRheology(Checked):
     """Shear modulus and characteristic stress of a lubricant, as natural logarithms.
 
-    Whether the stress is an Eyring stress or a limiting stress is said by `viscous_function`, the flow law with which
-    the data were fitted; with another one the same numbers give another traction.
+    The stress is an Eyring stress or a limiting stress, depending on `viscous_function`, the flow law with which the
+    data were fitted. With another flow law the same numbers give another traction.
     """
 
     part: ClassVar[str] = "oil.rheology"
@@ -37,17 +37,18 @@ class AbstractRheology(Checked):
 
     @abc.abstractmethod
     def log_shear_modulus(self, pressure: Values, temperature: Values) -> Batch:
-        """ln of the shear modulus in Pa. **Arguments:** `pressure`, Pa; `temperature`, K, > 0."""
+        """Natural logarithm of the shear modulus in Pa. **Arguments:** `pressure`, Pa; `temperature`, K, > 0."""
 
     @abc.abstractmethod
     def log_stress(self, pressure: Values, temperature: Values) -> Batch:
-        """ln of the characteristic stress in Pa. **Arguments:** `pressure`, Pa; `temperature`, K, > 0."""
+        """Natural logarithm of the stress in Pa. **Arguments:** `pressure`, Pa; `temperature`, K, > 0."""
 
     def misfit(self, viscous_function: str, exponent: Values | None = None) -> tuple[str, ...]:
-        """Notes for the user on a traction law with this viscous function: nothing, or that the data were fitted
-        with another one (a limiting stress is no Eyring stress).
+        """Note for the user if a traction law has another flow law, or another exponent, than the fit of the data (a
+        limiting stress is not an Eyring stress); else empty.
 
-        **Arguments:** `viscous_function`, its name; `exponent`, that of "elsharkawy_hamrock".
+        **Arguments:** `viscous_function`: name of the flow law of the traction law; `exponent`: of
+        "elsharkawy_hamrock".
         """
         if self.viscous_function is None:
             return ()
@@ -114,8 +115,8 @@ class ProportionalRheology(AbstractRheology):
 
     With a limiting stress, $\Lambda$ is the largest traction coefficient that the oil can give.
 
-    **Limits:** the two numbers times p, above 0.1 GPa within 0.5 %.
-    **Validity:** a form for oils of which no traction curve is known. The two fitted oils of the catalogue have a
+    **Limits:** $gp$ and $\Lambda p$, within 0.5 % above 0.1 GPa.
+    **Validity:** for oils without measured traction curves. The two fitted oils of the catalogue have a
     modulus that rises more steeply with pressure, and a stress that rises with temperature, by 35 and 46 % from 30 to
     70 C.
     """
@@ -132,7 +133,7 @@ class ProportionalRheology(AbstractRheology):
         return self._log_share(self.stress_ratio, pressure, temperature)
 
     def _log_share(self, share: Scalar, pressure: Values, temperature: Values) -> Batch:
-        """ln of a share of the pressure, Pa."""
+        """Natural logarithm of `share` times the pressure in Pa, with `PRESSURE_FLOOR` added in squares."""
         require_temperature(temperature)
         shape = jnp.broadcast_shapes(jnp.shape(pressure), jnp.shape(temperature))
         return jnp.broadcast_to(jnp.log(share) + jnp.log(smooth_abs(pressure, PRESSURE_FLOOR)), shape)

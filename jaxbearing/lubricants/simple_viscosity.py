@@ -1,4 +1,4 @@
-"""Viscosity laws with a handful of parameters: constant, isoviscous liquid, Barus, Roelands."""
+"""Viscosity laws with few parameters: constant, isoviscous liquid, Barus, Roelands."""
 
 import jax.numpy as jnp
 
@@ -9,13 +9,13 @@ from ..numerics.safe import nonnegative_pressure, softplus_floor
 from .viscosity import AbstractViscosity, capped
 
 LOG_ROELANDS_VISCOSITY = -9.67
-"""ln of the viscosity, 6.3e-5 Pa s, in which all of Roelands' isotherms and isobars meet."""
+"""Natural logarithm of the viscosity, 6.3e-5 Pa s, at which all isotherms and isobars of Roelands' law meet."""
 ROELANDS_RATE = 5.1e-9
-"""1/Pa; the reciprocal of 0.196 GPa, the pressure at which they meet being -0.196 GPa."""
+"""Pressure coefficient of Roelands' law, 1/Pa: 1/(0.196 GPa); its isotherms meet at -0.196 GPa."""
 ROELANDS_POLE = 138.0
 """Temperature at which Roelands' viscosity becomes infinite, K."""
 ROELANDS_MARGIN = 1.0
-"""The law is evaluated down to this many kelvin above its pole."""
+"""Smallest distance, K, of the temperature from the pole; colder temperatures are clamped."""
 ROELANDS_WIDTH = 1.0
 """Smoothing width of that clamp, K: T is exact to 1e-12 K above 167 K."""
 
@@ -143,5 +143,5 @@ Roelands.__init__.__doc__ = """**Arguments:**
 
 
 def log_compression(pressure: Values) -> Batch:
-    """ln(1 + 5.1e-9 p) of Roelands' law, p being levelled off below 0. **Arguments:** `pressure`, Pa."""
+    """Term ln(1 + 5.1e-9 p) of Roelands' law; p below 0 levels off at -1 MPa. **Arguments:** `pressure`, Pa."""
     return jnp.log1p(ROELANDS_RATE * nonnegative_pressure(pressure))

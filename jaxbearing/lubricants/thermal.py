@@ -16,7 +16,7 @@ CONDUCTIVITY_WIDTH = 2.5e-3
 
 
 class LinearDensity(Checked):
-    r"""$\rho = \rho_r + s (T - T_r)$.
+    r"""Linear density $\rho = \rho_r + s (T - T_r)$.
 
     **Validity:** the range of the fit; compressibility is left out.
     **Reference:** source eq. (91) for Mobil Jet II (printed in g/ml, a wrong unit: it is kg/m^3).
@@ -42,7 +42,7 @@ LinearDensity.__init__.__doc__ = """**Arguments:**
 
 
 class LinearConductivity(Checked):
-    r"""$k = k_r + s (T - T_r)$, never below 0.05 W/(m K).
+    r"""Linear conductivity $k = k_r + s (T - T_r)$, never below 0.05 W/(m K).
 
     **Validity:** the range of the fit. The floor is smooth (width 2.5e-3 W/(m K)) and changes nothing above
     0.13 W/(m K).
@@ -70,10 +70,10 @@ LinearConductivity.__init__.__doc__ = """**Arguments:**
 
 
 class LinearHeatCapacity(Checked):
-    r"""$c_p = c_r + s (T - T_r)$; a slope of 0 makes it constant.
+    r"""Linear heat capacity $c_p = c_r + s (T - T_r)$; constant for a slope of 0.
 
-    **Validity:** within about 5 % from memory: 1670 + 4.3 (T - 273 K) J/(kg K) for mineral oils, 2150 J/(kg K) for
-    ester oils near 120 degC. Pressure is left out.
+    **Validity:** 1670 + 4.3 (T - 273 K) J/(kg K) for mineral oils and 2150 J/(kg K) for ester oils near 120 degC are
+    from memory, good to about 5 %. The influence of pressure is left out.
     """
 
     part: ClassVar[str] = "oil.heat_capacity"

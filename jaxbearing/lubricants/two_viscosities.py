@@ -11,9 +11,9 @@ from .thermal import LinearDensity
 from .viscosity import AbstractViscosity, capped
 
 CENTISTOKES = 1e-6
-"""m^2/s."""
+"""Kinematic viscosity of 1 cSt, m^2/s."""
 WALTHER_SHIFT = 0.7
-"""Added to the viscosity in cSt by ASTM D341."""
+"""Number that ASTM D341 adds to the viscosity in cSt."""
 DENSITY_FLOOR = 0.5
 """Smallest density in units of its reference value: a linear density falls below any bound far outside its range."""
 DENSITY_WIDTH = 0.01
@@ -23,15 +23,15 @@ ESTIMATE_NOTE = (
     "alpha of the oil, the growth of its viscosity with pressure, is estimated from its viscosity (Wooster): +-30 % "
     "for mineral oils, up to 70 % too large for synthetic ones"
 )
-"""Note of a scene on an oil whose alpha is an estimate."""
+"""Note of an oil whose alpha is estimated."""
 
 
 def wooster_pressure_viscosity(viscosity: Values) -> Batch:
-    r"""$\alpha = (0.6 + 0.965\log_{10}(\mu/\text{mPa s}))\times10^{-8}$ 1/Pa: an estimate for mineral oils.
+    r"""Estimate for mineral oils: $\alpha = (0.6 + 0.965\log_{10}(\mu/\text{mPa s}))\times10^{-8}$ 1/Pa.
 
     **Validity:** within 31 % of the coefficients measured on 13 mineral oils at 30, 60 and 100 C (2.4 mPa s to 2 Pa s;
-    tests/published/lubricants.toml), mostly below them. Synthetic oils have less: for the four of the source the film
-    coefficient of `WaltherRoelands` comes out 18 to 65 % too large at 40 and 100 C.
+    tests/published/lubricants.toml), mostly below them. For synthetic oils it is too large: with it, the film
+    coefficient of `WaltherRoelands` is 18 to 65 % too large for the four oils of the source at 40 and 100 C.
     **Reference:** Wooster's formula, as textbooks give it (Stachowiak and Batchelor, Engineering Tribology, ch. 2).
 
     **Arguments:** `viscosity`, at ambient pressure, Pa s, > 2.4e-4.
@@ -46,13 +46,13 @@ class WaltherRoelands(AbstractViscosity):
     Temperature by Walther's straight line, $\log_{10}\log_{10}(\nu/\text{cSt} + 0.7) = A - B\log_{10}T$ through the two
     points, $\mu(T) = \rho(T)\,\nu(T)$; pressure by Roelands' factor,
     $\ln\mu(p,T) = \ln\mu(T) + (\ln\mu(T) + 9.67)[(1 + 5.1\times10^{-9}p)^Z - 1]$, with Z such that
-    $\partial\ln\mu/\partial p = \alpha$ at p = 0, $T = T_1$. Without a given $\alpha$ it is estimated from
+    $\partial\ln\mu/\partial p = \alpha$ at p = 0, $T = T_1$. If $\alpha$ is not given, it is estimated from
     $\mu(T_1)$ by `wooster_pressure_viscosity`, and `notes` says so.
 
     **Limits:** $\rho\nu_1$, $\rho\nu_2$ at p = 0 and $T_1$, $T_2$; $\alpha$ as above.
     **Validity:** between the two temperatures and some 20 K around; towards the pour point real oils are thicker.
     ASTM D341 adds a term below 2 cSt, left out here: the viscosity comes out too low by 0.04 % at 2 cSt, 2 % at 1 cSt,
-    and never below 0.3 cSt. Pressure as for `Roelands`, capped smoothly at 1e15 Pa s likewise. The density is floored
+    and never below 0.3 cSt. Pressure as for `Roelands`, with the same smooth cap at 1e15 Pa s. The density is floored
     smoothly at half its reference value (exact to 2e-11 above 0.7 of it).
     **Reference:** ASTM D341; Walther (1931), Erdoel und Teer 7, 382; Roelands (1966), thesis, TU Delft.
     """
@@ -86,7 +86,7 @@ class WaltherRoelands(AbstractViscosity):
         return (ESTIMATE_NOTE,) if self.pressure_viscosity is None else ()
 
     def _log_ambient(self, temperature: Batch) -> Batch:
-        """ln of the dynamic viscosity at ambient pressure, Pa s."""
+        """Natural logarithm of the dynamic viscosity in Pa s at ambient pressure."""
         points = (self.viscosity_1, self.temperature_1, self.viscosity_2, self.temperature_2)
         return log_dynamic(log_kinematic(*points, temperature), self.density, temperature)
 
@@ -102,9 +102,11 @@ WaltherRoelands.__init__.__doc__ = """**Arguments:**
 
 
 def require_falling(viscosity_1: Scalar, temperature_1: Scalar, viscosity_2: Scalar, temperature_2: Scalar) -> None:
-    """Checks that the viscosity of an oil falls between its two points; arguments as those of `log_kinematic`.
+    """Checks that the viscosity of an oil falls with temperature between its two points.
 
-    **Raises:** `ValueError` for known numbers that rise.
+    **Arguments:** as `log_kinematic`.
+
+    **Raises:** `ValueError` for known numbers of which the viscosity does not fall.
     """
     points = numbers_or_none(viscosity_1, viscosity_2, temperature_1, temperature_2)
     if points is not None:
@@ -121,7 +123,7 @@ def require_falling(viscosity_1: Scalar, temperature_1: Scalar, viscosity_2: Sca
 def log_kinematic(
     viscosity_1: Scalar, temperature_1: Scalar, viscosity_2: Scalar, temperature_2: Scalar, temperature: Values
 ) -> Batch:
-    """ln of the kinematic viscosity in cSt on Walther's line through two points.
+    """Natural logarithm of the kinematic viscosity in cSt, on Walther's line through two points.
 
     **Arguments:** `viscosity_1`, `viscosity_2`, m^2/s, > 0.3e-6, at `temperature_1`, `temperature_2`, K;
     `temperature`, K, > 0.
@@ -135,8 +137,11 @@ def log_kinematic(
 
 
 def log_dynamic(log_kinematic: Batch, density: LinearDensity, temperature: Values) -> Batch:
-    """ln of the dynamic viscosity in Pa s. **Arguments:** `log_kinematic`, ln of the kinematic one in cSt; `density`
-    at `temperature`, K, floored smoothly at half its reference value."""
+    """Natural logarithm of the dynamic viscosity in Pa s; the density is floored smoothly at half its reference value.
+
+    **Arguments:** `log_kinematic`: natural logarithm of the kinematic viscosity in cSt; `density`: law of the density;
+    `temperature`, K.
+    """
     relative_density = density.density(temperature) / density.value
     relative_density = softplus_floor(relative_density, DENSITY_FLOOR, DENSITY_WIDTH)
     return log_kinematic + jnp.log(CENTISTOKES * density.value) + jnp.log(relative_density)

@@ -16,30 +16,31 @@ from ..numerics.safe import nonnegative_pressure, softplus, softplus_floor
 LN10 = math.log(10.0)
 
 LOG10_VISCOSITY_CAP = 15.0
-"""log10 of the viscosity (Pa s) that no law exceeds. Traction only sees 1/viscosity: caps of
-1e8 to 1e15 Pa s give the same traction in all printed digits."""
+"""Upper limit of log10(viscosity in Pa s) for all laws. Traction depends on 1/viscosity only: caps of 1e8 to 1e15 Pa s
+give the same traction in all printed digits."""
 EXPANSION_FLOOR = 0.02
 """Smallest free-volume expansion factor F (dimensionless)."""
 EXPANSION_WIDTH = 0.005
 """Smoothing width of that floor (dimensionless)."""
 CAP_WIDTH = 0.5
-"""Smoothing width of the cap of the laws without a pole, in ln(viscosity): below 1e9 Pa s ln(viscosity) is exact to
+"""Smoothing width, in ln(viscosity), of the cap for laws without a pole: below 1e9 Pa s ln(viscosity) is exact to
 5e-13, at the cap it is 0.35 too low."""
 POLE_WIDTH = 0.5
 """Smoothing width of the distance from the pole, K: 9 K away the distance is changed by < 1e-8 K."""
 
 LIMIT_FOLDS = 200.0
-"""Pressure limit of a law without a place where it turns back, in units of its pressure scale."""
+"""Pressure limit of a law that rises at all pressures, in units of its pressure scale."""
 SLOPE_STEP = 1e6
-"""Pressure over which the pressure scale is measured, Pa."""
+"""Pressure step, Pa, from which the initial slope of ln(viscosity) is computed for the pressure scale."""
 SMALLEST_SLOPE = 1e-12
-"""Slope d ln(viscosity)/dp that the pressure scale never falls below, 1/Pa: a thousandth of any lubricant's."""
+"""Smallest slope d ln(viscosity)/dp for the pressure scale, 1/Pa: a thousandth of that of any lubricant."""
 
 LIMIT_SCAN_END = 1e10
-"""Highest pressure that `pressure_limit` looks at, Pa."""
+"""Highest pressure that `ModifiedWLF.pressure_limit` considers, Pa."""
 LIMIT_SCAN_INTERVALS = 300
 LIMIT_SCAN_DECADES = 18.0
-"""Viscosity ratio to ambient, in decades, at which the scan stops: far beyond what an integral of 1/viscosity sees."""
+"""Rise of the viscosity above ambient, in decades, at which that scan stops. An integral of 1/viscosity has converged
+far below it."""
 
 
 class AbstractViscosity(Checked):
@@ -51,32 +52,33 @@ class AbstractViscosity(Checked):
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
         """Natural logarithm of the dynamic viscosity in Pa s.
 
-        **Arguments:** `pressure`, Pa, >= 0 (slightly negative probes must stay finite); `temperature`, K, > 0.
+        **Arguments:** `pressure`, Pa, >= 0 (slightly negative ones too must give a finite result); `temperature`, K,
+        > 0.
         """
 
     def viscosity(self, pressure: Values, temperature: Values) -> Batch:
-        """Dynamic viscosity, Pa s. Under contact pressures stay with `log_viscosity`."""
+        """Dynamic viscosity, Pa s. For contact pressures use `log_viscosity` instead."""
         return jnp.exp(self.log_viscosity(pressure, temperature))
 
     def log_slope(self, temperature: Values) -> Batch:
-        r"""$\partial\ln\mu/\partial T$ at ambient pressure, 1/K: negative for a liquid lubricant, 0 for a constant."""
+        r"""Slope $\partial\ln\mu/\partial T$ at ambient pressure, 1/K: negative for liquids, 0 for a constant law."""
         require_temperature(temperature)
         temperature = jnp.asarray(temperature, dtype=float)
         at_ambient = lambda t: self.log_viscosity(0.0, t)
         return jax.jvp(at_ambient, (temperature,), (jnp.ones_like(temperature),))[1]
 
     def pressure_scale(self, temperature: Values) -> Batch:
-        """Pressure over which the viscosity grows by a factor e at first, Pa, at most 1e12; no gradient."""
+        """Pressure over which the viscosity initially grows by a factor e, Pa, at most 1e12 Pa; no gradient."""
         temperature = jnp.asarray(temperature, dtype=float)
         rise = self.log_viscosity(SLOPE_STEP, temperature) - self.log_viscosity(0.0, temperature)
         return jax.lax.stop_gradient(1.0 / jnp.maximum(rise / SLOPE_STEP, SMALLEST_SLOPE))
 
     def pressure_limit(self, temperature: Values) -> Batch:
-        r"""Upper limit of $\int \mu(0)/\mu(p)\,dp$, Pa; no gradient. Here 200 pressure scales (10 GPa for 20 1/GPa).
+        r"""Upper limit of $\int \mu(0)/\mu(p)\,dp$, Pa; no gradient. By default 200 pressure scales.
 
-        What lies beyond is $e^{-200}$ of the integral for Barus' law and < 1e-6 for Roelands' (viscosity above
-        1 mPa s, Z > 0.4); the cap of the viscosity adds $200\,\mu(0)$/1e15 Pa s. A law that turns back at some
-        pressure must say here where it does.
+        The default limit is 10 GPa for 20 1/GPa. The part of the integral beyond it is $e^{-200}$ for Barus' law and
+        < 1e-6 for Roelands' law (viscosity above 1 mPa s, Z > 0.4); the cap of the viscosity adds $200\,\mu(0)$/1e15
+        Pa s. A law whose viscosity falls again above some pressure must override this method and return that pressure.
         """
         return LIMIT_FOLDS * self.pressure_scale(temperature)
 
@@ -87,7 +89,7 @@ class AbstractViscosity(Checked):
 
 
 def capped(log_viscosity: Values) -> Batch:
-    r"""A smooth min(x, ln(1e15)) of x = ln(viscosity in Pa s), $x - w\ln(1 + e^{(x - x_{cap})/w})$ with w = 0.5."""
+    r"""Smooth min(x, ln(1e15)) for x = ln(viscosity in Pa s): $x - w\ln(1 + e^{(x - x_{cap})/w})$ with w = 0.5."""
     excess = (log_viscosity - LN10 * LOG10_VISCOSITY_CAP) / CAP_WIDTH
     return jnp.asarray(log_viscosity - CAP_WIDTH * softplus(excess))
 
@@ -98,13 +100,13 @@ class ModifiedWLF(AbstractViscosity):
     $T_g(p) = T_{g0} + A_1\ln(1 + A_2 p)$, $F(p) = 1 - B_1\ln(1 + B_2 p)$, $y = (T - T_g) F$,
     $\log_{10}\mu = \log_{10}\mu_g - C_1 y/(C_2 + y)$.
 
-    Coded as $(\log_{10}\mu_g - C_1) + C_1 C_2/(C_2 + y)$: one division, and the pole is in sight.
+    Coded as $(\log_{10}\mu_g - C_1) + C_1 C_2/(C_2 + y)$, which has one division and shows the pole.
 
     **Limits:** $\mu_g$ at $T = T_g(p)$; finite, and with a finite gradient, at every pressure and temperature.
-    **Validity:** the printed law has a pole at $y = -C_2$ (cold, high pressure) and turns back where F = 0 (3.6 to
-    9.4 GPa for four oils). Here F is floored smoothly at 0.02 and the distance from the pole such that
-    $\log_{10}\mu < 15$; the law is changed by < 1e-8 relative wherever $C_2 + y$ is 9 K above the floor. Near
-    the floors the value is a stiff solid, not a measurement. Pressures below 0 level off at -1 MPa.
+    **Validity:** the printed law has a pole at $y = -C_2$ (cold, high pressure), and its viscosity falls again beyond
+    F = 0 (3.6 to 9.4 GPa for four oils). Here F is floored smoothly at 0.02, and the distance from the pole such that
+    $\log_{10}\mu < 15$. The floors change the law by < 1e-8 relative wherever $C_2 + y$ is 9 K above its floor. Near
+    the floors the value stands for a stiff solid and is not measured. Pressures below 0 level off at -1 MPa.
     **Reference:** Yasutomi, Bair and Winer (1984), ASME J. Tribology 106, 291; source eq. (76).
     """
 
@@ -122,7 +124,7 @@ class ModifiedWLF(AbstractViscosity):
         log10_glass = jnp.log10(self.glass_viscosity)
         glass, expansion = self._glass_and_expansion(nonnegative_pressure(pressure))
         expansion = softplus_floor(expansion, EXPANSION_FLOOR, EXPANSION_WIDTH)
-        # The floor at which log10(viscosity) would be the cap exactly.
+        # at this distance log10(viscosity) equals the cap
         floor = self.c1 * self.c2 / (LOG10_VISCOSITY_CAP - log10_glass + self.c1)
         distance = softplus_floor(self.c2 + (temperature - glass) * expansion, floor, POLE_WIDTH)
         return LN10 * (log10_glass - self.c1 + self.c1 * self.c2 / distance)
@@ -130,8 +132,8 @@ class ModifiedWLF(AbstractViscosity):
     def pressure_limit(self, temperature: Values) -> Batch:
         """Pressure up to which the printed law is meaningful at this temperature, Pa; no gradient.
 
-        The last of 301 points of 0 to 10 GPa before the law without floors stops growing, meets F = 0 or its
-        pole, or has risen by 18 decades; at least the first point, 33 MPa.
+        The last of 301 points from 0 to 10 GPa before the law without floors stops growing, reaches F = 0 or its
+        pole, or has risen by 18 decades; at least 33 MPa, the first point above 0.
         """
         temperature = jnp.asarray(temperature, dtype=float)[..., None]
         grid = np.linspace(0.0, LIMIT_SCAN_END, LIMIT_SCAN_INTERVALS + 1)

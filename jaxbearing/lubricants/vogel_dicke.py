@@ -9,21 +9,22 @@ from ..numerics.safe import nonnegative_pressure, softplus_floor
 from .viscosity import AbstractViscosity, capped
 
 ICE_POINT = 273.15
-"""0 C, K: Dicke's modulus is linear in the temperature in degrees Celsius."""
+"""Zero of the Celsius scale, K: Dicke's modulus is linear in the temperature in degrees Celsius."""
 HUNDRED = 100.0
-"""K between the two temperatures at which the modulus is given."""
+"""Difference of the two temperatures at which the modulus is given, 0 and 100 C, K."""
 POLE_MARGIN = 20.0
-"""The law is evaluated down to this many kelvin above Vogel's pole."""
+"""Smallest distance, K, of the temperature from Vogel's pole; colder temperatures are clamped."""
 POLE_WIDTH = 1.0
 """Smoothing width of that clamp, K: 50 K above the pole T is exact to 1e-13 K."""
 MODULUS_FLOOR = 1e7
-"""Smallest modulus at ambient pressure, Pa (100 1/GPa): a linear modulus crosses zero far below its range."""
+"""Smallest modulus at ambient pressure, Pa (100 1/GPa): a linear modulus crosses zero far below the fitted
+temperatures."""
 MODULUS_WIDTH = 5e5
-"""Smoothing width of that floor, Pa: exact to 1e-13 Pa/Pa above 30 MPa."""
+"""Smoothing width of that floor, Pa: a modulus above 30 MPa is exact to 1e-13 of it."""
 RATE_FLOOR = 1e-3
-"""Smallest rise of the modulus with pressure: keeps the viscosity from a pole at high pressure."""
+"""Smallest rise of the modulus with pressure, Pa/Pa: without it the viscosity could have a pole at high pressure."""
 RATE_WIDTH = 1e-4
-"""Smoothing width of that floor: exact to 1e-14 at 4.2e-3."""
+"""Smoothing width of that floor, Pa/Pa: a rise of 4.2e-3 is exact to 1e-14."""
 
 
 class VogelDicke(AbstractViscosity):

@@ -1,11 +1,12 @@
-r"""Growth of a ring, a shaft or a housing under pressure, rotation and warming: plane stress, uniform temperature.
+r"""Growth of a ring, a shaft or a housing by pressure, rotation and temperature, in plane stress.
 
 $$u_p = \frac{r}{E(b^2-a^2)}\left[(1-\nu)(p_a a^2 - p_b b^2) + (1+\nu)\frac{a^2b^2}{r^2}(p_a - p_b)\right]$$
 $$u_\omega = \rho\omega^2r\frac{(3+\nu)(1-\nu)}{8E}\left[a^2 + b^2 + \frac{1+\nu}{1-\nu}\frac{a^2b^2}{r^2}
 - \frac{1+\nu}{3+\nu}r^2\right],\quad u_T = \alpha_T\,\Delta T\,r$$
 
-Lamé's thick ring and the rotating disc of uniform thickness (Timoshenko and Goodier, Theory of Elasticity). A solid
-body has $a = 0$: nothing is divided by $a$.
+The radial displacements u at the radius r are those of Lamé's thick ring and of the rotating disc of uniform thickness
+(Timoshenko and Goodier, Theory of Elasticity), at uniform temperature. A solid body has $a = 0$: nothing is divided by
+$a$.
 """
 
 import equinox as eqx
@@ -18,11 +19,11 @@ from ..materials import Material
 Numbers = Scalar | Float[Array, "..."]
 """A number, or an array of numbers of many bodies or states."""
 REFERENCE_TEMPERATURE = 293.15
-"""Temperature at which dimensions hold, K."""
+"""Temperature to which the given dimensions refer, K."""
 
 
 class Annulus(eqx.Module):
-    """A body between two circles, at one temperature, that turns about its axis; or many, as arrays of numbers.
+    """A ring or disc at uniform temperature that turns about its axis; or many of them, as arrays of numbers.
 
     **Arguments:**
     - `material`: with its `thermal_expansion`, unless `warming` is 0.
@@ -38,7 +39,10 @@ class Annulus(eqx.Module):
     warming: Numbers = 0.0
 
     def pressed(self, diameter: Numbers, inside: Numbers, outside: Numbers) -> Float[Array, "..."]:
-        """Growth of a diameter by pressures on bore and outside, Pa; m."""
+        """Growth of a diameter by pressure, m.
+
+        **Arguments:** `diameter`, m; `inside`, `outside`: pressures on bore and outside, Pa.
+        """
         nu, modulus = self.material.poisson_ratio, self.material.youngs_modulus
         a2, b2 = jnp.square(self.bore), jnp.square(self.outside)
         uniform = (1.0 - nu) * (inside * a2 - outside * b2)
@@ -50,20 +54,20 @@ class Annulus(eqx.Module):
         return self.spun_by_square(diameter) * jnp.square(self.speed)
 
     def spun_by_square(self, diameter: Numbers) -> Float[Array, "..."]:
-        """Growth of a diameter by rotation over the square of the speed, m s^2."""
+        """Growth of a diameter by rotation, divided by the square of the speed, m s^2."""
         nu, a, b, r = self.material.poisson_ratio, 0.5 * self.bore, 0.5 * self.outside, 0.5 * diameter
-        # few divisions: the compiler makes a program of each
+        # few divisions: each one takes time to compile
         squares = (1.0 - nu) * (jnp.square(a) + jnp.square(b)) + (1.0 + nu) * jnp.square(a * b / r)
         squares = (3.0 + nu) * squares - (1.0 + nu) * (1.0 - nu) * jnp.square(r)
         return diameter * self.material.density * squares / (8.0 * self.material.youngs_modulus)
 
     def warmed(self, diameter: Numbers) -> Float[Array, "..."]:
-        """Growth of a diameter by the temperature, m; 0 of a material without an expansion."""
+        """Growth of a diameter by temperature, m; 0 for a material without `thermal_expansion`."""
         return jnp.asarray(diameter * self.strain)
 
     @property
     def strain(self) -> Float[Array, "..."]:
-        """Growth by the temperature, relative to any length of the body."""
+        """Thermal strain, relative to the length; 0 for a material without `thermal_expansion`."""
         expansion = self.material.thermal_expansion
         return jnp.zeros(()) if expansion is None else jnp.asarray(expansion * self.warming)
 
@@ -72,7 +76,7 @@ class Annulus(eqx.Module):
         return self.spun(diameter) + self.warmed(diameter)
 
     def hoop_stress_at_bore(self, inside: Numbers) -> Float[Array, "..."]:
-        """Stress around the bore by the pressure in it, Pa, and by rotation; Pa."""
+        """Hoop stress at the bore, Pa, by rotation and by the pressure `inside` the bore, Pa."""
         nu, a2, b2 = self.material.poisson_ratio, jnp.square(self.bore), jnp.square(self.outside)
         spin = self.material.density * jnp.square(self.speed) * ((3.0 + nu) * b2 + (1.0 - nu) * a2) / 16.0
         return inside * (b2 + a2) / (b2 - a2) + spin

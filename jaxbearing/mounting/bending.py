@@ -1,4 +1,4 @@
-r"""A thin ring, flexible in its plane, in harmonics of its circumference.
+r"""Bending of a thin ring in its plane, in harmonics of the angle along its circumference.
 
 The outward deflection of the centroid circle is $w(\psi) = \sum_n a_n\cos n\psi + b_n\sin n\psi$. A radial load
 $q_n\cos n\psi$ per length of circumference deflects the ring by $w_n = c_nq_n$ with
@@ -45,36 +45,36 @@ class RingSection(eqx.Module):
 
     @property
     def axial_share(self) -> Float[Array, ""]:
-        """i, see the module."""
+        r"""Influence of axial strain, $i = I/(AR^2)$; see the module."""
         return jnp.asarray(self.bending_stiffness / (self.axial_stiffness * jnp.square(self.radius)))
 
     @property
     def shear_share(self) -> Float[Array, ""]:
-        """s, see the module; 0 without shear strain."""
+        r"""Influence of shear strain, $s = EI/(\kappa GAR^2)$; 0 if it is not modelled. See the module."""
         if self.shear_stiffness is None:
             return jnp.zeros(())
         return jnp.asarray(self.bending_stiffness / (self.shear_stiffness * jnp.square(self.radius)))
 
     def stiffness(self, orders: Int[np.ndarray, " order"]) -> Float[Array, " order"]:
-        """1/c_n of each order, N/m^2: radial load per length of circumference over deflection; 0 for n = 1."""
+        """Stiffness 1/c_n of each order, N/m^2: radial load per length of circumference over deflection; 0 for n = 1."""
         square = np.square(orders).astype(float)
         bending = self.bending_stiffness / self.radius**4 * np.square(square - 1.0) / self._softness(square)
         return jnp.where(orders == 0, self.axial_stiffness / jnp.square(self.radius), bending)
 
     def of_tangential_load(self, orders: Int[np.ndarray, " order"]) -> Float[Array, " order"]:
-        """Factor by which axial strain and shear change the effect of a tangential load on w_n, beside c_n."""
+        """Factor f_T of a tangential load on w_n (`bent_ring`): effect of axial strain and shear, in addition to c_n."""
         square = np.square(orders).astype(float)
         return jnp.asarray(1.0 + square * (self.axial_share + self.shear_share)) / self._softness(square)
 
     def of_moment(self, orders: Int[np.ndarray, " order"]) -> Float[Array, " order"]:
-        """Factor by which axial strain and shear change the effect of a couple on w_n, beside c_n."""
+        """Factor f_M of a couple on w_n (`bent_ring`): effect of axial strain and shear, in addition to c_n."""
         return 1.0 / self._softness(np.square(orders).astype(float))
 
     def _softness(self, square: Float[np.ndarray, " order"]) -> Float[Array, " order"]:
         return 1.0 + self.axial_share + square * self.shear_share
 
     def deflection_of_point_load(self, angle: Float[Array, "*point"]) -> Float[Array, "*point"]:
-        r"""Deflection of a free ring by a unit radial load, m/N: the sum of all orders from 2 on, in closed form.
+        r"""Deflection of a free ring by a unit radial load, m/N: the sum over all orders n >= 2, in closed form.
 
         $$w(\theta) = \frac{R^3}{\pi EI}\left[(1+i+s)\,k_2(\theta) + s\,k_1(\theta)\right]$$
 
@@ -106,7 +106,7 @@ def rectangular_section(
     """A ring of rectangular section.
 
     **Arguments:** modulus of elasticity, Pa, > 0; `width` along the axis, `height` along the radius and centroid
-    `radius`, m, > 0; `poisson_ratio`: that of the shear strain, which is not modelled where it is not given.
+    `radius`, m, > 0; `poisson_ratio`: for the shear strain; `None`: shear strain is not modelled.
     """
     area = width * height
     shear = None
@@ -132,7 +132,7 @@ class Foundation(eqx.Module):
     shear: Scalar = 0.0
 
     def of_orders(self, orders: Int[np.ndarray, " order"]) -> Float[Array, " order"]:
-        """$k_f + k_t/n^2$, N/m^2; $k_f$ for n = 0."""
+        """Stiffness $k_f + k_t/n^2$ of each order, N/m^2; $k_f$ for n = 0."""
         square = np.square(orders).astype(float)
         along = np.where(orders > 0, 1.0 / np.maximum(square, 1.0), 0.0)
         return jnp.asarray(self.stiffness + self.shear * along)
@@ -143,10 +143,11 @@ def aliased_compliance(
 ) -> Float[Array, " order"]:
     r"""Amplitudes of the orders 0 to `count`/2 for unit loads, m/N, if all loads act at `count` evenly spaced places.
 
-    At these places the orders m and $lN \pm m$ are one and the same shape, so that their compliances add up. With these
-    numbers the orders 0 to N/2 give the deflections at the places without an error of truncation.
+    At these places the orders m and $lN \pm m$ have the same shape, so that their compliances add up. With the sums the
+    orders 0 to N/2 give the deflections at the places without truncation of the orders.
 
-    **Arguments:** `count`: N, even; `repeats`: terms l of the sum (the rest falls with the third power of it).
+    **Arguments:** `count`: N, even; `repeats`: number of terms l of the sum, whose remainder falls with the third power
+    of it.
 
     **Raises:** `ValueError` for an odd `count`.
     """
@@ -164,14 +165,14 @@ def aliased_compliance(
 def compliance_of_orders(
     section: RingSection, foundation: Foundation | None, orders: Int[np.ndarray, " order"]
 ) -> Float[Array, " order"]:
-    """Amplitude of each order under a unit point load where its shape is 1, m/N; infinite where nothing resists."""
+    """Amplitude of each order by a unit point load at the crest of its shape, m/N; infinite without stiffness."""
     return 1.0 / stiffness_of_orders(section, foundation, orders)
 
 
 def stiffness_of_orders(
     section: RingSection, foundation: Foundation | None, orders: Int[np.ndarray, " order"]
 ) -> Float[Array, " order"]:
-    """Generalised load over amplitude of each order, N/m: $\\pi R(1/c_n + k_f + k_t/n^2)$, twice this for n = 0."""
+    """Generalised stiffness (load over amplitude) of each order, N/m: $\\pi R(1/c_n + k_f + k_t/n^2)$, twice this for n = 0."""
     each = section.stiffness(orders)
     if foundation is not None:
         each = each + foundation.of_orders(orders)

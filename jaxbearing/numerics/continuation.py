@@ -1,7 +1,8 @@
-"""Continuation: if the first attempt fails, the solver starts from an easier system and walks to the one asked for.
+"""Continuation: if the first try fails, the solver starts from an easier system and changes it in stages to the given
+one.
 
-A system states one or more homotopies, `homotopy(parameter, path)`: at parameter 1 it is easy, at 0 it is itself. Each
-try walks along one of them in stages, every stage from where the last one ended.
+A system defines one or more homotopies, `homotopy(parameter, path)`: an easy system at parameter 1, the given system at
+0. Each further try follows one homotopy in stages; each stage starts from the root of the previous one.
 """
 
 from typing import NamedTuple
@@ -14,15 +15,15 @@ from .arrow import AbstractArrowSystem, ArrowPoint, System
 from .newton_steps import choose
 
 LONGEST_STAGE = 0.25
-"""Length of the first stage, in the homotopy parameter."""
+"""Largest change of the homotopy parameter from one stage to the next."""
 SHORTEST_STAGE = 0.02
-"""Lower limit of the length of a stage; a try that would need a shorter one has failed."""
+"""Smallest change of the homotopy parameter from one stage to the next; a try that needs a smaller one has failed."""
 NOTHING_SOLVED = 2.0
 """Value of `solved_parameter` before any stage has been solved."""
 STAGES_PER_TRY = 3
-"""The first try has this many times the Newton steps of a stage, which starts near its root."""
+"""Ratio of the step limit before the first solved stage of a try to that of later stages, which start near a root."""
 MOST_STEPS = 4
-"""Newton steps of all continuations together, in units of `max_steps` for each homotopy."""
+"""Limit of the Newton steps of all continuations together, divided by `max_steps` and the number of homotopies."""
 
 
 class Continuation(NamedTuple):
@@ -34,11 +35,11 @@ class Continuation(NamedTuple):
     """Parameter of the last stage that was solved; above 1 if there is none."""
     solved: ArrowPoint
     length: Float[Array, ""]
-    """Length of this stage."""
+    """Change of the homotopy parameter from stage to stage."""
     steps: Int[Array, ""]
     """Newton steps of this stage."""
     tries: Int[Array, ""]
-    """Number of tries begun; the first one is that of the system itself."""
+    """Number of tries begun, including the first one, of the system itself."""
 
     @classmethod
     def begun(cls, start: ArrowPoint) -> "Continuation":
@@ -60,7 +61,7 @@ class Continuation(NamedTuple):
 
 
 def first_guesses(system: AbstractArrowSystem) -> tuple[ArrowPoint, ArrowPoint]:
-    """Initial guess of the system, and those of its homotopies at parameter 1, with a leading axis over them."""
+    """Initial guess of the system, and initial guesses of its homotopies at parameter 1, stacked on a leading axis."""
     homotopies = system.homotopies
     parameter, path = jnp.asarray([0.0] + [1.0] * homotopies), jnp.asarray([0, *range(homotopies)])
     guesses = jax.vmap(lambda e, w: system.homotopy(e, w).initial())(parameter, path)
@@ -88,10 +89,11 @@ def advance(
 ) -> tuple[Continuation, Bool[Array, ""], ArrowPoint, Bool[Array, ""]]:
     """The continuation after a Newton step.
 
-    A stage that fails is tried again at half the distance from the last solved stage, and so are those after it.
+    A stage that fails is replaced by one at half the distance from the last solved stage; later stages keep the shorter
+    distance.
 
-    **Arguments:** `steps`: Newton steps of this stage; `end`: result of the step; `trial`: the point it led to;
-    `easiest`: initial guesses of the homotopies, of `first_guesses`; `most_tries`: number of tries.
+    **Arguments:** `steps`: Newton steps of this stage; `end`: result of the step; `trial`: the point that was judged;
+    `easiest`: initial guesses of the homotopies (`first_guesses`); `most_tries`: largest number of tries.
 
     **Returns:** the new state; True if a stage starts; its starting point; True if no try is left.
     """

@@ -46,9 +46,9 @@ class NewtonResult(NamedTuple):
     `jacobian`, `residual_norm` (the largest scaled residual), `inner_residual`, `worst_equation` and `worst_element`
     are values at the last trial of the given system, not at a trial of an easier one. If the lane converged, `point`
     lies one Newton step (shorter than the step tolerance) beyond that trial. `inner_residual` is the largest residual
-    of equations that the system solves inside its own (nested solves). `worst_equation` is an index: the equations of
-    one element come first, the global ones after them. `worst_element` has a meaning only if that is an equation of
-    one element.
+    of the nested solves, which the system needs to evaluate its equations. `worst_equation` is an index: the equations
+    of one element come first, the global ones after them. `worst_element` has a meaning only if the worst equation
+    belongs to an element.
     """
 
     point: ArrowPoint
@@ -128,7 +128,7 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
 
 
 class _End(NamedTuple):
-    """The part of the last iterate that is kept: only this is stacked over the lanes of a batch."""
+    """The part of the last iterate that is needed later; only this part is stacked over the lanes of a batch."""
 
     trial: ArrowPoint
     equations: Equations
@@ -138,8 +138,8 @@ class _End(NamedTuple):
 
 
 def _ended(system: AbstractArrowSystem, options: NewtonOptions) -> _End:
-    """The end of the iteration. The lanes of a batch run one after the other, unless the system states that they should
-    run together (`lanes_together`)."""
+    """Runs the iteration to its end. The lanes of a batch run one after the other, unless the system asks for all at
+    once (`lanes_together`)."""
 
     def solve_lane(system: AbstractArrowSystem) -> _End:
         last = _iterate(system, options)
@@ -157,8 +157,8 @@ class _Root(NamedTuple):
 
 @eqx.filter_custom_jvp
 def _root(system: AbstractArrowSystem, *, options: NewtonOptions) -> _Root:
-    """The root, and the Jacobian at the last trial of the given system before it. If the lane failed, the point is the
-    last trial of all, which may be one of an easier system, with 0 for numbers that are not finite."""
+    """The root, and the Jacobian at the last trial of the given system, one Newton step before the root. If the lane
+    failed, the point is its last trial, perhaps of an easier system, with 0 in place of numbers that are not finite."""
     end = _ended(system, options)
     solved = end.status == Status.CONVERGED
     # One more Newton step is taken from the trial that converged: it squares the remaining error.
@@ -176,7 +176,7 @@ def _root_jvp(primals, tangents, *, options: NewtonOptions):
 
 @eqx.filter_custom_jvp
 def _known_root(system: AbstractArrowSystem, *, root: _Root, stiffness: bool) -> _Root:
-    """A root that was found before, with the implicit derivatives that `_root` gives.
+    """A root that was found before, with the same implicit derivatives as `_root`.
 
     **Arguments:** `root`: the known root; `stiffness`: True to differentiate the Jacobian too, which derivatives of the
     bearing's stiffness require; otherwise the derivative of the Jacobian is NaN.
@@ -251,7 +251,7 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
         lambda known, stiffness: _known_root(system, root=known, stiffness=stiffness),
     )
     live = derivatives_if(root.solved, system)
-    # What is reported was measured one Newton step before the returned point.
+    # The reported residuals are those of the last trial, one Newton step before the returned point.
     end = root.end
     elements, globals_ = jnp.abs(end.equations.residual.elements), jnp.abs(end.equations.residual.globals)
     sizes = jnp.concatenate([jnp.max(elements, axis=1, initial=0.0), globals_])

@@ -1,21 +1,22 @@
-r"""Equations of lubricated balls between rings of which one or both have two groove arcs: up to four contacts a ball.
+r"""Equations of lubricated balls with up to four contacts: one ring has two groove arcs, or both rings have.
 
-Unknowns of each ball: the place (V, W) of its centre, and those of its motion (`equations`). The distances l of the
-groove centres follow from it and from the ring. The load of a contact is the one at which its film fills what the metal
-leaves,
+The unknowns of each ball are the position (V, W) of its centre and those of its motion (`equations`). The position and
+the displacements of the ring give the distance l from the ball centre to each groove centre. The load Q of a contact is
+that at which the elastic deformation equals the overlap l - g of the undeformed surfaces plus the film thickness h,
 
 $$(Q/K)^{2/3} = l - g + h(Q),$$
 
-one equation for each contact with one root, because a film grows thinner under load. It is solved for $\ln Q$ with
-positive terms on both sides of a ratio,
-$\ln[(Q/K)^{2/3} + (g - l)_+] = \ln[h(Q) + (l - g)_+]$, which rises nearly along a straight line. So no unknown of the
-ball goes to infinity where a contact opens. A film law may end with a film that does not fill an open gap: the contact
-then counts as loaded by `LEAST_LOAD`.
+with the distance g at first contact and the contact stiffness K. Each contact has one such equation. It has exactly one
+root, because the film becomes thinner with the load. It is solved for $\ln Q$ in the form
+$\ln[(Q/K)^{2/3} + (g - l)_+] = \ln[h(Q) + (l - g)_+]$, in which all terms are positive and the difference of the two
+sides is nearly linear in $\ln Q$. No unknown of the ball goes to infinity where a contact opens. If even at
+`LEAST_LOAD` the film is thinner than the gap, the contact is open and has that load.
 
 The two equations of the contacts are the balances of forces on the ball, with sums over all its contacts.
-With traction, two contacts can roll without sliding; three fix the orbital speed and both parts of the spin, and four
-are in general one too many. The balances of moments and forces of `friction`, with sums over all contacts, decide.
-Without traction the motion is the one with the least sliding and spin (`linear_slip`).
+With traction, the motion follows from the balances of moments and forces of `friction`, again with sums over all
+contacts: two contacts can roll without sliding, three would determine the orbital speed and both components of the
+spin, and with four there is in general one condition too many. Without traction the motion is that with the least
+sliding and spin (`linear_slip`).
 """
 
 from typing import Any, ClassVar
@@ -38,19 +39,19 @@ from .linear_slip import linear_slip, slip_weights
 from .state import BallPlaces, BallsState
 
 LEAST_LOAD = 1e-9
-"""Load of a contact whose film does not fill the gap, N."""
+"""Load of an open contact (the film does not fill the gap), N."""
 LARGEST_LOAD = 1e8
-"""Largest load that a contact may take while iterating, N."""
+"""Largest load of a contact during the iteration, N."""
 FIRST_FILM = 1e-7
-"""Film, m, for which the load of a contact is estimated where its root is searched."""
+"""Film thickness assumed in the first guess of the load of a contact, m."""
 LOAD_TOLERANCE = 1e-9
-"""Last Newton step of ln(load): its error is of the order of the square."""
+"""Largest last Newton step of ln(load); the error that remains is of the order of its square."""
 
 
 class ArchedBallSystem(AbstractBallEquations):
-    """Lubricated balls with up to four contacts; see the module.
+    """Lubricated balls with up to four contacts; see the docstring of the module.
 
-    **Arguments:** `spread`: of `linear_slip`.
+    **Arguments:** `spread`: size of the contact ellipses as in `linear_slip`, m^2/N^(2/3).
     """
 
     of_contacts: ClassVar[OfContacts] = OfContacts(
@@ -127,7 +128,8 @@ class ArchedBallSystem(AbstractBallEquations):
         )
 
     def _taken(self, motion: BallMotion, load: Float[Array, "contact ball"]) -> Float[Array, "contact ball"]:
-        """Force of a resolved couple that the contacts carry together, N, as if the first one did."""
+        """Sum of the transverse friction that carries the gyroscopic couple, N, all assigned to the first contact,
+        because only the sum is used."""
         taken = 2.0 * self.couple(motion) / self.kinematics.ball_diameter
         return jnp.zeros_like(load).at[0].set(taken)
 
@@ -135,7 +137,7 @@ class ArchedBallSystem(AbstractBallEquations):
         state = super().balls(unknowns, shared)
         if not self.resolved:
             return state
-        # the transverse traction of each contact is known only now: it acts on the ball and on the inner ring
+        # only now the transverse traction of each contact is known, which acts on the ball and on the inner ring
         assert state.traction is not None
         touch = self.touch(shared, state.centre)
         carried = jnp.asarray(self.arcs.senses * state.traction.transverse)
@@ -154,7 +156,7 @@ class ArchedBallSystem(AbstractBallEquations):
     def _loads(
         self, contact: PointContact, apart: Float[Array, "contact ball"], races: RaceMotion
     ) -> tuple[Float[Array, "contact ball"], PointFilm, Float[Array, ""]]:
-        """Loads of the contacts, N, their films, and the largest residual of the nested solves.
+        """Loads of the contacts, N, their films, and the largest residual of the equations of the closed contacts.
 
         **Arguments:** `apart`: distances of the groove centres from the ball centre, m.
         """
@@ -174,14 +176,14 @@ class ArchedBallSystem(AbstractBallEquations):
     def _slip_rows(
         self, motion: BallMotion, load: Float[Array, "contact ball"], angle: Float[Array, "contact ball"]
     ) -> tuple[Array, ...]:
-        """Residuals of balls without traction: their motion less the one of the least sliding."""
+        """Residuals of the motion of balls without traction: its scaled difference from the motion of least sliding."""
         slip, unit = self._least_slip(load, angle), self.spin_unit()
         axial, radial = ((motion.axial_spin - slip.axial_spin) / unit, (motion.radial_spin - slip.radial_spin) / unit)
         return axial, radial, (motion.orbital_speed - slip.orbital_speed) / self.orbit_unit
 
 
 def _misfit(log_load: Float[Array, "contact ball"], args: Any) -> Float[Array, "contact ball"]:
-    """ln of the ratio of both sides of the module's equation."""
+    """Logarithm of the left over the right side of the load equation (see the module)."""
     laws, contact, stiffness, closed, speed, sliding, oil, inlet, share = args
     film = share * laws.film_state(contact, jnp.exp(log_load), speed, sliding, oil, inlet).separation
     compression = jnp.exp((log_load - jnp.log(stiffness)) * (2.0 / 3.0))
@@ -189,7 +191,7 @@ def _misfit(log_load: Float[Array, "contact ball"], args: Any) -> Float[Array, "
 
 
 def _filled(args: Any) -> tuple[Root, Array]:
-    """ln of the loads, and which contacts are open: there the least load leaves a gap that its film does not fill."""
+    """Logarithms of the loads, and which contacts are open: those whose film does not fill the gap at `LEAST_LOAD`."""
     _, _, stiffness, closed, *_ = args
     low = float(np.log(LEAST_LOAD))
     opened = jax.lax.stop_gradient(_misfit(jnp.full_like(closed, low), args)) >= 0.0

@@ -1,4 +1,4 @@
-"""From a ball bearing scene to its equations, with everything prepared that does not depend on the unknowns."""
+"""Equations of a ball bearing scene, with all quantities prepared that do not depend on the unknowns."""
 
 import dataclasses
 from collections.abc import Callable
@@ -32,19 +32,19 @@ from .state import BallCageParts, BallDrag, BallGuess, BallPlaces
 from .system import Grooves
 
 SPREAD_LOAD = 1e6
-"""Load, N, for which the size of a patch is taken: Hertz's formula is smoothed near load 0."""
+"""Load, N, at which the size of the contact ellipse is taken. It is large, as Hertz's formula is smoothed near 0."""
 SMALLEST_GUESS = 1e-3
-"""Load of an inner contact that the frictionless bearing has lost, over a ball's load scale, where the films start."""
+"""Least load of a contact in the first guess of the lubricated bearing, over the load scale of a ball."""
 LEAST_PRESSED, MOST_PRESSED, HALVINGS = 1e-9, 1e7, 30
-"""Range of the load by which films press a ball between its rings, N, and how often it is halved in logarithms."""
+"""Range of the load by which films press a ball between its rings, N, and number of bisections in its logarithm."""
 CONTROL_AT_EQUAL_LOADS, CONTROL_BY_LOAD = -1.6, 8.0
-"""First guess of outer race control: its logit, and by how much that rises with ln(Qo/Qi), from a few solved bearings
-(5-50 kN, 5 000-20 000 rpm); a start of the iteration and nothing else."""
+"""First guess of the degree of outer race control (0 to 1): its logit at equal loads, and the slope of the logit with
+ln(Qo/Qi). Fitted to a few solved bearings (5-50 kN, 5 000-20 000 rpm), and used for the initial guess only."""
 
 
 class Row(NamedTuple):
-    """The balls that are solved for, how the inner ring may move, and how that moves their inner grooves: the fields of
-    `AbstractBallSystem` of the same names."""
+    """Balls of the equations, inner ring, and motion of the inner grooves with the ring. The fields are those of the
+    same names in `AbstractBallSystem`."""
 
     azimuth: Float[Array, " ball"]
     ring: InnerRing
@@ -55,8 +55,8 @@ class Row(NamedTuple):
 
 
 def ring_directions(azimuth: Float[Array, " ball"], turning: Array | None = None) -> Float[Array, "5 p ball"]:
-    """Change of the coordinates of the inner groove (`arcs`) for a unit of each of `RING_FREEDOMS`; a unit of tilt is
-    R_i. **Arguments:** `turning`: e_i/R_i of an inner ring with two arcs."""
+    """Derivatives of the coordinates of the inner groove (`arcs`) by each of `RING_FREEDOMS`, a tilt counted as its
+    angle times R_i. **Arguments:** `turning`: e_i/R_i of an inner ring with two arcs."""
     zero, one = jnp.zeros_like(azimuth), jnp.ones_like(azimuth)
     cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
     changes = [(one, zero), (zero, cosine), (zero, sine), (cosine, zero), (sine, zero)]
@@ -69,8 +69,10 @@ def ring_directions(azimuth: Float[Array, " ball"], turning: Array | None = None
 def row_of(
     azimuth: Float[Array, " ball"], ring: InnerRing, turning: Array | None, exact: bool, multiplicity: int
 ) -> Row:
-    """Balls at these azimuths, rad. **Arguments:** `turning`: of `ring_directions`; `exact`: whether the grooves move
-    with the exact rotation of the ring."""
+    """The `Row` of balls at given azimuths, rad.
+
+    **Arguments:** `turning`: see `ring_directions`; `exact`: whether the grooves move with the exact rotation of the
+    ring, not to first order; `multiplicity`: number of balls of the bearing for each ball of the row."""
     every = ring_directions(azimuth, turning)
     free = ring.freedoms == RING_FREEDOMS
     held_shift = jnp.zeros(every.shape[1:]) if free else jnp.einsum("f,fcn->cn", ring.held, every)
@@ -79,7 +81,9 @@ def row_of(
 
 
 def ball_row(scene: BallBearing, exact: bool, ring: InnerRing | None = None) -> Row:
-    """All balls, or one for all where they are alike; with the ring of the scene, or with another one."""
+    """The `Row` of a scene: all balls, or one ball that stands for all if they are alike.
+
+    **Arguments:** `exact`: see `row_of`; `ring`: a ring instead of the scene's, for which all balls are taken."""
     operation, geometry = scene.operation, scene.geometry
     azimuth = azimuths(geometry, geometry.n_balls, operation.symmetric and not shaped_parts(scene) and ring is None)
     if ring is None:
@@ -111,10 +115,11 @@ def ball_grooves(scene: BallBearing, expansion: Float[Array, ""] | None = None) 
 
 
 def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | None = None) -> BallCore:
-    """The bearing without friction on the raceways and without films.
+    """The equations of the bearing without friction on the raceways and without films.
 
-    **Arguments:** `exact`: whether the grooves move with the exact rotation of the ring; not given: where the ring can
-    tilt, but for a tilt by the standard; `ring`: another one than the scene's, all balls then.
+    **Arguments:** `exact`: whether the grooves move with the exact rotation of the ring; not given: true if the ring
+    can tilt and the tilt is not that of the standard; `ring`: a ring instead of the scene's, for which all balls are
+    solved.
     """
     geometry, operation = scene.geometry, scene.operation
     if exact is None:
@@ -157,7 +162,7 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
 
 
 def _bending_rings(scene: BallBearing, azimuth: Float[Array, " ball"]) -> BentRings:
-    """The rings of a scene that bend."""
+    """The flexible rings of a scene."""
     rings, width, (inner, outer) = scene.materials.of_rings, scene.geometry.width, scene.raceway_diameters
     return BentRings(
         elastic_ring(scene.outer_ring, rings[1], outer, width, azimuth),
@@ -166,7 +171,8 @@ def _bending_rings(scene: BallBearing, azimuth: Float[Array, " ball"]) -> BentRi
 
 
 def _spread(scene: BallBearing) -> Float[Array, "2"]:
-    """$(a^2 + c^2)/Q^{2/3}$ of the contacts on both races at the contact angle of the unloaded bearing, m^2/N^(2/3)."""
+    """Size of the contact ellipses, $(a^2 + c^2)/Q^{2/3}$, on the inner and the outer race at the contact angle of the
+    unloaded bearing, m^2/N^(2/3)."""
     contacts = scene.geometry.free_contacts(scene.materials.race_modulus)
     ellipse = contacts.ellipse(SPREAD_LOAD)
     return (jnp.square(ellipse.rolling) + jnp.square(ellipse.transverse)) / SPREAD_LOAD ** (2.0 / 3.0)
@@ -175,9 +181,9 @@ def _spread(scene: BallBearing) -> Float[Array, "2"]:
 def _held_load(
     grooves: Grooves, row: Row, form: Float[Array, " ball"] | None, outer: ElasticRing | None
 ) -> Float[Array, ""]:
-    """Estimates the load that the given displacements of the ring ask for, N.
+    """Estimate of the load that belongs to the prescribed displacements of the ring, N.
 
-    **Arguments:** `form`: see `out_of_round`; `outer`: the outer ring, if it bends.
+    **Arguments:** `form`: see `out_of_round`; `outer`: the outer ring if it is flexible.
     """
     places = grooves.of_ring + row.held_shift
     rest, _ = grooves.arcs.facing(places if form is None else places.at[1].add(form))
@@ -188,8 +194,12 @@ def _held_load(
 
 
 def with_films(scene: BallBearing, core: BallCore) -> BallCore:
-    """The bearing without friction whose balls are larger by the films of its mean load: a better first guess where the
-    unknowns are places. Films that fill the play press the balls between both rings by more than that load."""
+    """The bearing without friction, with balls enlarged by the film thicknesses: a better first guess if the unknowns
+    are the positions of the balls.
+
+    The films are those at the mean load of a ball plus the load by which the films alone press a ball between its
+    rings (`_pressed_load`), if they are thicker than the clearance.
+    """
     whole = core
     stop = lambda leaf: jax.lax.stop_gradient(leaf) if eqx.is_inexact_array(leaf) else leaf
     scene, core = jax.tree.map(stop, (scene, core))
@@ -208,11 +218,12 @@ def with_films(scene: BallBearing, core: BallCore) -> BallCore:
 
 
 def _pressed_load(grooves: Grooves, film: Callable[[Array], Array]) -> Float[Array, ""]:
-    r"""Load of the contacts of a ball by which films alone press it between the centred rings, N: the root of
-    $\sum_k[(Q/K_k)^{2/3} - h_k(Q)]/\cos a_k + P_d/2 = 0$ with the shim angles $a_k$ (0 of a ring with one arc); the
-    least load if the films leave play.
+    r"""Load of the contacts of a ball that is pressed between the centred rings by its films alone, N.
 
-    **Arguments:** `film`: from a load, N, to the films of both races, m.
+    It is the root of $\sum_k[(Q/K_k)^{2/3} - h_k(Q)]/\cos a_k + P_d/2 = 0$ with the shim angles $a_k$ (0 for a ring
+    with one arc) and the diametral clearance $P_d$; `LEAST_PRESSED` if the films do not fill the clearance.
+
+    **Arguments:** `film`: function from a load, N, to the films of both races, m.
     """
     ratios = [0.0 if apart is None else apart / grooves.offset[k] for k, apart in enumerate(grooves.arcs)]
     cosine = jnp.stack([jnp.sqrt(1.0 - jnp.square(jnp.asarray(ratio))) for ratio in ratios])
@@ -232,7 +243,10 @@ def _pressed_load(grooves: Grooves, film: Callable[[Array], Array]) -> Float[Arr
 def build_lubricated(
     scene: BallBearing, core: BallCore, guess: BallGuess | None = None
 ) -> LubricatedBallSystem | ArchedBallSystem:
-    """The lubricated bearing of the same balls as `core`, to start from the first guess of that or from a given one."""
+    """The equations of the lubricated bearing with the balls of `core`.
+
+    **Arguments:** `guess`: first guess; `None`: that of `core`.
+    """
     assert scene.contact is not None
     assert scene.oil is not None
     motion, angle, arcs = core.kinematics, core.grooves.free_angle, core.arcs
@@ -257,7 +271,7 @@ def build_lubricated(
     }
     if arcs.single:
         return LubricatedBallSystem(**parts)
-    # balls of the core may be larger (`with_films`); the oil of the races gets a row for each contact
+    # the balls of the core may be enlarged (`with_films`); the oil of the races gets a row for each contact
     of_rows = lambda leaf: leaf[np.asarray(arcs.races)] if jnp.ndim(leaf) == 2 else leaf
     parts |= {"grooves": ball_grooves(scene, core.grooves.expansion), "inlet": jax.tree.map(of_rows, inlet)}
     return ArchedBallSystem(**parts, spread=_spread(scene))
@@ -266,9 +280,10 @@ def build_lubricated(
 def _guesses(
     core: BallCore, slips: bool, guess_at: Callable[[BallCore, ArrowPoint], BallGuess | BallPlaces]
 ) -> dict[str, BallGuess | BallPlaces | Array]:
-    """Makes the fields that say where the iteration starts.
+    """Fields of the first guess: `guess` and, for balls that do not slide, `heavy_guess` under the easiest load and
+    `heavier`, the ratio of this load to the load on the ring.
 
-    Balls that do not slide also get how much heavier the easiest load is, and the start under that."""
+    **Arguments:** `slips`: whether the balls slide; `guess_at`: function from the core and its unknowns to a guess."""
     guess, heavy = core.guesses()
     if slips:
         return {"guess": guess_at(core, guess)}
@@ -296,7 +311,7 @@ def _guess(core: BallCore, point: ArrowPoint) -> BallGuess:
     control = jax.nn.sigmoid(CONTROL_AT_EQUAL_LOADS + CONTROL_BY_LOAD * (log_load[1] - log_load[0]))
     low, high = core.kinematics.outer_control(outer), core.kinematics.inner_control(inner)
     ring = point.globals[: core.ring_unknowns] * LENGTH_UNIT
-    # a ball beyond the centre of its inner groove: in a film thicker than the groove's radius, on the near side
+    # a ball beyond the centre of its inner groove, in a film thicker than the groove's radius, is put on the near side
     inner = jnp.where(jnp.abs(inner) > 0.5 * jnp.pi, inner - jnp.pi * jnp.sign(inner), inner)
     guess = BallGuess(log_load[0], inner, high + control * (low - high), ring)
     return jax.lax.stop_gradient(jax.tree.map(lambda leaf: jnp.where(jnp.isfinite(leaf), leaf, 0.0), guess))

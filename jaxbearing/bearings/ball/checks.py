@@ -1,4 +1,4 @@
-"""Range checks of ball bearings, beside those of all bearings."""
+"""Range checks of ball bearings, in addition to those of all bearings."""
 
 import jax.numpy as jnp
 import numpy as np
@@ -14,7 +14,7 @@ def _angles(result: SolvedBearing) -> Excess:
     def leaning(contacts: Contacts) -> Excess:
         if contacts.angle is None:
             return {}
-        # each arc of the model is a full circle
+        # in the model the cross-section of each arc is a full circle
         text = "a loaded ball touches the groove of {place} beyond 90°, where no groove is: it cannot run so"
         found = contacts.said(text, contacts.most(jnp.abs(contacts.angle)) - 0.5 * np.pi)
         if scene.geometry.has_arcs:
@@ -28,7 +28,7 @@ def _angles(result: SolvedBearing) -> Excess:
 
 
 def _cusps(scene: BallBearing, contacts: Contacts) -> Excess:
-    """Contacts of rings with two arcs that have left their arc, and balls with more than two contacts."""
+    """Range checks of rings with two arcs: contacts beyond the end of their arc, balls with more than two contacts."""
     geometry, arcs = scene.geometry, scene.geometry.arcs
     assert contacts.angle is not None
     radii = (geometry.conformity_inner * geometry.ball_diameter, geometry.conformity_outer * geometry.ball_diameter)
@@ -45,8 +45,8 @@ def _cusps(scene: BallBearing, contacts: Contacts) -> Excess:
 
 
 def missing_thrust(scene: BallBearing) -> Float[Array, ""]:
-    r"""$1.22F_r\tan\alpha - F_a$, N, of an angular contact bearing: positive where fewer than half of its balls are
-    loaded (Harris, *Rolling Bearing Analysis*)."""
+    r"""Axial load that an angular contact bearing lacks to have half of its balls loaded, $1.22F_r\tan\alpha - |F_a|$,
+    N; negative if it has more (Harris, *Rolling Bearing Analysis*)."""
     operation, geometry = scene.operation, scene.geometry
     axial = jnp.asarray(0.0 if operation.axial_load is None else operation.axial_load)
     return 1.22 * operation.radial_size * geometry.free_sine / geometry.free_cosine - jnp.abs(axial)

@@ -1,4 +1,4 @@
-"""Results at the contacts of a solved ball bearing: loads, angles, pressures, motion, and what range checks look at."""
+"""Results at the contacts of a solved ball bearing: loads, angles, pressures, motion, and input of the range checks."""
 
 from typing import Any
 
@@ -20,7 +20,7 @@ from .state import BallsState
 
 
 def _every(scene: BallBearing, values: Array) -> Float[Array, " ball"]:
-    """One value a ball, also where one ball was solved for all."""
+    """One value for each ball, even if one ball was solved for all."""
     return jnp.broadcast_to(values, (scene.geometry.n_balls,))
 
 
@@ -32,7 +32,9 @@ def ball_results(
     films: BallsState | None = None,
     **more: Array | None,
 ) -> tuple[BallResults, Contacts]:
-    """Loads, angles and motion; and the contacts for the checks, as far as geometry goes."""
+    """Loads, angles and motion of the balls, and the geometric part of the contacts for the range checks.
+
+    **Arguments:** `films`: state of the lubricated balls; `more`: further results, by the names of their fields."""
     geometry, kinematics = scene.geometry, system.kinematics
     load, angle, motion = state.load, state.angle, state.motion
     ellipse = contact.ellipse(load)
@@ -69,13 +71,14 @@ def ball_results(
 
 
 def _places(arcs: Arcs) -> tuple[str, ...]:
-    """Names of the contacts of a ball."""
+    """Names of the contacts of a ball, for messages."""
     names = {0: "{}", 1: "{} (flank for thrust along +x)", -1: "{} (flank for thrust along -x)"}
     return tuple(names[side].format(RACEWAYS[race]) for race, side in zip(arcs.races, arcs.sides, strict=True))
 
 
 def _second(arcs: Arcs, load: Array, angle: Array, pressure: Array, ratios: Array) -> dict[str, Array | None]:
-    """Results of the contacts on the flanks for thrust along -e_x, of rings that have them."""
+    """Results that only bearings with two groove arcs have: those of the flanks for thrust along -e_x, and the number
+    of loaded contacts."""
     if arcs.single:
         return {}
     spins = jnp.abs(ratios)
@@ -85,7 +88,7 @@ def _second(arcs: Arcs, load: Array, angle: Array, pressure: Array, ratios: Arra
 
 
 def _at_shoulders(scene: BallBearing, contacts: Contacts, arcs: Arcs, transverse: Array) -> Contacts:
-    """The contacts, with how far they pass the shoulders that the scene gives."""
+    """The contacts, with the angle by which each ellipse passes the shoulder of its groove, if the scene gives one."""
     geometry = scene.geometry
     limits = (geometry.shoulder_angle_inner, geometry.shoulder_angle_outer)
     if limits == (None, None):
@@ -105,5 +108,5 @@ def _conformities(scene: BallBearing) -> tuple[Scalar, Scalar]:
 
 
 def contacts_at(scene: BallBearing, angle: Array, races: tuple[int, ...]) -> PointContact:
-    """The contacts at contact angles, rad. **Arguments:** `races`: of each contact, 0 inner."""
+    """The contacts at given contact angles, rad. **Arguments:** `races`: race of each contact, 0 inner, 1 outer."""
     return scene.geometry.contacts_on(jnp.cos(angle), races, scene.materials.race_modulus)

@@ -1,20 +1,23 @@
 r"""Loads and contact angles of a ball bearing without friction: the block-arrow core of every ball bearing model.
 
-Unknown per ball: its centre (V axial, W radial) from the centre of the outer groove; globally: the displacement of the
-inner ring. With $A = (A_1, A_2)$ the centre of the inner groove at the ball's azimuth,
+The unknowns of each ball are the position of its centre from the centre of the outer groove (V axial, W radial); the
+global unknowns are the displacements of the inner ring. With the centre $A = (A_1, A_2)$ of the inner groove at the
+azimuth of the ball,
 
-- $l_o = |(V, W)|$, $l_i = |A - (V, W)|$, $\delta_k = l_k - g_k + h_k$, $Q_k = K_k\delta_{k+}^{3/2}$ (source eqs.
-  (23)-(26); a film h stores approach like extra metal, and then $Q_k$ is the root of its own equation);
+- contacts: $l_o = |(V, W)|$, $l_i = |A - (V, W)|$, $\delta_k = l_k - g_k + h_k$, $Q_k = K_k\delta_{k+}^{3/2}$ (source
+  eqs. (23)-(26)); a film of thickness h adds to the approach as if the ball were larger, and $Q_k$ is then the root of
+  this equation, because h depends on $Q_k$;
 - ball: $Q_o\sin\alpha_o - Q_i\sin\alpha_i - \sigma(T_i\cos\alpha_i - T_o\cos\alpha_o) = 0$ and
   $Q_o\cos\alpha_o - Q_i\cos\alpha_i + \sigma(T_i\sin\alpha_i - T_o\sin\alpha_o) = F_C$ (eqs. (14)-(15));
 - ring: $\sum p_x = F_a$, $\sum p_r\cos\psi = F_r$, $\sum(R_ip_x - \sigma T_if_iD)\cos\psi = M$ (eqs. (21)-(22)), with
   $p_x = Q_i\sin\alpha_i + \sigma T_i\cos\alpha_i$ and $p_r = Q_i\cos\alpha_i - \sigma T_i\sin\alpha_i$.
 
-$F_C = \frac12md_m\omega_m^2$, with the orbital speed of rolling without sliding at the ball's own angles and attitude;
-or, with `common_orbit`, with one $\omega_m$ for all balls (the source's, of its cage), one more unknown: the mean of
-their own, weighted by the inner loads, $\sum Q_{ij}(\omega_{mj} - \omega_m) = 0$. Each ball keeps the spin of its own.
-Written as forces that grow with their displacement. For T = 0 and frozen $F_C$ they are the gradient of one convex
-potential (`start` descends it).
+The centrifugal force is $F_C = \frac12md_m\omega_m^2$. Its orbital speed $\omega_m$ is that of rolling without sliding
+at the angles and the attitude of the ball. With `common_orbit`, all balls have one $\omega_m$ (in the source that of
+the cage), which is one more unknown: the mean of their own speeds, weighted by the inner loads,
+$\sum Q_{ij}(\omega_{mj} - \omega_m) = 0$. The spin of each ball remains that of its own rolling. The equations are
+written as forces that grow with their displacement. For T = 0 and constant $F_C$ they are the gradient of a convex
+potential, which `start` minimises.
 """
 
 import dataclasses
@@ -35,71 +38,78 @@ from .start import free_centres, ring_estimate, start
 from .system import AbstractBallSystem
 
 FORCE_FLOOR = 1e-3
-"""Added to the centrifugal force, N: a ball that nothing loads stays in its outer groove (load error 1e-3 N)."""
+"""Force added to the centrifugal force, N. It keeps unloaded balls in the outer groove (load error 1e-3 N)."""
 FLOOR_SHARE = 1e-4
-"""Part of a ball's share of the load that the addition does not exceed: balls at rest would roll down the outer groove
-under it, and move the ring along its axis by 20 um where it carries 0.01 N."""
+"""Largest added force over the mean load of a ball. A larger force would make balls at rest roll down the outer groove,
+and move a ring that carries 0.01 N by 20 um along its axis."""
 CENTRIFUGAL_SHARE = 1e-3
-"""Part of the centrifugal force that the addition may have besides: balls that turn are pressed outwards anyhow."""
+"""Part of the centrifugal force by which the added force may be larger: it presses the balls outwards anyway."""
 
 ESTIMATES = 3
-"""Passes between centrifugal forces and contact angles in the first guess."""
+"""Fixed-point passes between centrifugal forces and contact angles in the first guess."""
 
 EASY_LOAD = 1e5
-"""Load of a ball over the square of its diameter, Pa: so loaded, its contacts are stiffer than their films."""
+"""Load of a ball over the square of its diameter in the easiest system, Pa. Under this load the contacts are stiffer
+than their films."""
 
 STEEPEST = 1.4
-"""Contact angle, rad, up to which the direction of the inner groove gives the speed of a ball that does not touch it:
-the rolling that it stands for has a pole near 90 degrees."""
+"""Largest contact angle, rad, assumed for the speed of a ball that does not touch the inner groove: the speed of
+rolling without sliding has a pole near 90 degrees."""
 
 
 PRESSED_ROUNDING = 10.0
-"""This is `AbstractArrowSystem.rounding`: a clearance of -2 um holds balls of 30 mm by 100 N beside a load of 1 N."""
+"""Value of `AbstractArrowSystem.rounding` for rings with two arcs. A clearance of -2 um, for example, presses balls of
+30 mm with 100 N, while the load on the ring is 1 N."""
 
 ORBIT_FLOOR = 1.0
-"""Added to the scale of orbital speeds, rad/s, in squares: a bearing at rest has none."""
+"""Floor of the scale of orbital speeds, rad/s, added as a square: without it the scale is 0 for a bearing at rest."""
 
 
 def orbit_totals(load: Array, own: Array, common: Array) -> Float[Array, "2 ball"]:
-    """Contributions of each ball to the two sums of `orbit_row`; inner `load`, N, its `own` and the `common` orbital
-    speed, rad/s. `FORCE_FLOOR` is added to the weights: their sum is not 0."""
+    """Contributions of each ball to the two sums of `orbit_row`: its weighted speed difference and its weight.
+
+    **Arguments:** `load`: inner load, N; `own`, `common`: orbital speed of the ball's own rolling and that of all
+    balls, rad/s. `FORCE_FLOOR` is added to the weights, so that their sum is not 0."""
     weight = load + FORCE_FLOOR
     return jnp.stack([weight * (common - own), weight])
 
 
 def orbit_row(totals: Float[Array, "2"], unit: Array) -> Array:
-    """Common orbital speed minus the weighted mean of the balls' own, scaled."""
+    """Scaled difference between the common orbital speed and the weighted mean of the balls' own speeds.
+
+    **Arguments:** `totals`: sums over the balls of `orbit_totals`; `unit`: scale of orbital speeds, rad/s."""
     return totals[0] / (totals[1] * unit)
 
 
 class BallState(NamedTuple):
-    """Everything that happens at the balls for given unknowns; loads and angles have an axis of contacts
-    (`arcs`) first: inner, outer of rings with one arc each."""
+    """State of the balls for given unknowns. The first axis of loads and angles is that of the contacts (`arcs`):
+    inner, outer if each ring has one arc."""
 
     load: Float[Array, "contact ball"]
     angle: Float[Array, "contact ball"]
-    """Contact angles on the races: of the inner one against the tilted ring."""
+    """Contact angles, rad; that at the inner race is relative to the tilted ring."""
     direction: Float[Array, "contact ball"]
-    """Direction of the normal forces on the ball, from the radius towards the axis, in the fixed frame, rad."""
+    """Angle of the contact normals from the outward radius towards the axis $+e_x$, in the fixed frame, rad."""
     centre: Float[Array, "2 ball"]
     """Centre of the ball, from the outer groove centre, m."""
     motion: BallMotion
     own_orbit: Float[Array, " ball"]
-    """Orbital speed of rolling without sliding at the ball's own angles, rad/s; `motion` may have the common one."""
+    """Orbital speed of rolling without sliding at the ball's own angles, rad/s. With `common_orbit` it differs from
+    that of `motion`."""
     balance: Float[Array, "2 ball"]
-    """Left side minus right side of the ball's two force balances, N."""
+    """Left side minus right side of the axial and the radial force balance of the ball, N."""
     on_ring: Float[Array, "row ball"]
-    """Contributions of each ball to the forces on the ring's degrees of freedom, N: of p_x, p_r, the force along the
-    orbit where the ring may tilt, and the moment about the tangent of the circle of groove centres; then the radial
-    forces on flexible rings."""
+    """Contributions of each ball to the forces on the degrees of freedom of the ring, N, then the radial forces on
+    flexible rings. The former come from p_x, p_r, the moment about the tangent of the circle of groove centres and, if
+    the ring may tilt, the force along the orbit."""
 
 
 class BallCore(AbstractBallSystem):
-    """Balls that roll without sliding, with the attitude of outer or inner race control; or that slide as little as
-    their contacts allow (`linear_slip`).
+    """Balls that roll without sliding, under outer or inner race control, or that slide as little as their contacts
+    allow (`linear_slip`).
 
-    Its iteration begins at `guess`, and in an easier system (`parameter` > 0 of `homotopy`) at `heavy_guess`
-    (`started`); where these are `None`, at estimates by formulas.
+    The iteration starts at `guess`, and that of an easier system (`parameter` > 0, see `homotopy`) at `heavy_guess`.
+    Both come from `started`; if they are `None`, it starts at estimates by formulas.
     """
 
     guess: ArrowPoint | None = None
@@ -107,19 +117,19 @@ class BallCore(AbstractBallSystem):
     parameter: Float[Array, ""] | None = None
     common_orbit: bool = eqx.field(static=True, default=False)
     spread: Float[Array, "2"] | None = None
-    """Weights of `linear_slip`; `None` under race control."""
+    """Size of the contact ellipses as in `linear_slip`, m^2/N^(2/3); `None` under race control."""
     floor: Float[Array, ""] | None = None
-    """Added to the centrifugal force, N: `FORCE_FLOOR`, or less under small loads (`FLOOR_SHARE`); `None`: the
-    former."""
+    """Force added to the centrifugal force, N: `FORCE_FLOOR`, or less under small loads (see `with_floor`); `None`:
+    `FORCE_FLOOR`."""
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
     def load_scale(self) -> Array:
-        """Scale of the ring's balances, N."""
+        """Scale of the force balances of the ring, N."""
         return jnp.sqrt(jnp.square(self.ring.size()) + (self.ball_count * FORCE_FLOOR) ** 2)
 
     def ball_scale(self) -> Array:
-        """Scale of a ball's balances, N."""
+        """Scale of the force balances of a ball, N."""
         angle = self.grooves.free_angle
         free = self.kinematics.rolling(angle, angle, angle)
         return self.load_scale() / self.ball_count + self.outward_force(free)
@@ -154,14 +164,15 @@ class BallCore(AbstractBallSystem):
 
     @property
     def heavier(self) -> Array:
-        """The ratio of the easiest load to the load on the ring: centrifugal forces and films are small beside it."""
+        """Ratio of the easiest load to the load on the ring. Centrifugal forces and film effects are small compared
+        with the easiest load."""
         angle = self.grooves.free_angle
         force = self.outward_force(self.kinematics.rolling(angle, angle, angle))
         force = force + EASY_LOAD * jnp.square(self.kinematics.ball_diameter)
         return 1.0 + self.ball_count * force / self.load_scale()
 
     def guesses(self) -> tuple[ArrowPoint, ArrowPoint]:
-        """Gives the points where the iteration starts under the load on the ring, and under the easiest one."""
+        """Initial guesses of the unknowns under the load on the ring and under the easiest load."""
         if self.guess is not None and self.heavy_guess is not None:
             return self.guess, self.heavy_guess
         _, centres, rings = self._estimates()
@@ -174,7 +185,8 @@ class BallCore(AbstractBallSystem):
         return ArrowPoint(*(jnp.where(self.parameter == 0.0, x, y) for x, y in zip(guess, heavy, strict=True)))
 
     def started(self) -> tuple["BallCore", Int[Array, ""]]:
-        """These equations with the minimum of the convex problem as first guess, and the Newton steps to that."""
+        """These equations with the minimum of the convex problem as first guess, and the number of Newton steps of
+        that minimisation."""
         problem, centres, rings = self._estimates()
         found = start(problem, rings[0])
         guess, heavy = self._points(centres.at[0].set(found.centre), rings.at[0].set(found.ring))
@@ -183,7 +195,8 @@ class BallCore(AbstractBallSystem):
     def _points(
         self, centres: Float[Array, "2 2 ball"], rings: Float[Array, "2 coordinate"]
     ) -> tuple[ArrowPoint, ArrowPoint]:
-        """Unknowns at ball centres and displacements of the rings, m, under the load and under the easiest one."""
+        """Unknowns from ball centres and displacements of the rings, m, under the load on the ring and under the
+        easiest load (the first axis of both arguments)."""
         points = jax.lax.stop_gradient(jax.vmap(self._point)(centres, rings))
         own, easiest = (jax.tree.map(lambda leaf, i=i: leaf[i], points) for i in (0, 1))
         return own, easiest
@@ -198,8 +211,8 @@ class BallCore(AbstractBallSystem):
         return ArrowPoint(elements, at_rest.at[-1].set(-orbit_row(jnp.sum(away, axis=1), self.orbit_unit)))
 
     def _estimates(self) -> tuple[CentrifugalProblem, Float[Array, "2 2 ball"], Float[Array, "2 coordinate"]]:
-        """The convex problem at the centrifugal forces of the estimated contact angles, and estimates of ball centres
-        and displacements of the rings under the load and under the easiest one; not differentiated."""
+        """The convex problem with the centrifugal forces of the estimated contact angles, and estimates of ball centres
+        and displacements of the rings, m, under the load on the ring and under the easiest load. Not differentiated."""
         core = jax.lax.stop_gradient(self)
         free = jnp.broadcast_to(core.grooves.free_angle, (2, core.azimuth.shape[0]))
         first = core._frozen(free)
@@ -224,28 +237,28 @@ class BallCore(AbstractBallSystem):
         return dataclasses.replace(first, centrifugal=forces[0]), centres, rings
 
     def own_and_easiest(self) -> tuple[Float[Array, "2 freedom"], ElasticRing | None]:
-        """The load on the inner ring and the outer one if it bends: under their own loads and under the easiest ones,
-        along a first axis."""
+        """Load on the inner ring, N, and the outer ring with its loads if it is flexible. Both are stacked along a
+        first axis: own load, easiest load."""
         ring, outer = self.rings_under(self.heavier)
         return jax.tree.map(lambda a, b: jnp.stack([a, b]), (self.ring.load, self.outer), (ring.load, outer))
 
     def _loaded_side(self, groove: Array, centre: Array) -> tuple[Array, Array]:
-        """Arms of the contacts on the side towards which the inner ring has moved: from the ball centre to the inner
-        arc, and from the outer arc to the ball centre, m."""
+        """Vectors from the ball centre to the centre of the inner arc, and from the centre of the outer arc to the ball
+        centre, m; both arcs are those on the side towards which the inner ring has moved axially."""
         pair, side = self.arcs.facing(groove)
         if self.arcs.outer is not None and side is not None:
             centre = centre.at[0].add(side * self.arcs.outer)
         return pair - centre, centre
 
     def at_free_angle(self) -> CentrifugalProblem:
-        """The convex problem at the centrifugal forces of the contact angle of the unloaded bearing. They have no
-        `FORCE_FLOOR`: balls at rest that nothing presses carry nothing."""
+        """The convex problem with the centrifugal forces at the contact angle of the unloaded bearing. `FORCE_FLOOR`
+        is not added, so unloaded balls at rest have exactly zero load."""
         angle = jnp.broadcast_to(self.grooves.free_angle, (2, self.azimuth.shape[0]))
         centrifugal = self.centrifugal(self.motion(angle).orbital_speed)
         return dataclasses.replace(self._frozen(angle), centrifugal=centrifugal)
 
     def _frozen(self, angle: Float[Array, "2 ball"]) -> CentrifugalProblem:
-        """The convex problem at the centrifugal forces of given contact angles."""
+        """The convex problem with the centrifugal forces at given contact angles, rad."""
         return CentrifugalProblem(
             offset=self.grooves.offset,
             stiffness=self.grooves.stiffness,
@@ -265,8 +278,8 @@ class BallCore(AbstractBallSystem):
         )
 
     def _directions_of_rings(self) -> Float[Array, "coordinate p ball"]:
-        """Change of the coordinates of the inner groove, seen from the outer one, for a unit of each freedom of the
-        inner ring and of each amplitude of flexible rings, m."""
+        """Derivatives of the coordinates of the inner groove relative to the outer groove by each freedom of the inner
+        ring and by each amplitude of flexible rings."""
         if not self.bent:
             return self.directions
         p, count = self.arcs.coordinates, self.azimuth.shape[0]
@@ -274,7 +287,8 @@ class BallCore(AbstractBallSystem):
         return jnp.concatenate([self.directions, bent])
 
     def _groove_at_rest(self) -> Float[Array, "p ball"]:
-        """Coordinates of the inner groove of the ring without displacement, at its misalignment, m."""
+        """Coordinates of the inner groove if the unknown displacements of the ring are 0 and the prescribed ones (a
+        misalignment, for example) have their values, m."""
         shift = jnp.zeros((len(self.freedoms), self.azimuth.shape[0]))
         if not self.exact:
             places = self.groove_centres(shift)
@@ -293,8 +307,8 @@ class BallCore(AbstractBallSystem):
 
     @property
     def rounding(self) -> float:
-        """Balls pressed between four contacts carry much more than the load on the ring, in which residuals are
-        scaled: round-off of the distances leaves a few tolerances."""
+        """Balls pressed between four contacts can carry much more than the load on the ring, by which residuals are
+        scaled. The round-off of the distances then amounts to a few tolerances."""
         return 1.0 if self.arcs.single else PRESSED_ROUNDING
 
     @property
@@ -302,7 +316,8 @@ class BallCore(AbstractBallSystem):
         return 1 if self.gyroscopic is None else 2
 
     def homotopy(self, parameter, path):
-        """More load: the inner contacts of a fast, lightly loaded bearing are nearly lost; or less of the couple."""
+        """The first path of easier systems has a larger load on the ring, because the inner contacts of a fast, lightly
+        loaded bearing are nearly lost. The second path, if there is a gyroscopic couple, has a smaller couple."""
         ratio = self.heavier
         guess, heavy = self.guesses()
         share = self.couple_share
@@ -331,7 +346,7 @@ class BallCore(AbstractBallSystem):
         return local, totals, jnp.zeros(())
 
     def seen(self, unknowns: Float[Array, "2 ball"], shared: Float[Array, "g ball"]) -> tuple[Array, Array, BallState]:
-        """Local residuals and contributions to the totals, as `element` gives them, and the state that they are of."""
+        """Local residuals and contributions to the totals as in `element`, and the state of the balls."""
         state = self.balls(unknowns, shared)
         totals = state.on_ring
         if self.common_orbit:
@@ -348,11 +363,11 @@ class BallCore(AbstractBallSystem):
     # -- physics --------------------------------------------------------------------------------------------------
 
     def outward_force(self, motion: BallMotion) -> Array:
-        """Centrifugal force with its `floor`, N."""
+        """Centrifugal force plus the added force `floor`, N."""
         return self.centrifugal(motion.orbital_speed) + (FORCE_FLOOR if self.floor is None else self.floor)
 
     def with_floor(self) -> "BallCore":
-        """These equations with the addition to the centrifugal force for the load on the ring."""
+        """These equations with the `floor` that fits the load on the ring and the centrifugal force."""
         share = FLOOR_SHARE * self.load_scale() / self.ball_count
         turning = CENTRIFUGAL_SHARE * self.centrifugal(self.free_orbit())
         return dataclasses.replace(self, floor=jnp.minimum(FORCE_FLOOR, share + turning))
@@ -381,25 +396,26 @@ class BallCore(AbstractBallSystem):
         )
 
     def loads(self, apart: Float[Array, "contact ball"]) -> Float[Array, "contact ball"]:
-        """Hertz loads from the distances of the centres, N; 0 and without slope where a contact is open."""
+        """Hertz loads, N, from the distances between ball and groove centres, m. Load and derivative are 0 where a
+        contact is open."""
         approach = apart - self.arcs.of_contacts(self.grooves.offset)[:, None]
         closed = approach > 0
         power = jnp.where(closed, approach, 0.0) * jnp.sqrt(jnp.where(closed, approach, 1.0))
         return self.arcs.of_contacts(self.grooves.stiffness)[:, None] * power
 
     def rolling(self, angle: Float[Array, "contact ball"], load: Float[Array, "contact ball"]) -> BallMotion:
-        """The motion at contact angles, rad, under loads, N."""
+        """Motion of the balls at given contact angles, rad, and loads, N."""
         if self.spread is None:
             return self.motion(angle, load[0] > 0)
         weight = slip_weights(load, self.arcs, FORCE_FLOOR)
         return linear_slip(self.kinematics, angle, weight, self.spread, self.arcs.races)
 
     def motion(self, angle: Float[Array, "2 ball"], touching: Bool[Array, " ball"] | None = None) -> BallMotion:
-        """Rolling of two contacts without sliding, with the attitude of the controlling race. Of `linear_slip`, for
-        which it only makes estimates, that is the outer one.
+        """Motion of balls with two contacts that roll without sliding, with the attitude of the controlling race. With
+        `linear_slip`, where this motion is only an estimate, the outer race controls.
 
-        Of a ball that does not touch the inner race (not `touching`) the direction of the inner groove's centre stands
-        for the contact angle, up to `STEEPEST`.
+        A ball that does not touch the inner race (not `touching`) is assigned the direction of the inner groove centre,
+        limited to `STEEPEST`, as contact angle.
         """
         inner, outer = angle
         rolls = jnp.abs(inner) <= STEEPEST

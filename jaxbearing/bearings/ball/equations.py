@@ -12,8 +12,8 @@ Unknowns of each ball:
   orbit (`transverse`) and the transverse friction at the inner race (`carried`);
 - without a cage the orbital speed, with one the radial friction of the pocket.
 
-Global unknowns: the displacements of the ring; with a cage its speed, with which all balls orbit; without traction, on
-request, one orbital speed for all balls.
+Global unknowns: the displacements of the ring; with a cage, the speed of the cage, which is the orbital speed of all
+balls; without traction, on request, one orbital speed for all balls.
 
 The modules `pairs` and `arched` contain the contacts without traction and the two equations that belong to the two
 contact unknowns. The module `friction` contains the friction on the balls and the equations of their motion.

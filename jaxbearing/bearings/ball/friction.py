@@ -1,28 +1,32 @@
 r"""Friction on lubricated balls: traction, rolling resistance, drag and pockets, and the equations of a ball's motion.
 
-Forces on the ball, $F_{tk}$ along $e_t$, moments $M_{sk}$ about $n_k$, $M_{rk}$ against the relative roll; in terms
-of the traction law $F_{tk} = -sF_x(s\,u_t, s\,u_b, \omega_s)$, s = 1 inside, -1 outside. Equations (source eqs.
-(16)-(17) and the moment about the radius, which the source replaces by a hypothesis on beta):
+On the ball act, at race k, the force $F_{tk}$ along $e_t$, the moment $M_{sk}$ about $n_k$ and the moment $M_{rk}$
+against the relative roll. The traction law gives $F_{tk} = -sF_x(s\,u_t, s\,u_b, \omega_s)$ with s = 1 at the inner and
+-1 at the outer race. The equations are source eqs. (16)-(17) and the moment about the radius, which the source replaces
+by a hypothesis on beta:
 
-- about the axis: $F_{to}\cos\alpha_o - F_{ti}\cos\alpha_i + \frac2D(M_{so}\sin\alpha_o - M_{si}\sin\alpha_i
+- moment about the axis: $F_{to}\cos\alpha_o - F_{ti}\cos\alpha_i + \frac2D(M_{so}\sin\alpha_o - M_{si}\sin\alpha_i
   + M_{ro}\cos\alpha_o + M_{ri}\cos\alpha_i) + F_{C1} + F_{C2} = 0$;
-- about the radius: $-F_{to}\sin\alpha_o + F_{ti}\sin\alpha_i + \frac2D(M_{so}\cos\alpha_o - M_{si}\cos\alpha_i
+- moment about the radius: $-F_{to}\sin\alpha_o + F_{ti}\sin\alpha_i + \frac2D(M_{so}\cos\alpha_o - M_{si}\cos\alpha_i
   - M_{ro}\sin\alpha_o - M_{ri}\sin\alpha_i) - F_{C1x} - F_{C2x} + \frac2DJ\omega_m\omega_t = 0$;
-- about the tangent (resolved couple): $F_{bo} + F_{bi} + \frac2DsJ\omega_m\omega_R\sin\beta = 0$;
-- along the tangent: $F_{to} + F_{ti} - F_{ol} = Q_{C1} - Q_{C2}$, solved by the pocket films in closed form, or,
-  without a cage, an equation for the orbital speed.
+- moment about the tangent (resolved couple): $F_{bo} + F_{bi} + \frac2DsJ\omega_m\omega_R\sin\beta = 0$;
+- force along the tangent: $F_{to} + F_{ti} - F_{ol} = Q_{C1} - Q_{C2}$. With a cage the pocket films solve it in closed
+  form; without a cage it is the equation for the orbital speed.
 
-Heathcote slip (`PointLaws.heathcote`). Ball and race meet in a surface that bends around the ball across rolling, by
-$z = -y^2/(2R_k)$ along $n_k$, $1/R_k$ the mean of the curvatures $2/D$ and $1/(f_kD)$. The relative roll
-$\omega_{rk}$ about $b_k$ adds $\omega_{rk}z\,b_k\times n_k = \omega_{rk}z\,e_t$ to the sliding: along $e_t$ it is
-$u_t - \omega_sy - \omega_ry^2/(2R_k)$. The traction law's x is $s\,e_t$ and its y is $s\,b_k$: its sliding along x is s
-times that, and lacks $c\,y^2$ with $c = s\,\omega_{rk}/(2R_k)$ at both races; c > 0 in normal running, where
-$s\,\omega_{rk} > 0$. The stress $\tau_x$ on the race acts on the ball as $-s\tau_xe_t$ at $z\,n_k$ from the contact's
-centre: the moment $z(-s\tau_x)\,n_k\times e_t = s\tau_xy^2/(2R_k)\,b_k$ on the ball. A rolling resistance $M_{rk}$ is
-$-sM_{rk}b_k$ on the ball, hence slip by curvature is one more, $M_{ck} = -\int\tau_xy^2dA/(2R_k)$, in the same places:
-the moments about axis and radius, the torques on the rings, and the power, $sM_{ck}\omega_{rk} = -c\int\tau_xy^2dA$,
-which is what $\int\tau\cdot\Delta u\,dA$ has beside sliding of the centre and spin. The least spin power of
-`"min_power"` stays that of flat patches, as the source has it.
+Heathcote slip (`PointLaws.heathcote`). Ball and race meet in a surface that is curved across rolling, around the ball:
+it deviates from the plane by $z = -y^2/(2R_k)$ along $n_k$, where $1/R_k$ is the mean of the curvatures $2/D$ and
+$1/(f_kD)$. The relative roll $\omega_{rk}$ about $b_k$ therefore adds
+$\omega_{rk}z\,b_k\times n_k = \omega_{rk}z\,e_t$ to the sliding, which along $e_t$ becomes
+$u_t - \omega_sy - \omega_ry^2/(2R_k)$. The axes of the traction law are x = $s\,e_t$ and y = $s\,b_k$. In these axes
+the curvature reduces the sliding along x by $c\,y^2$, with $c = s\,\omega_{rk}/(2R_k)$ at both races; c > 0 in normal
+running, where $s\,\omega_{rk} > 0$. The stress $\tau_x$ on the race acts on the ball as $-s\tau_xe_t$, at the distance
+$z\,n_k$ from the centre of the contact, and gives the moment
+$z(-s\tau_x)\,n_k\times e_t = s\tau_xy^2/(2R_k)\,b_k$ on the ball. A rolling resistance $M_{rk}$ acts on the ball as
+$-sM_{rk}b_k$. Heathcote slip is therefore a further rolling resistance, $M_{ck} = -\int\tau_xy^2dA/(2R_k)$, which
+enters the same equations: the moments about axis and radius, the torques on the rings, and the power
+$sM_{ck}\omega_{rk} = -c\int\tau_xy^2dA$. This power is the part of $\int\tau\cdot\Delta u\,dA$ that belongs neither to
+the sliding at the centre nor to the spin. The spin power that `"min_power"` minimises is that of flat contacts, as in
+the source.
 """
 
 import jax
@@ -40,13 +44,13 @@ from .lubricated import AbstractLubricatedBallSystem
 from .state import BallsState, RaceState
 
 FADING_LOAD = 1e-3
-"""Load of a contact at which its traction fades where balls have more than two, N."""
+"""Load below which the traction of a contact fades out, N, for balls with more than two contacts."""
 PART_TOLERANCE = 1e-12
-"""Tolerance of the attitude of least spin power, as a part of the way from outer to inner control."""
+"""Tolerance of the attitude of least spin power, over the difference between outer and inner control."""
 
 
 def with_traction(system: AbstractLubricatedBallSystem, state: BallsState) -> BallsState:
-    """The state with all friction on the balls, and the equations of their motion."""
+    """The state with all friction on the balls and with the residuals of their equations of motion."""
     motion = state.motion
     shear, rolling, curvature = race_friction(system, state)
     forward, about = jnp.asarray(-system.arcs.senses * shear.rolling), -shear.moment
@@ -79,8 +83,8 @@ def with_traction(system: AbstractLubricatedBallSystem, state: BallsState) -> Ba
 def race_friction(
     system: AbstractLubricatedBallSystem, state: BallsState | RaceState
 ) -> tuple[Traction, Array | None, Array | None]:
-    """Traction of all contacts; moments against the roll by the film's pressure and by Heathcote slip, N m;
-    `None`: not modelled."""
+    """Traction of all contacts, and the moments against the roll by the pressure in the film and by Heathcote slip,
+    N m (`None`: not modelled)."""
     races = state.races
     bend = 0.5 / _patch_radius(system) if system.laws.heathcote else None
     sliding = _sliding(system, state, bend)
@@ -96,7 +100,8 @@ def race_friction(
 def _fading(shear: Traction, load: Float[Array, "contact ball"]) -> Traction:
     r"""Traction times $Q/\sqrt{Q^2 + Q_\epsilon^2}$.
 
-    The patch of a contact levels off near load 0, and an open one would pull at its ball."""
+    The size of the contact ellipse is smoothed near load 0, so that without this factor an open contact would have
+    traction."""
     share = load / smooth_abs(load, FADING_LOAD)
     more = {} if shear.curvature is None else {"curvature": share * shear.curvature}
     names = ("rolling", "transverse", "moment", "power")
@@ -104,8 +109,8 @@ def _fading(shear: Traction, load: Float[Array, "contact ball"]) -> Traction:
 
 
 def _sliding(system: AbstractLubricatedBallSystem, state: BallsState | RaceState, bend: Array | None = None) -> Sliding:
-    """Speed of the ball over both races, in the axes of the traction law. **Arguments:** `bend`: half the curvature of
-    the surface in which they meet, 1/m, where it counts."""
+    """Sliding speeds of the ball on both races, in the axes of the traction law. **Arguments:** `bend`: half the
+    curvature of the contact surface, 1/m; `None`: flat contacts."""
     races, slide = state.races, system.slide_share * system.arcs.senses
     transverse = slide * races.transverse if system.resolved else None
     curved = None if bend is None else bend * slide * races.roll
@@ -113,7 +118,8 @@ def _sliding(system: AbstractLubricatedBallSystem, state: BallsState | RaceState
 
 
 def mixed_state(system: AbstractLubricatedBallSystem, state: BallsState) -> MixedState | None:
-    """Mixed friction of all contacts, forces of the races on the balls along the orbit; `None`: not modelled."""
+    """Mixed friction of all contacts; its forces are those of the races on the balls along the orbit. `None`: not
+    modelled."""
     shear = state.traction
     assert shear is not None
     sliding, speed = _sliding(system, state), state.races.mean_speed
@@ -128,10 +134,10 @@ def _moments(
     about: Array,
     resistances: tuple[Array | None, ...],
 ) -> tuple[Array, Array]:
-    """Moments on each ball about the bearing's axis and about the radius, over half of the ball's diameter, N.
+    """Moments on each ball about the bearing axis and about the radius, divided by the ball radius, N.
 
-    **Arguments:** on the ball at each contact: `forward`, force along the orbit, N; `about`, moment about the normal,
-    and `resistances`, moments against the roll, N m.
+    **Arguments:** loads on the ball at each contact: `forward`: force along the orbit, N; `about`: moment about the
+    normal, N m; `resistances`: moments against the roll, N m.
     """
     sine, cosine, arm = jnp.sin(angle), jnp.cos(angle), 2.0 / system.kinematics.ball_diameter
     by_race = system.arcs.by_race
@@ -149,13 +155,13 @@ def _moments(
 
 
 def _on_cage(system: AbstractLubricatedBallSystem, pocket: BallPocketFilm) -> tuple[Array, Array]:
-    """Moment, N m, and force, N, of each ball on the cage, (along, across) the load line."""
+    """Moment, N m, and force, N, of each ball on the cage; components of the force: along and across the load line."""
     forward, outward = pocket.load_front - pocket.load_rear, pocket.friction_front - pocket.friction_rear
     moment = 0.5 * (system.kinematics.pitch_diameter * forward - system.kinematics.ball_diameter * pocket.friction)
     cosine, sine = jnp.cos(system.azimuth), jnp.sin(system.azimuth)
     # t = (-sin, cos), n = (cos, sin) in the plane of the bearing, the load along x
     force = jnp.stack([-forward * sine + outward * cosine, forward * cosine + outward * sine])
-    if system.multiplicity > 1:  # all balls alike: the pockets hold each other
+    if system.multiplicity > 1:  # all balls alike: the pocket forces balance each other
         force = jnp.zeros_like(force)
     return moment, force
 
@@ -167,7 +173,10 @@ def _rows(
     radius: Array,
     tangential: Array,
 ) -> tuple[Array, ...]:
-    """Residuals of the ball's motion, in the order of its unknowns; moments over half of its diameter, N."""
+    """Scaled residuals of the equations of motion of each ball, in the order of its unknowns.
+
+    **Arguments:** `axis`, `radius`: moments about axis and radius over the ball radius, N; `tangential`: sum of the
+    forces along the orbit, N."""
     scale, shear, pocket = system.friction_scale(), state.traction, state.pocket
     assert shear is not None
     rows = {
@@ -188,17 +197,17 @@ def _rows(
 
 
 def _patch_radius(system: AbstractLubricatedBallSystem) -> Float[Array, "contact 1"]:
-    """R_k = 2 f_k D/(2 f_k + 1): of the surface in which ball and race meet, across rolling, m."""
+    """Radius of curvature of each contact surface across rolling, R_k = 2 f_k D/(2 f_k + 1), m."""
     conformities = jnp.stack([jnp.asarray(system.geometry.conformity_inner), system.geometry.conformity_outer])
     radii = 2.0 * conformities * system.geometry.ball_diameter / (2.0 * conformities + 1.0)
     return system.arcs.of_contacts(radii)[:, None]
 
 
 def _least_power(system: AbstractLubricatedBallSystem, state: BallsState) -> Array:
-    """Attitude of the least spin power between those of outer and inner control, rad.
+    """Attitude between outer and inner control that gives the least spin power, rad.
 
-    The power is that of rolling without sliding at frozen loads, angles and films. Where it rises from one end on,
-    the attitude is that end's, and follows it.
+    The power is that of rolling without sliding at the current loads, angles and films. If the minimum is at outer or
+    inner control, the attitude is that of this control, with its derivatives.
     """
     inner, outer = state.angle
 

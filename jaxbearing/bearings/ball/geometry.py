@@ -1,4 +1,4 @@
-"""Geometry of a ball bearing: grooves, contact angle, centres of curvature."""
+"""Geometry of a ball bearing: grooves, contact angle, groove centres."""
 
 from collections.abc import Iterator, Sequence
 from typing import ClassVar
@@ -18,24 +18,27 @@ from ..parts import FIRST_ELEMENT, AbstractGeometry, check_row_fits
 from .arcs import Arcs, added
 
 LEAST_SHIM = 1.0
-"""Least shim angle of a ring with two arcs, degrees. With less, both contacts of a ring are one and count twice."""
+"""Smallest shim angle of a ring with two arcs, degrees. Below it the two contacts of a ring coincide and would be
+counted twice."""
 
 
 class BallGeometry(AbstractGeometry):
-    """Main dimensions of a single-row ball bearing; give the contact angle or the clearance, the other follows.
+    """Main dimensions of a single-row ball bearing. Either the contact angle or the clearance is given; the other
+    follows from it.
 
     **Arguments:**
     - `n_balls`: number of balls (structure: another number recompiles).
     - `pitch_diameter`, `ball_diameter`: m, > 0.
     - `conformity_inner`, `conformity_outer`: groove radius over ball diameter, > 0.5.
-    - `contact_angle`: of the unloaded bearing, rad, at least 0 and below pi/2.
+    - `contact_angle`: contact angle of the unloaded bearing, rad, at least 0 and below pi/2.
     - `diametral_clearance`: DIAMETRAL internal clearance of the unloaded bearing, m; negative: radial preload.
     - `shim_inner`, `shim_outer`: shim angle of a ring with two groove arcs, rad, at least 1 degree: the contact angle
-      of a ball that touches both arcs of the ring; not given: one arc. `contact_angle` is then that of two contacts,
-      and `diametral_clearance` that between all contacts.
+      of a ball that touches both arcs of the ring; not given: one arc. With a shim angle, `contact_angle` is that of
+      balls with two contacts, and `diametral_clearance` that of balls that lie in all arcs.
     - `shoulder_angle_inner`, `shoulder_angle_outer`: angle at which the groove ends, rad; not given: no check.
     - `first_element_angle`: azimuth of the first ball, rad; not given: 0, and the load line is a line of symmetry.
-    - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, for what knows its seats.
+    - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, used for fits, thermal networks and
+      flexible rings.
     """
 
     part: ClassVar[str] = "geometry"
@@ -109,50 +112,51 @@ class BallGeometry(AbstractGeometry):
 
     @property
     def centre_distance(self) -> Array:
-        """BD = (f_i + f_o - 1) D: of the groove centres, unloaded balls in contact, m."""
+        """Distance BD = (f_i + f_o - 1) D between the groove centres when unloaded balls touch both races, m."""
         return (self.conformity_inner + self.conformity_outer - 1.0) * jnp.asarray(self.ball_diameter)
 
     @property
     def inner_offset(self) -> Array:
-        """Groove centre to ball centre, inner groove, m."""
+        """Distance from the inner groove centre to the centre of a ball that touches the groove without load, m."""
         return (self.conformity_inner - 0.5) * jnp.asarray(self.ball_diameter)
 
     @property
     def outer_offset(self) -> Array:
-        """Groove centre to ball centre, outer groove, m."""
+        """Distance from the outer groove centre to the centre of a ball that touches the groove without load, m."""
         return (self.conformity_outer - 0.5) * jnp.asarray(self.ball_diameter)
 
     @property
     def has_arcs(self) -> bool:
-        """True if a ring has two groove arcs."""
+        """True if at least one ring has two groove arcs."""
         return self.shim_inner is not None or self.shim_outer is not None
 
     @property
     def arcs(self) -> Arcs:
-        r"""Distances $e = g\sin a$ of the circles of groove centres from the middle planes of their rings."""
+        r"""Distances $e = g\sin a$ of the circles of groove centres from the middle planes of their rings, m."""
         inner = None if self.shim_inner is None else self.inner_offset * jnp.sin(self.shim_inner)
         outer = None if self.shim_outer is None else self.outer_offset * jnp.sin(self.shim_outer)
         return Arcs(inner, outer)
 
     @property
     def lift(self) -> Array | None:
-        r"""See `Arcs.lift`, $\sum 2g\sin^2(a/2)$, m; `None` if each ring has one arc."""
+        r"""The radial distance of `Arcs.lift`, $\sum 2g\sin^2(a/2)$, m; `None` if each ring has one arc."""
         shims = ((self.inner_offset, self.shim_inner), (self.outer_offset, self.shim_outer))
         parts = [2.0 * g * jnp.square(jnp.sin(0.5 * a)) for g, a in shims if a is not None]
         return added(parts) if parts else None
 
     @property
     def free_clearance(self) -> Scalar | None:
-        """Diametral clearance from which the contact angle follows, m; `None`: the contact angle is given. Of rings
-        with two arcs it is that of a bearing with one arc each, whose circles of groove centres are as far apart."""
+        """Diametral clearance from which the contact angle follows, m; `None`: the contact angle is given. For rings
+        with two arcs it is the diametral clearance of the bearing with one arc on each ring that has the same radial
+        distance between its circles of groove centres."""
         if self.diametral_clearance is None or self.lift is None:
             return self.diametral_clearance
         return self.diametral_clearance + 2.0 * self.lift
 
     @property
     def free_cosine(self) -> Array:
-        """Cosine of the contact angle of the unloaded bearing; with radial preload the distance of the circles of
-        groove centres over `centre_distance`, above 1."""
+        """Cosine of the contact angle of the unloaded bearing. With radial preload it is the radial distance between
+        the circles of groove centres over `centre_distance`, and is above 1."""
         clearance = self.free_clearance
         if clearance is None:
             return jnp.cos(jnp.asarray(self.contact_angle))
@@ -160,7 +164,7 @@ class BallGeometry(AbstractGeometry):
 
     @property
     def free_sine(self) -> Array:
-        """Sine of that angle; without clearance it is 0 with derivative 0."""
+        """Sine of the contact angle of the unloaded bearing; without clearance it is 0, with derivative 0."""
         clearance = self.free_clearance
         if clearance is None:
             return jnp.sin(jnp.asarray(self.contact_angle))
@@ -170,19 +174,19 @@ class BallGeometry(AbstractGeometry):
 
     @property
     def nominal_angle(self) -> Scalar:
-        """Contact angle of the drawing, rad: the one that is given; of a ring with two arcs that of two contacts; 0 of
-        other bearings that are given by their clearance."""
+        """Nominal contact angle, rad: the given one; else, if a ring has two arcs, that of balls with two contacts;
+        else 0 (a bearing given by its clearance)."""
         if self.contact_angle is None and self.has_arcs:
             return jnp.arctan2(self.free_sine, self.free_cosine)
         return 0.0 if self.contact_angle is None else self.contact_angle
 
     @property
     def aligned(self) -> Array:
-        """Axial displacement of the inner ring at which the planes of the grooves coincide, m.
+        """Axial displacement of the inner ring at which the middle planes of the grooves coincide, m.
 
-        A bearing given by its clearance has its zero there, in the middle of the play. So has one with two arcs
-        on a ring. Another one that is given by its contact angle has its zero at first contact of balls and races, with
-        the inner ring pushed along $+e_x$.
+        In a bearing given by its clearance, or with two arcs on a ring, axial displacements count from there, the
+        middle of the axial play. In other bearings, given by their contact angle, they count from the first contact of
+        balls and races, with the inner ring pushed along $+e_x$.
         """
         if self.contact_angle is None or self.has_arcs:
             return jnp.zeros(())
@@ -190,7 +194,7 @@ class BallGeometry(AbstractGeometry):
 
     @property
     def groove_circle_radius(self) -> Array:
-        """R_i: of the circle of the inner groove's centres, m."""
+        """Radius R_i of the circle of inner groove centres, m."""
         radius, cosine = 0.5 * self.pitch_diameter, self.free_cosine
         if self.free_clearance is None:
             return radius + self.inner_offset * cosine
@@ -199,14 +203,16 @@ class BallGeometry(AbstractGeometry):
         return radius + self.inner_offset * jnp.minimum(cosine, 1.0) + pressed
 
     def contacts(self, inner_cosine: Values, outer_cosine: Values, reduced_modulus: Values) -> PointContact:
-        """Both contacts, races first (inner, outer), at given contact angles: shape (2, ...)."""
+        """Both contacts of a ball at given contact angles, shape (2, ...), inner race first."""
         return self.contacts_on((inner_cosine, outer_cosine), (0, 1), reduced_modulus)
 
     def contacts_on(
         self, cosines: Sequence[Values] | Array, races: tuple[int, ...], reduced_modulus: Values
     ) -> PointContact:
-        """Contacts at given contact angles, shape (contact, ...). **Arguments:** `races`: of each contact, 0 inner;
-        `reduced_modulus`: one number, or of shape (2, 1), inner race first."""
+        """Contacts at given contact angles, shape (contact, ...).
+
+        **Arguments:** `cosines`: cosines of the contact angles; `races`: race of each contact, 0 inner, 1 outer;
+        `reduced_modulus`: reduced modulus, Pa: one number, or shape (2, 1), inner race first."""
         ratio = self.ball_diameter / self.pitch_diameter
         half = 0.5 * jnp.asarray(self.ball_diameter)
         rolling = jnp.stack(
@@ -224,7 +230,7 @@ class BallGeometry(AbstractGeometry):
         return PointContact(rolling, transverse.reshape(shape), reduced_modulus)
 
     def free_contacts(self, reduced_modulus: Values) -> PointContact:
-        """Both contacts at the free contact angle, shape (2,)."""
+        """Both contacts of a ball at the contact angle of the unloaded bearing, shape (2,), inner race first."""
         cosine = self.free_cosine
         if self.free_clearance is not None:
             cosine = jnp.minimum(cosine, 1.0)

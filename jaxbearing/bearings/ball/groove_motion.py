@@ -17,16 +17,15 @@ The first-order form, in which the groove centre moves by $R_i\tau$ along the ax
 6.5 mrad and $R_i$ = 19 mm, which is of the order of the deformation. The first-order form is used where the scene has
 neither a moment nor a misalignment, where the user chooses it (`tilt="linear"` of `reaction`; `rating.tilt = "iso"`,
 which also takes half the pitch diameter for $R_i$, in motion and moment, as ISO 16281 does), in transient runs and on
-shafts. Without a tilt it leaves out $d_t^2/(2R_i)$ with the
-displacement $d_t$ of the ring along the orbit: 1 nm in the bearing `turbine_ball` at 20 kN axial and 8 kN radial load,
-6e-5 of a ball's load.
+shafts. Without a tilt it leaves out $d_t^2/(2R_i)$ with the displacement $d_t$ of the ring along the orbit: 1 nm in the
+bearing `turbine_ball` at 20 kN axial and 8 kN radial load, which changes the load of a ball by 6e-5 of its value.
 
 Loads on the ring. F is the force of the ring on the ball. The load that balances the reaction of the ball on the ring
 is also F, and acts at the nearest point of the circle. With $W = [F\cdot p - h\,F\cdot n']/\rho^2$ and
 $c = k(F\cdot n' - Wh)$, a force F on the nearest point of the circle does, with the ball in its place, the work
 $F\cdot\delta(G - B) = P_d\cdot\delta d + P_n\cdot\delta n'$, where $P_d = cn' + kWp - (k - 1)F$ and
-$P_n = (s - kh)F - cp$ are the derivatives of $F\cdot(G - B)$ by d and n'. They are written out: to differentiate these
-formulas takes 0.6 of the operations of differentiating a reverse pass.
+$P_n = (s - kh)F - cp$ are the derivatives of $F\cdot(G - B)$ by d and n'. These derivatives are written out as
+formulas, because differentiating the formulas takes 0.6 of the operations of differentiating a reverse pass.
 """
 
 from collections.abc import Sequence
@@ -42,9 +41,9 @@ from ..ring import LENGTH_UNIT, InnerRing
 from .arcs import added
 
 TILT_FLOOR = 1e-9
-"""The square of this is added to that of the tilt, rad, so that sin(t)/t has a first derivative at t = 0. The values
-change by less than 1e-17. Second derivatives of sin(t)/t near this tilt are inaccurate; second derivatives of the loads
-of a bearing are right to 1e-4 there, because the stiffness of the contacts dominates them."""
+"""Floor of the tilt, rad, added as a square, so that sin(t)/t has a first derivative at t = 0. It changes values by
+less than 1e-17. Second derivatives of sin(t)/t are inaccurate near this tilt; those of the loads of a bearing are right
+to 1e-4 there, because the stiffness of the contacts dominates them."""
 
 _OUTWARD = np.asarray([[0.0], [1.0], [0.0]])
 # `half_planes` is a sum of three matrices: one that keeps the axial component, one times the cosine of the azimuth and
@@ -92,7 +91,7 @@ class RingFrame(NamedTuple):
         return jnp.arctan2(-self.axis[1], self.axis[0])
 
     def on_turned(self, moment: Float[Array, " ball"]) -> Float[Array, "3 ball"]:
-        """The part of $P_n$, N m, that comes from a moment which does work on `turned`."""
+        """Part of $P_n$, N m, that comes from a moment on the angle `turned`, N m."""
         square = jnp.square(self.axis[0]) + jnp.square(self.axis[1])
         return (moment / square)[None] * jnp.stack([self.axis[1], -self.axis[0], jnp.zeros_like(moment)])
 
@@ -121,10 +120,10 @@ def ring_frame(displaced: Float[Array, "5 ball"]) -> RingFrame:
 
 
 class GrooveArm(NamedTuple):
-    """The arm from every ball centre to the nearest point of a circle of groove centres.
+    """The arm from every ball centre to the nearest point of a circle of groove centres; symbols as in the module.
 
-    - `vector`: the arm, m: along the bearing axis, outward and along the orbit.
-    - `place`: p, from the displaced centre of the ring to the ball, m; `height`: h, m; `lift`: s - kh, m.
+    - `vector`: the arm, m: components along the bearing axis, outward and along the orbit.
+    - `place`: p, vector from the displaced centre of the ring to the ball, m; `height`: h, m; `lift`: s - kh, m.
     - `excess`: k - 1; `square`: $\\rho^2$, m^2.
     """
 
@@ -138,7 +137,7 @@ class GrooveArm(NamedTuple):
     def conjugate(
         self, axis: Float[Array, "3 ball"], force: Float[Array, "3 ball"]
     ) -> tuple[Float[Array, "3 ball"], Float[Array, "3 ball"]]:
-        """$P_d$, N, and $P_n$, N m, of the load F at the circle, N (see the module). **Arguments:** `axis`: n'."""
+        """$P_d$, N, and $P_n$, N m, of a `force` F on the circle, N (see the module). **Arguments:** `axis`: n'."""
         along, ratio = jnp.sum(force * axis, axis=0), 1.0 + self.excess
         weight = (jnp.sum(force * self.place, axis=0) - self.height * along) / self.square
         both = ratio * (along - weight * self.height)
@@ -174,10 +173,11 @@ def conjugate_loads(
     forces: Sequence[Float[Array, "3 ball"]],
     moment: Float[Array, " ball"] | None,
 ) -> Float[Array, "5 ball"]:
-    """Loads in the half-planes, N and N m, that do the same work on the five displacements as the given forces do on
-    the circles and the moment does on `turned`.
+    """Loads on the five displacements in the half-planes, N and N m, that do the same work as the given forces on the
+    circles and the given moment on the angle `turned`.
 
-    **Arguments:** `forces`: on the circle of each arm, N; `moment`: on `frame.turned`, N m; `None` without friction.
+    **Arguments:** `forces`: force on the circle of each arm, N; `moment`: moment on `frame.turned`, N m; `None` without
+    friction.
     """
     parts = [arm.conjugate(frame.axis, force) for arm, force in zip(arms, forces, strict=True)]
     on_centre, on_axis = added([one for one, _ in parts]), added([one for _, one in parts])
@@ -187,8 +187,10 @@ def conjugate_loads(
 
 
 class RingMotion(NamedTuple):
-    """Displacements of the inner ring in the half-plane of every ball (`half_planes`), m and rad: `held` by the given
-    displacements of the ring, and `directions` for a unit of each unknown freedom, which is a length."""
+    """Displacements of the inner ring in the half-plane of every ball (`half_planes`), m and rad.
+
+    `held`: those caused by the prescribed displacements of the ring; `directions`: those per metre of each unknown
+    freedom (all freedoms are lengths)."""
 
     held: Float[Array, "5 ball"]
     directions: Float[Array, "5 freedom ball"]

@@ -1,4 +1,4 @@
-"""Laws by which contact friction carries a ball's gyroscopic couple if no traction law resolves it."""
+"""Laws for the contact friction that carries the gyroscopic couple of a ball."""
 
 import abc
 from typing import ClassVar
@@ -12,7 +12,7 @@ from ...numerics.checks import Checked, bounded, demand, numbers_or_none
 from ...numerics.precision import as_float
 
 NO_LOAD = 1e-9
-"""Added to the sum of both loads, N: no couple where no contact carries anything."""
+"""Load added to the sum of the inner and outer loads, N, to avoid a division by 0 for unloaded balls."""
 
 
 USUAL_FRICTION = 0.05
@@ -22,9 +22,9 @@ USUAL_FRICTION = 0.05
 class AbstractGyroscopic(Checked):
     r"""Friction forces $T_i, T_o$ on the ball that balance the couple $M_g = J\omega_R\omega_m\sin\beta$.
 
-    Euler's equation asks the contacts for the couple $+M_ge_t$: each carries $-(D/2)F_kb_k\times n_k$ of it with
-    $F_k = -T_k$, $T_i + T_o = 2M_g/D$. `sign` +1 is that; -1 is the sign printed by Harris and by the source's
-    eqs. (14)-(15), for comparison with the literature.
+    By Euler's equation the contacts must exert the couple $+M_ge_t$ on the ball. Each contact carries the part
+    $-(D/2)F_kb_k\times n_k$ of it, with $F_k = -T_k$ and $T_i + T_o = 2M_g/D$. This is `sign` +1. `sign` -1 is the sign
+    printed by Harris and in the source's eqs. (14)-(15), for comparison with the literature.
     """
 
     part: ClassVar[str] = "kinematics"
@@ -43,17 +43,20 @@ class AbstractGyroscopic(Checked):
     def friction(
         self, couple: Values, diameter: Values, inner_load: Values, outer_load: Values
     ) -> tuple[Float[Array, "..."], Float[Array, "..."]]:
-        """$T_i, T_o$, N. **Arguments:** $M_g$, N m; D, m; loads, N, >= 0."""
+        """$T_i, T_o$, N.
+
+        **Arguments:** `couple`: $M_g$, N m; `diameter`: D, m; `inner_load`, `outer_load`: contact loads, N, >= 0."""
 
 
 class SharedCouple(AbstractGyroscopic):
-    r"""$T_k = \lambda_kM_g/D$ with given shares: (0, 2) under outer race control, (1, 1) else (source eqs. (14)-(15)).
+    r"""Given shares of the couple, $T_k = \lambda_kM_g/D$: $(\lambda_i, \lambda_o)$ = (0, 2) under outer race control,
+    (1, 1) otherwise (source eqs. (14)-(15)).
 
-    **Limits:** asks an unloaded inner contact for friction: at light load and high speed no equilibrium exists.
+    **Limits:** an unloaded inner contact has friction too, so at light load and high speed no equilibrium exists.
 
     **Arguments:**
-    - `inner_share`, `outer_share`: part of the couple that the race carries, in units of half of it; together 2.
-    - `sign`: of the force pair, 1 or -1.
+    - `inner_share`, `outer_share`: share of the couple that the race carries, in units of half the couple; together 2.
+    - `sign`: sign of the friction forces, 1 or -1.
     """
 
     inner_share: Scalar = bounded("between 0 and 2", unit="1", converter=as_float, default=1.0)
@@ -65,14 +68,14 @@ class SharedCouple(AbstractGyroscopic):
 
 
 class CappedCouple(AbstractGyroscopic):
-    r"""Shared in proportion to the loads and limited by friction: $T_k = \mu Q_k\tanh[2M_g/(D\mu(Q_i + Q_o))]$.
+    r"""Shares in proportion to the loads, limited by friction: $T_k = \mu Q_k\tanh[2M_g/(D\mu(Q_i + Q_o))]$.
 
-    **Limits:** the whole couple for small $M_g$; $\mu Q_k$ for a large one: the rest of the couple is not carried, and
-    the ball would start to turn about $e_t$, which this law leaves out.
+    **Limits:** a small couple is carried fully; for a large one the forces are $\mu Q_k$ and the rest is not carried.
+    The ball would then start to turn about $e_t$, which this law leaves out.
 
     **Arguments:**
-    - `friction_coefficient`: coefficient of friction mu that caps what a race carries, > 0.
-    - `sign`: of the force pair, 1 or -1.
+    - `friction_coefficient`: coefficient of friction mu that limits the friction force of a race to mu Q_k, > 0.
+    - `sign`: sign of the friction forces, 1 or -1.
     """
 
     friction_coefficient: Scalar = bounded(
@@ -87,5 +90,5 @@ class CappedCouple(AbstractGyroscopic):
 
 
 class ResolvedCouple(eqx.Module):
-    """The transverse traction of the contacts carries the couple: the ball also turns about the orbit's tangent, and
-    slides across the rolling direction."""
+    """Gyroscopic couple carried by the transverse traction of the contacts: the ball also turns about the tangent of
+    the orbit and slides across the rolling direction."""

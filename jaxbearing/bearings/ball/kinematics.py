@@ -1,4 +1,4 @@
-"""Kinematics of balls between two grooved rings: rolling without sliding, attitude of the spin, relative motion."""
+"""Kinematics of balls between two grooved rings: rolling without sliding, direction of the spin, relative motion."""
 
 from typing import NamedTuple
 
@@ -13,10 +13,12 @@ from .arcs import RACE_SENSES
 
 
 class BallMotion(NamedTuple):
-    """Orbital speed of the ball centre and spin relative to the orbiting frame, rad/s; both > 0 in normal running.
+    """Orbital speed of the ball centre and spin of the ball relative to the orbiting frame, rad/s; both are > 0 in
+    normal running.
 
-    The spin vector is $-\\omega_R(\\cos\\beta\\,e_x - \\sin\\beta\\,e_r) + \\omega_te_t$: `attitude` is beta, rad, in
-    the plane through the bearing axis; `transverse` is $\\omega_t$, 0 unless traction resolves the gyroscopic couple.
+    The spin vector is $-\\omega_R(\\cos\\beta\\,e_x - \\sin\\beta\\,e_r) + \\omega_te_t$ with the `spin_speed`
+    $\\omega_R$, the `attitude` $\\beta$, rad, in the plane through the bearing axis, and the `transverse` spin
+    $\\omega_t$, which is 0 unless traction carries the gyroscopic couple ("resolved").
     """
 
     orbital_speed: Float[Array, "*batch"]
@@ -26,21 +28,21 @@ class BallMotion(NamedTuple):
 
     @property
     def axial_spin(self) -> Float[Array, "*batch"]:
-        """Against the bearing axis, rad/s."""
+        """Component of the spin opposite to the bearing axis $e_x$, rad/s."""
         return self.spin_speed * jnp.cos(self.attitude)
 
     @property
     def radial_spin(self) -> Float[Array, "*batch"]:
-        """Outwards, rad/s."""
+        """Radially outward component of the spin, rad/s."""
         return self.spin_speed * jnp.sin(self.attitude)
 
 
 class RaceMotion(NamedTuple):
-    """Relative motion in the contact with one race, inner or outer; ball minus race.
+    """Relative motion (ball minus race) in the contact with the inner or the outer race.
 
-    `race_speed` and `ball_speed`, m/s: of the two surfaces along rolling, relative to the contact; `rolling` and
-    `transverse`, m/s: sliding along $e_t$ and $b_k$; `spin` and `roll`, rad/s: relative angular speed about the
-    contact's normal and about $b_k$.
+    - `race_speed`, `ball_speed`: speeds of the two surfaces along rolling, relative to the contact, m/s.
+    - `rolling`, `transverse`: sliding speeds along $e_t$ and $b_k$, m/s.
+    - `spin`, `roll`: relative angular speeds about the contact normal and about $b_k$, rad/s.
     """
 
     race_speed: Float[Array, "*batch"]
@@ -52,7 +54,7 @@ class RaceMotion(NamedTuple):
 
     @property
     def mean_speed(self) -> Float[Array, "*batch"]:
-        """Entrainment speed, m/s: of the sign of the race's speed in normal running."""
+        """Entrainment speed, m/s; in normal running it has the sign of the race speed."""
         return 0.5 * (self.race_speed + self.ball_speed)
 
 
@@ -73,22 +75,22 @@ class BallKinematics(eqx.Module):
 
     @property
     def ratio(self) -> Array:
-        """D/dm."""
+        """Ratio of ball diameter to pitch diameter, $\\gamma' = D/d_m$."""
         return self.ball_diameter / self.pitch_diameter
 
     def rolling(self, inner_angle: Values, outer_angle: Values, attitude: Values) -> BallMotion:
-        """Motion without sliding at the centres of both contacts, for a given attitude. Angles in rad."""
+        """Motion without sliding at the centres of both contacts, for given contact angles and attitude, rad."""
         inner_lever, outer_lever = 1.0 - self.ratio * jnp.cos(inner_angle), 1.0 + self.ratio * jnp.cos(outer_angle)
         inner, outer = inner_lever * jnp.cos(outer_angle - attitude), outer_lever * jnp.cos(inner_angle - attitude)
         both = inner + outer
         orbital = (self.inner_speed * inner + self.outer_speed * outer) / both
-        # (orbital - outer_speed) a_o / c_o without the difference of the speeds
+        # equals (orbital - outer_speed) a_o / c_o, but avoids the difference of nearly equal speeds
         relative = self.inner_speed - self.outer_speed
         spin = relative * inner_lever * outer_lever / (self.ratio * both)
         return BallMotion(orbital, spin, jnp.broadcast_to(attitude, spin.shape), jnp.zeros_like(spin))
 
     def held(self, orbital_speed: Values, inner_angle: Values, outer_angle: Values, attitude: Values) -> BallMotion:
-        """Motion at a given orbital speed, sliding by as much on both races; rad/s, rad."""
+        """Motion at a given orbital speed, rad/s, with the same sliding speed on both races; angles in rad."""
         inner = (self.inner_speed - orbital_speed) * (1.0 - self.ratio * jnp.cos(inner_angle))
         outer = (orbital_speed - self.outer_speed) * (1.0 + self.ratio * jnp.cos(outer_angle))
         cosines = jnp.cos(inner_angle - attitude) + jnp.cos(outer_angle - attitude)
@@ -97,23 +99,27 @@ class BallKinematics(eqx.Module):
         return BallMotion(orbital_speed * ones, spin, attitude * ones, jnp.zeros_like(spin))
 
     def orbit_scale(self, free: Array, floor: float = 0.0) -> Float[Array, ""]:
-        """Scale of orbital speeds, rad/s: not 0 while a ring turns. **Arguments:** `free`, rad/s, of a ball that rolls;
-        `floor`, rad/s, added in squares."""
+        """Scale of orbital speeds, rad/s; not 0 while a ring turns.
+
+        **Arguments:** `free`: orbital speed of a ball that rolls without sliding, rad/s; `floor`: floor of the scale,
+        added as a square, rad/s."""
         both = 0.5 * (jnp.square(free) + jnp.square(free - self.outer_speed))
         return jnp.sqrt(both + floor**2)
 
     def outer_control(self, outer_angle: Values) -> Float[Array, "..."]:
-        """Attitude without spin on the outer race, rad (source eq. (10))."""
+        """Attitude at which the ball does not spin on the outer race, rad (source eq. (10))."""
         return jnp.arctan2(jnp.sin(outer_angle), jnp.cos(outer_angle) + self.ratio)
 
     def inner_control(self, inner_angle: Values) -> Float[Array, "..."]:
-        """Attitude without spin on the inner race, rad (source eq. (11))."""
+        """Attitude at which the ball does not spin on the inner race, rad (source eq. (11))."""
         return jnp.arctan2(jnp.sin(inner_angle), jnp.cos(inner_angle) - self.ratio)
 
     def raceway_control(self, inner_angle: Values, outer_angle: Values, attitude: Values) -> Float[Array, "..."]:
-        """100 (beta_i - beta)/(beta_i - beta_o): 100 outer, 0 inner race control (source eq. (94)).
+        """Degree of outer race control, 100 (beta_i - beta)/(beta_i - beta_o): 100 is outer, 0 inner race control
+        (source eq. (94)).
 
-        100 where both attitudes agree within 1e-9 rad (contact angles 0), where it has no meaning.
+        It is set to 100 where beta_i and beta_o agree within 1e-9 rad (contact angles 0), because it has no meaning
+        there.
         """
         inner, outer = self.inner_control(inner_angle), self.outer_control(outer_angle)
         apart = jnp.abs(inner - outer) > 1e-9
@@ -133,10 +139,10 @@ class BallKinematics(eqx.Module):
         angle: Float[Array, "contact ball"],
         senses: Float[np.ndarray, "contact 1"] = RACE_SENSES,
     ) -> RaceMotion:
-        """Relative motion at every contact of balls.
+        """Relative motion at every contact of the balls.
 
-        **Arguments:** `angle`: contact angles, rad; `senses`: 1 of a contact on the inner race, -1 on the outer one; by
-        default those of one contact on each.
+        **Arguments:** `angle`: contact angles, rad; `senses`: 1 for a contact on the inner race, -1 on the outer race;
+        default: one contact on each.
         """
         ring = jnp.where(senses > 0, self.inner_speed, self.outer_speed)
         return self._over(jax.tree.map(lambda one: one[None], motion), angle, senses, ring)

@@ -1,4 +1,4 @@
-"""From a ball bearing to the film of one of its contacts: the equivalent line contact of a ball on a race."""
+"""Equivalent line contact of a ball on a race, to compute the film of one contact of a ball bearing."""
 
 from typing import Literal
 
@@ -24,24 +24,24 @@ def line_contact_of(
     model: FilmModel | None = None,
     simulation: FilmSimulation | None = None,
 ) -> EHLLineContact:
-    r"""The line contact that stands for a ball on a race, as in the source's Table 18: the same Hertz (peak) pressure
-    and the same half width in the direction of rolling.
+    r"""The line contact equivalent to the contact of a ball with a race, as in the source's Table 18: it has the same
+    Hertz (peak) pressure and the same half width in the direction of rolling.
 
-    The ellipse of a ball on a race is many times longer across rolling than along it, and oil enters its middle as it
-    enters a line contact. With its half axis a along rolling and its peak pressure p_h, Hertz' relations for a line,
-    $p_h = a E'/(4R')$ and $F = \frac{\pi}{2} a p_h$, give
+    The contact ellipse of a ball on a race is many times longer across rolling than along it, and oil enters its middle
+    as it enters a line contact. With the semi-axis a along rolling, the peak pressure p_h and the reduced modulus E',
+    Hertz's relations for a line contact give the reduced radius R' and the load per length F,
 
     $R' = \frac{a E'}{4 p_h}$, $F = \frac{\pi}{2} a p_h$.
 
-    R' tends to the radius along rolling, 1/R = 1/R1 + 1/R2, as the ellipse grows long; larger for a short one. The
-    entrainment speed is the mean of both surfaces' speeds along rolling, ball and race, relative to the contact: of the
-    race $(\Omega_i - \omega_m)(d_m - D\cos\alpha)/2$, of the ball $\omega_R D\cos(\alpha - \beta)/2$ (at the inner
-    race). Left out: side leakage, spin, speeds across rolling, heating of the inlet.
+    For a long ellipse R' tends to the reduced radius along rolling, 1/R = 1/R1 + 1/R2; for a short ellipse it is
+    larger. The entrainment speed is the mean of the speeds of ball and race along rolling, relative to the contact. At
+    the inner race, the speed of the race is $(\Omega_i - \omega_m)(d_m - D\cos\alpha)/2$ and that of the ball
+    $\omega_R D\cos(\alpha - \beta)/2$. Left out: side leakage, spin, speeds across rolling, heating of the inlet.
 
-    **Arguments:** `scene` and its converged `solution`; `race`; `ball`: its number; `model`: of the film and its mesh;
-    `simulation`: of a transient run.
+    **Arguments:** `scene`, `solution`: a scene and its converged solution; `race`: "inner" or "outer"; `ball`: index of
+    the ball, from 0; `model`: model of the film and its mesh; `simulation`: settings of a transient run.
 
-    **Raises:** `ValueError` for a scene without an oil, a solve that failed, or a ball that is not there or not loaded.
+    **Raises:** `ValueError` if the scene has no oil, the solve failed, or the ball does not exist or is not loaded.
     """
     require_choice("race", race, ("inner", "outer"))
     if scene.oil is None:

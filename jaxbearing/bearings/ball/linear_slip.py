@@ -1,12 +1,12 @@
-r"""Motion of balls without friction and without a hypothesis of race control, for any number of contacts.
+r"""Motion of balls with the least sliding and spin, for any number of contacts and without a race control hypothesis.
 
-Three contacts or more cannot all roll without sliding and spin (`docs/theory/four_point.md`). With tractions that are
-proportional to pressure and sliding, $\tau\propto p\,\Delta u$, the balance of the ball is the minimum of
+Three or more contacts cannot all roll without sliding and spin (`docs/theory/four_point.md`). With tractions
+proportional to pressure and sliding speed, $\tau\propto p\,\Delta u$, the ball is in equilibrium at the minimum of
 
 $$\sum_kQ_k[u_{tk}^2 + \tfrac15\omega_{sk}^2(a_k^2 + c_k^2)]$$
 
-over the orbital speed $\omega_m$ and the parts of the spin $\omega_x = \omega_R\cos\beta$,
-$\omega_z = \omega_R\sin\beta$ (semi-axes a, c of the ellipse; the mean of $x^2 + y^2$ with Hertz's pressure is
+over the orbital speed $\omega_m$ and the components of the spin $\omega_x = \omega_R\cos\beta$,
+$\omega_z = \omega_R\sin\beta$ (semi-axes a, c of the ellipse; the mean of $x^2 + y^2$ weighted by Hertz's pressure is
 $(a^2 + c^2)/5$). Sliding and spin are linear in these speeds:
 
 - $u_{ti} = \frac12D(\omega_x\cos\alpha + \omega_z\sin\alpha) - \frac12d_m(\omega_i - \omega_m)(1 - \gamma'\cos\alpha)$,
@@ -14,8 +14,9 @@ $(a^2 + c^2)/5$). Sliding and spin are linear in these speeds:
 - $\omega_{si} = (\omega_i - \omega_m)\sin\alpha + (\omega_x\sin\alpha - \omega_z\cos\alpha)$,
   $\omega_{so} = (\omega_m - \omega_o)\sin\alpha - (\omega_x\sin\alpha - \omega_z\cos\alpha)$.
 
-The minimum is one system of three equations, smooth where contacts open. Two contacts roll without sliding, and share
-the spin in proportion to the stiffness of their patches.
+The minimum is the solution of three linear equations, which changes smoothly where contacts open. With two contacts the
+ball rolls practically without sliding, and the spins on the two races are in inverse proportion to their
+$Q_k(a_k^2 + c_k^2)$.
 """
 
 import jax.numpy as jnp
@@ -28,15 +29,16 @@ from .arcs import Arcs
 from .kinematics import BallKinematics, BallMotion
 
 DRIVEN = 1e-2
-"""Weight of a ring that does not load a ball, over the load of the other ring."""
+"""Weight of the sliding on a ring that does not load a ball, over the load of the other ring."""
 
 
 def slip_weights(load: Float[Array, "contact ball"], arcs: Arcs, floor: float) -> Float[Array, "contact ball"]:
-    r"""Loads that weigh the sliding of each contact, N: $Q_k + \sigma[\sigma/(\sigma + \sum Q)]^5$ with the sum over
-    the contacts of its ring, and $\sigma = \varepsilon + 0.01\sum Q$ with the sum over those of the other ring.
+    r"""Weights of the sliding at each contact, N: $Q_k + \sigma[\sigma/(\sigma + \sum Q)]^5$ with the sum over the
+    contacts on the same ring, and $\sigma = \varepsilon + 0.01\sum Q$ with the sum over those on the other ring.
 
-    A ball that lies in both arcs of the outer ring alone would stop there: nothing drives it. Such a ball rolls over
-    the unloaded ring too, as if its cage drove it. Between loaded rings the addition is 1e-12 of the load.
+    Without the added term, a ball that touches both arcs of the outer ring only would stop, because nothing drives it.
+    With it, the ball also rolls on the unloaded ring, as if a cage drove it. Between loaded rings the added term is
+    1e-12 of the load.
 
     **Arguments:** `floor`: $\varepsilon$, N.
     """
@@ -53,10 +55,11 @@ def linear_slip(
     spread: Float[Array, "2"],
     races: tuple[int, ...],
 ) -> BallMotion:
-    """The motion that minimises the sum above.
+    """The motion that minimises the sum in the docstring of the module.
 
-    **Arguments:** `angle`: contact angles, rad; `weight`: of the sliding, N, > 0; `spread`: $(a^2 + c^2)/Q^{2/3}$ of
-    contacts on the inner and on the outer race, m^2/N^(2/3); `races`: of each contact, 0 inner.
+    **Arguments:** `angle`: contact angles, rad; `weight`: weights of the sliding, N, > 0; `spread`: size of the contact
+    ellipses, $(a^2 + c^2)/Q^{2/3}$, on the inner and the outer race, m^2/N^(2/3); `races`: race of each contact, 0
+    inner, 1 outer.
     """
     race = np.asarray(races)
     sense = np.where(race == 0, 1.0, -1.0)[:, None]

@@ -1,4 +1,4 @@
-"""Base of the equations of lubricated balls: laws and parts, scales, speeds, for any number of contacts of a ball."""
+"""Base class of the equations of lubricated balls with any number of contacts: laws, parts, scales and speeds."""
 
 import abc
 
@@ -28,24 +28,24 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
     inlet: InletOil
     guess: BallGuess | BallPlaces
     reference: BallMotion
-    """Rolling at the free contact angle, half way between outer and inner control."""
+    """Rolling without sliding at the free contact angle, with the mean attitude of outer and inner race control."""
     orbit_unit: Float[Array, ""]
     """Scale of orbital speeds, rad/s; not 0 while a ring turns."""
     resolved: bool = eqx.field(static=True, default=False)
     cage: BallCageParts | None = None
     drag: BallDrag | None = None
     common_orbit: bool = eqx.field(static=True, default=False)
-    """True if balls that roll without sliding have one orbital speed."""
+    """True if all balls share one orbital speed; only for balls without traction."""
     slide_share: Scalar = eqx.field(converter=as_float, default=1.0)
-    """Part of the sliding that the traction law sees: 1, less in an easier system."""
+    """Factor on the sliding in the traction law: 1, or less in an easier system of a homotopy."""
     heavy_guess: BallGuess | BallPlaces | None = None
-    """The easiest system starts here; only balls that do not slide have it."""
+    """Initial guess of the easiest system of the load homotopy; `None` for balls with traction."""
     heavier: Float[Array, ""] | None = None
-    """The easiest load over the load on the ring."""
+    """Load of the easiest system over the load on the ring; `None` for balls with traction."""
     film_share: Scalar = eqx.field(converter=as_float, default=1.0)
-    """Part of the films that keeps the surfaces apart: 1, less in an easier system."""
+    """Fraction of the film thickness that separates the surfaces: 1, or less in an easier system of a homotopy."""
     elsewhere: OilElsewhere | None = None
-    """Oil of the other interactions where it is not that of the raceways, `inlet`."""
+    """Oil that enters the other interactions; `None` if it is that of the raceways, `inlet`."""
 
     # -- structure ------------------------------------------------------------------------------------------------
 
@@ -55,7 +55,7 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
 
     @property
     def own_unknowns(self) -> tuple[str, ...]:
-        """Names of a ball's unknowns beside the two of its contacts."""
+        """Names of the unknowns of a ball, without the two of its contacts."""
         if not self.slips:
             return ()
         names = ["spin"]
@@ -81,7 +81,8 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
         return self.ring.size()
 
     def friction_scale(self) -> Array:
-        """Scale of a ball's friction forces, N: 1 % of its share of the load and of its centrifugal force."""
+        """Scale of the friction forces on a ball, N: 1 % of the sum of its share of the load and its centrifugal
+        force."""
         force = self.centrifugal(self.reference.orbital_speed)
         return 0.01 * (self.load_scale() / self.ball_count + force)
 
@@ -92,26 +93,27 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
 
     @abc.abstractmethod
     def frictionless(self, unknowns: Float[Array, "m ball"], shared: Float[Array, "g ball"]) -> BallsState:
-        """All but what traction does."""
+        """State of the balls without traction."""
 
     @abc.abstractmethod
     def free_rolling(self, state: BallsState) -> Float[Array, " ball"]:
-        """Orbital speeds of the balls if they rolled, rad/s, to measure the slip of the cage by."""
+        """Orbital speeds of balls that roll without sliding (with more than two contacts: with least sliding), rad/s.
+        The slip of the cage is measured against them."""
 
     @abc.abstractmethod
     def constrained(self, state: BallsState) -> BallMotion:
-        """Motion of balls without traction that does not follow from each ball alone rolling without sliding: at one
-        orbital speed for all, or with more than two contacts."""
+        """Motion of balls without traction that cannot each roll without sliding, because all have one orbital speed or
+        because they have more than two contacts."""
 
     def races_of(self, motion: BallMotion, angle: Float[Array, "contact ball"]) -> RaceMotion:
-        """Motion of the balls over the race at each contact."""
+        """Motion of the balls relative to the race at each contact."""
         return self.kinematics.races(motion, angle, self.arcs.senses)
 
     def _through_land(self, pocket: Float[Array, " ball"]) -> Float[Array, "row ball"]:
-        """Gives the contributions of the pockets' outward friction, N, to the forces on the rings.
+        """Contributions of the outward pocket friction `pocket`, N, to the forces on the rings.
 
-        They go through cage and land and act in the middle plane, hence without a moment, on the shaft: they do not
-        bend an inner ring."""
+        The cage transmits this friction to its land on the inner ring. It acts in the middle plane, so it gives no
+        moment, and it loads the shaft without bending a flexible inner ring."""
         along = {"radial": jnp.cos(self.azimuth), "lateral": jnp.sin(self.azimuth)}
         zero = jnp.zeros_like(pocket)
         rows = [along.get(name, zero) * pocket for name in self.freedoms]
@@ -138,7 +140,7 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
 
     @staticmethod
     def _spin_parts(motion: BallMotion) -> tuple[tuple[str, Array], ...]:
-        """Names of the unknowns of the spin in equilibrium, and their values, rad/s."""
+        """Names of the two spin unknowns of the attitude "equilibrium", and their values in a motion, rad/s."""
         return ("axial spin", motion.axial_spin), ("radial spin", motion.radial_spin)
 
     def _assumed_attitude(self, inner: Array, outer: Array, own: dict[str, Array]) -> Array:

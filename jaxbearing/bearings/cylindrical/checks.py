@@ -1,4 +1,4 @@
-"""Range checks of cylindrical roller bearings, beside those of all bearings."""
+"""Range checks that apply to cylindrical roller bearings only."""
 
 import jax.numpy as jnp
 

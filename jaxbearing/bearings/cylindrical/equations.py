@@ -63,8 +63,8 @@ EASED_ENTRAINMENT = 0.3
 """Entrainment speed that is added at the start of homotopy path 0 (see `homotopy`), divided by the entrainment speed of
 rolling without slip."""
 EASED_PRESSURE = 1.5e9
-"""Hertz pressure of the most loaded roller at the start of homotopy path 1, Pa. At this pressure traction is certain to
-drive the rollers."""
+"""Hertz pressure of the most loaded roller at the start of homotopy path 1, Pa. It is so high that traction certainly
+drives the rollers."""
 
 
 class RollerState(NamedTuple):
@@ -115,7 +115,7 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
     # -- scales ---------------------------------------------------------------------------------------------------
 
     def friction_scale(self) -> Array:
-        """Scale of friction forces, N: 1 % of the sum of a roller's share of the load and its centrifugal force."""
+        """Scale of friction forces, N: 1 % of the roller's centrifugal force plus its equal share of the load."""
         return 0.01 * (self.load_scale() / self.azimuth.shape[0] + self.centrifugal(self.kinematics.free_orbit))
 
     def centrifugal(self, orbital_speed: Array) -> Array:
@@ -304,7 +304,10 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         )
 
     def land(self, orbit: Array, force_x: Array, force_y: Array) -> LandState:
-        """The lands that carry the pocket forces: eccentricity, torques on cage and guiding ring."""
+        """State of the lands under the sum of the pocket forces: eccentricity, torques on cage and guiding ring.
+
+        **Arguments:** `orbit`: cage speed, rad/s; `force_x`, `force_y`: force of the rollers on the cage, N.
+        """
         cage, motion = self.cage, self.kinematics
         assert cage is not None
         assert cage.land is not None

@@ -18,10 +18,11 @@ from .solution import PowerLoss
 
 
 class CageParts(eqx.Module):
-    """Forces on rollers and cage besides those of the raceways, all prepared, with the oil at its inlet temperature.
+    """Models of all forces on rollers and cage except those of the raceways, prepared for the oil at its inlet
+    temperature.
 
-    Without a cage (a moving bearing only: rollers outside the loaded zone then have no steady state) `pocket`, `land`
-    and `rails` are `None`.
+    Without a cage, `pocket`, `land` and `rails` are `None`. Only a transient run can leave the cage out: rollers
+    outside the loaded zone then have no steady state.
     """
 
     pocket: Pocket | None
@@ -35,8 +36,11 @@ class CageParts(eqx.Module):
 
 
 class RollerForces(NamedTuple):
-    """Sum of all forces on each roller but those of its pocket's walls: along the orbit, N, and about its centre, N m
-    (counter-clockwise); and its parts."""
+    """Sum of all forces on each roller except those of the pocket walls, and parts of this sum.
+
+    - `tangential`: force along the orbit, N.
+    - `moment`: moment about the roller's centre, counter-clockwise, N m.
+    """
 
     tangential: Float[Array, " roller"]
     moment: Float[Array, " roller"]
@@ -47,7 +51,8 @@ class RollerForces(NamedTuple):
 
 
 def rolling_force_factor(contact: LineContact, motion: RollerKinematics) -> Float[Array, "2"]:
-    """Tangential force on a roller by its rolling resistance, over it, per race: R_reduced/R_R - 1/2."""
+    """Tangential force that rolling resistance exerts on a roller, divided by this resistance, at the inner and at the
+    outer race: R_reduced/R_R - 1/2."""
     return per_race(contact.reduced_radius) / motion.roller_radius - 0.5
 
 
@@ -59,7 +64,10 @@ def forces_without_pocket(
     orbit: Float[Array, " roller"],
     spin: Float[Array, " roller"],
 ) -> RollerForces:
-    """Raceways, roller ends and drag, at orbital speeds and spins, rad/s."""
+    """Forces of raceways, flanges, cage rails and oil drag on the rollers.
+
+    **Arguments:** `state`: films and friction on the raceways; `orbit`, `spin`: orbital speeds and spins, rad/s.
+    """
     ends = lambda part, ring_speed: None if part is None else part.evaluate(-spin, ring_speed - orbit)
     inner_flange = ends(parts.inner_flange, motion.inner_speed)
     outer_flange = ends(parts.outer_flange, motion.outer_speed)
@@ -91,9 +99,10 @@ def on_cage(
     friction: tuple[Array, Array],
     rails: EndForces | None,
 ) -> tuple[Float[Array, " roller"], Float[Array, "2 roller"]]:
-    """Moment about the bearing centre, N m, and force (X, Y), N, of each roller on the cage.
+    """Moment about the bearing centre, N m, and force (X, Y), N, that each roller exerts on the cage.
 
-    **Arguments:** `load` and `friction` on the walls (front, rear), N; `rails`: forces of the rails on the roller.
+    **Arguments:** `load`, `friction`: on the front and the rear pocket wall, N; `rails`: forces of the side rails on
+    the rollers.
     """
     forward = load[0] - load[1]
     moment = forward * motion.pitch_radius - (friction[0] + friction[1]) * motion.roller_radius
@@ -114,7 +123,7 @@ def friction_on_rings(
     inner_flange: EndForces | None,
     outer_flange: EndForces | None,
 ) -> list[Interaction]:
-    """Friction of the rollers on raceways and flanges.
+    """Friction and rolling resistance of the rollers on raceways and flanges.
 
     **Arguments:** `sliding`, `rolling`: sliding speeds and mean surface speeds on the inner and the outer race, m/s.
     """
@@ -137,7 +146,7 @@ def friction_on_rings(
 
 
 def _against_rolling(motion: RollerKinematics, resistance: Array) -> tuple[Array, Array]:
-    """Torques on the rings, N m, of the resistance to rolling: half of its force is on the ring's side."""
+    """Torques that drive the rings against rolling resistance, N m: half of its force acts on the ring."""
     half = 0.5 * jnp.sum(resistance, axis=1)
     return half[0] * motion.inner_radius, -half[1] * motion.outer_radius
 
@@ -145,10 +154,13 @@ def _against_rolling(motion: RollerKinematics, resistance: Array) -> tuple[Array
 def rolling_alone(
     contact: LineContact, motion: RollerKinematics, rolling: Float[Array, "2 roller"] | None
 ) -> FrictionTotals[PowerLoss]:
-    r"""Power and ring torques of rollers that roll without sliding against their rolling resistances R, N.
+    r"""Power and ring torques of rollers that roll without sliding, with rolling resistance alone.
 
-    The tractions that balance each roller do no work: $T_i + T_o = (R_i + R_o)/2$ (moment), $T_i - T_o = \lambda_oR_o -
-    \lambda_iR_i$ (tangential force), $\lambda$ as in `rolling_force_factor`.
+    The tractions T balance each roller and do no work: $T_i + T_o = (R_i + R_o)/2$ (moment) and $T_i - T_o =
+    \lambda_oR_o - \lambda_iR_i$ (tangential force), with the rolling resistances R and the factors $\lambda$ of
+    `rolling_force_factor`.
+
+    **Arguments:** `rolling`: rolling resistances R, N; `None` if they are not modelled.
     """
     if rolling is None:
         return friction_totals(PowerLoss, [], motion)

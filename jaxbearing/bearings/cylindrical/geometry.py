@@ -16,29 +16,30 @@ from ..parts import FIRST_ELEMENT, AbstractGeometry, check_between, check_row_fi
 from .thrust import SIDES, ThrustFlanges, check_flanges
 
 ASSUMED_CAGE_INNER = 7.0 / 12.0
-"""Cage bore = pitch diameter minus this times the roller diameter, where a scene does not give it."""
+"""Default of the cage bore: (pitch diameter - cage bore) / roller diameter."""
 ASSUMED_CAGE_OUTER = 4.0 / 12.0
-"""Cage outside diameter = pitch diameter plus this times the roller diameter, where a scene does not give it."""
+"""Default of the cage outside diameter: (cage outside diameter - pitch diameter) / roller diameter."""
 ASSUMED_FLANGE_HEIGHT = 2.5 / 12.0
-"""Flange height over roller diameter, where a scene does not give it."""
+"""Default of the flange height over the roller diameter."""
 
 
 class RollerGeometry(AbstractGeometry):
-    """Main dimensions, m. `diametral_clearance` may be negative (preload).
+    """Main dimensions of a cylindrical roller bearing, m.
 
     **Arguments:**
     - `n_rollers`: number of rollers (structure: another number recompiles).
     - `pitch_diameter`, `roller_diameter`, `roller_length` (of the whole roller): m, > 0.
-    - `contact_length`: cylindrical length that carries load, m, > 0; `roller_length` where not given.
+    - `contact_length`: length of the cylindrical part that carries load, m, > 0; `roller_length` where not given.
     - `diametral_clearance`: DIAMETRAL internal clearance of the assembled bearing, m; negative: preload.
     - `first_element_angle`: azimuth of the first roller, rad; not given: 0, and the load line is a line of symmetry.
     - `flange_stiffness`: k of the axial force k x^(10/9) of a flange, where x is the axial displacement of the inner
-      ring after the touch, N/m^(10/9), > 0; not given: nothing holds the ring along the axis (types N and NU).
+      ring beyond first contact, N/m^(10/9), > 0; not given: the ring has no axial support (types N and NU).
     - `flange_gap`: axial displacement of the inner ring, from the middle of its play, at which it touches a flange, m,
-      >= 0; half of the axial clearance between two flanges; `flange_stiffness` needs it.
-    - `thrust`: sense of the axial loads on the inner ring that its flanges carry, "+x" or "-x" (type NJ) or "both"
+      >= 0; half of the axial clearance between two flanges; required with `flange_stiffness`.
+    - `thrust`: direction of the axial loads on the inner ring that its flanges carry, "+x" or "-x" (type NJ) or "both"
       (type NUP); not given: both (structure).
-    - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, for what knows its seats.
+    - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, used for fits, thermal networks and
+      flexible rings.
     """
 
     part: ClassVar[str] = "geometry"
@@ -96,7 +97,7 @@ class RollerGeometry(AbstractGeometry):
 
     @property
     def thrust_flanges(self) -> ThrustFlanges | None:
-        """The flanges that hold the inner ring along the axis, where there are any."""
+        """Flanges that support the inner ring axially; `None` if there are none."""
         if self.flange_stiffness is None:
             return None
         return ThrustFlanges(
@@ -113,12 +114,12 @@ class RollerGeometry(AbstractGeometry):
 
     @property
     def inner_radius(self) -> Scalar:
-        """Inner raceway."""
+        """Radius of the inner raceway, m."""
         return self.pitch_radius - self.roller_radius
 
     @property
     def outer_radius(self) -> Scalar:
-        """Outer raceway."""
+        """Radius of the outer raceway, m."""
         return self.pitch_radius + self.roller_radius
 
 
@@ -142,9 +143,10 @@ class RollerCage(AbstractCage[RollerGeometry]):
         return geometry.roller_length + axial, geometry.roller_diameter + self.pocket_clearance
 
     def mass_and_inertia(self, geometry: RollerGeometry, density: Scalar) -> tuple[Scalar, Scalar]:
-        """Mass, kg, and moment of inertia about the axis, kg m^2: a ring as wide as rollers, their axial clearance and
-        the lands, less a rectangular pocket for each roller (in the inertia as a point in the middle of the ring: its
-        own extent would take off another 0.4 %)."""
+        """Mass, kg, and moment of inertia about the axis, kg m^2, of a ring with a rectangular pocket for each roller.
+
+        The width of the ring is the roller length, the axial clearance in the pocket and the lands together. In the
+        inertia a pocket is a point mass at mid-radius; its real extent would reduce the inertia by another 0.4 %."""
         inner, outer = self.bore(geometry) / 2.0, self.outside(geometry) / 2.0
         (pocket_width, length), depth = self.pocket_opening(geometry), outer - inner
         width = pocket_width + self.lands * self.land_width
@@ -156,14 +158,14 @@ class RollerCage(AbstractCage[RollerGeometry]):
 
 
 class RollerFlange(Checked):
-    """Flanges that guide the rollers axially, on the inner ring, the outer ring or both: the friction of their films.
-    What holds the inner ring against axial loads is `geometry.flange_stiffness`.
+    """Flanges that guide the rollers axially, on the inner ring, the outer ring or both. They cause film friction only;
+    axial loads on the inner ring are carried by `geometry.flange_stiffness`.
 
     **Arguments:**
     - `ring`: "inner", "outer" or "both".
     - `axial_clearance`: TOTAL axial clearance of a roller between its two flanges, m.
     - `angle`: flange opening angle, rad.
-    - `height`: of the flange above the raceway, m; assumed from the roller size where not given.
+    - `height`: height of the flange above the raceway, m; assumed from the roller diameter where not given.
     """
 
     part: ClassVar[str] = "flange"
@@ -178,11 +180,11 @@ class RollerFlange(Checked):
 
 
 LARGEST_PLAY = 0.1
-"""Clearance over pitch diameter beyond which it is a mistake of the unit: bearings have at most a thousandth or two."""
+"""Diametral clearance over pitch diameter above which a wrong unit is assumed; real bearings have at most 0.002."""
 
 
 def _check_play(clearance: object, pitch_diameter: object) -> None:
-    """**Raises:** `ValueError` for a clearance, m, that no roller bearing has."""
+    """**Raises:** `ValueError` for a diametral clearance, m, above `LARGEST_PLAY` times the pitch diameter, m."""
     sizes = numbers_or_none(clearance, pitch_diameter)
     if sizes is None:
         return
@@ -197,7 +199,8 @@ def _check_play(clearance: object, pitch_diameter: object) -> None:
 
 
 def check_height(flange: RollerFlange, geometry: RollerGeometry) -> None:
-    """**Raises:** `ValueError` where the flange cannot exist between the rings (where the numbers are known)."""
+    """**Raises:** `ValueError` for a flange height that is not between 0 and the roller diameter (half of it, if both
+    rings have flanges)."""
     sizes = numbers_or_none(flange.rim_height(geometry), geometry.roller_diameter)
     if sizes is not None:
         height, roller = sizes

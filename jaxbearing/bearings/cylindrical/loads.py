@@ -1,5 +1,5 @@
 """Roller loads of a lubricated bearing from the approach of the rings: the equation of one roller, a guess of all
-loads, and the distribution at given speeds and places (source eqs. (37)-(39), (41))."""
+loads, and the load distribution for given roller speeds and positions (source eqs. (37)-(39), (41))."""
 
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -24,23 +24,29 @@ if TYPE_CHECKING:
     from .scene import CylindricalRollerBearing
 
 LOG_LOAD_RANGE = (-40.0, 18.0)
-"""ln(load / 1 N) that an iterate may take."""
+"""Bounds of ln(load / 1 N) in the iteration."""
 LEAST_SPEED = 1e-3
-"""Speed at which the film of an extrapolated load is still one, m/s."""
+"""Added to the mean surface speed in `RaceLoads.smoothed`, m/s, so that there is a film at rest too."""
 LEAST_LOAD = 1e-3
-"""Load on the ring at which the guess still has a direction, N."""
+"""Small load, N, that is added to the load on the ring to avoid divisions by 0."""
 
 
 def per_race(values: Array) -> Float[Array, "2"]:
-    """A contact property, one number or of shape (2, 1), as (inner, outer)."""
+    """Values of a contact property at the inner and the outer race. **Arguments:** `values`: one number for both races,
+    or an array of shape (2, 1)."""
     return jnp.broadcast_to(values, (2, 1))[:, 0]
 
 
 def approach_error(
     approach: Float[Array, "2 roller"], film: Float[Array, "2 roller"], opening: Float[Array, " roller"]
 ) -> Float[Array, " roller"]:
-    """0 where elastic approaches less films close the opening between the rings at a roller: the logarithm of the ratio
-    of the two sides' positive terms, nearly linear in ln Q for a film in a gap and for steel on steel."""
+    """Residual of the approach equation of a roller: elastic approaches + opening = film thicknesses.
+
+    Negative openings go to the other side, and the residual is the logarithm of the ratio of the two sides. It is
+    nearly linear in ln Q both for a film in a gap and for a contact with negligible film.
+
+    **Arguments:** `approach`, `film`: on both races, m; `opening`: between the rings at each roller, m.
+    """
     apart = jnp.sum(approach, axis=0) + jnp.maximum(opening, 0.0)
     together = jnp.sum(film, axis=0) + jnp.maximum(-opening, 0.0)
     return jnp.log(apart / together)
@@ -56,11 +62,16 @@ def guessed_loads(
     centrifugal: Float[Array, ""],
     opening: Float[Array, "*roller"],
 ) -> tuple[Float[Array, ""], Float[Array, " roller"]]:
-    """Ring displacement along the load, m, and ln Qi: a dry elastic distribution on rings swollen by the films, plus
-    Martin's film force on the rollers outside the loaded zone, at the displacement that carries the load.
+    """First guess of the ring displacement along the load, m, and of ln Qi.
 
-    **Arguments:** `cosine` of the angle between each roller and the load `total`, N; speeds and the `centrifugal`
-    force, N, of a typical roller; `opening` between the races of each roller at that displacement 0, m.
+    The loads are those of a dry elastic bearing whose clearance is reduced by the films, plus Martin's film force on
+    the rollers outside the loaded zone. The displacement is the one at which they carry the load.
+
+    **Arguments:**
+    - `mean_speed`, m/s, and `centrifugal`, N: mean surface speeds and centrifugal force of a typical roller.
+    - `cosine`: cosine of the angle between each roller and the load.
+    - `total`: load on the ring, N.
+    - `opening`: opening between races and roller if the ring is not displaced along the load, m.
     """
     kappa = per_race(contact.palmgren_compliance)
     typical = total * 4.0 / cosine.shape[0] + centrifugal + 1.0
@@ -89,9 +100,11 @@ def guessed_loads(
 
 
 class RaceLoads(AbstractArrowSystem):
-    """Loads of rollers whose places and speeds are given: unknowns ln Qi per roller and the ring displacement.
+    """Equations of the roller loads for given positions and speeds of the rollers. The unknowns are ln Qi of each
+    roller and the ring displacement.
 
-    `radial_clearance`: half the clearance, m, or the opening at each roller between rings that are not round.
+    `radial_clearance`: half the diametral clearance, m; if the rings are not round, their radial opening at each
+    roller.
     """
 
     contact: LineContact
@@ -106,7 +119,8 @@ class RaceLoads(AbstractArrowSystem):
     radial_clearance: Float[Array, "*roller"]
 
     def load_scale(self) -> Array:
-        """Size of the load, N; not less than a typical centrifugal force, so that no load at all has a scale."""
+        """Scale of the load balance, N: the load on the ring and a typical centrifugal force, added in squares. It is
+        not 0 without load."""
         return safe_norm(jnp.sqrt(jnp.sum(jnp.square(self.ring_load))), jnp.mean(self.centrifugal) + LEAST_LOAD)
 
     def equation_names(self) -> tuple[str, ...]:
@@ -143,9 +157,12 @@ class RaceLoads(AbstractArrowSystem):
         return (totals - self.ring_load) / self.load_scale(), jnp.zeros(())
 
     def smoothed(self, point: ArrowPoint) -> ArrowPoint:
-        """The unknowns as numbers that follow the rollers' places smoothly, for extrapolation: instead of ln Q, whose
-        course bends sharply where a roller enters the loaded zone, about the closing of the gap (in `LENGTH_UNIT`),
-        k Q - M/Q, as of a linear spring and Martin's film."""
+        """The unknowns in a form that changes smoothly with the roller positions, for extrapolation over time.
+
+        The slope of ln Q over time jumps where a roller enters the loaded zone. In its place stands k Q - M/Q in units
+        of `LENGTH_UNIT`: the compression of a linear spring minus the thickness of a Martin film. This is roughly the
+        approach of the rings at the roller.
+        """
         spring, film = self._gap_law()
         load = jnp.exp(point.elements)
         return ArrowPoint(spring * load - film / load, point.globals)
@@ -156,12 +173,12 @@ class RaceLoads(AbstractArrowSystem):
         closing = smooth.elements
         root = jnp.sqrt(jnp.square(closing) + 4.0 * spring * film)
         pressed = closing > 0
-        # no cancellation on either side
+        # each branch avoids cancellation
         load = jnp.where(pressed, root + closing, 4.0 * spring * film / (root - jnp.where(pressed, 0.0, closing)))
         return ArrowPoint(jnp.clip(jnp.log(load / (2.0 * spring)), *LOG_LOAD_RANGE), smooth.globals)
 
     def _gap_law(self) -> tuple[Array, Array]:
-        """k, 1/N, and M, N, of a typical roller, in `LENGTH_UNIT`."""
+        """Constants k, 1/N, and M, N, of `smoothed` for a typical roller; lengths in `LENGTH_UNIT`."""
         typical = 4.0 * self.load_scale() / self.centrifugal.shape[0]
         spring = jnp.sum(per_race(self.contact.palmgren_compliance)) * typical**-0.1 / LENGTH_UNIT
         size = per_race(self.contact.reduced_radius * self.contact.length)[0]
@@ -175,8 +192,13 @@ class RaceLoads(AbstractArrowSystem):
 
 
 class Distribution(NamedTuple):
-    """Loads on both races, N, displacement of the inner ring along its degrees of freedom, m, the scaled residual, and
-    the unknowns that were solved for: a guess for a bearing not far from this one."""
+    """A load distribution.
+
+    - `load`: on both races, N.
+    - `ring`: displacement of the inner ring along its degrees of freedom, m.
+    - `residual`: scaled residual of the solve.
+    - `point`: the unknowns, which can be the guess for a similar state.
+    """
 
     load: Float[Array, "2 roller"]
     ring: Float[Array, " freedom"]
@@ -187,7 +209,8 @@ class Distribution(NamedTuple):
 def distributed_loads(
     system: RaceLoads, tolerance: Values, max_steps: int, guess: ArrowPoint | None = None
 ) -> Distribution:
-    """Solve for all loads at once, with implicit (first) derivatives: O(number of rollers)."""
+    """Solves for the loads of all rollers together. First derivatives are implicit. The cost is proportional to the
+    number of rollers."""
     if guess is None:
         guess = jax.lax.stop_gradient(system).initial()
     found = plain_newton(system, guess, tolerance=tolerance, max_steps=max_steps)
@@ -196,8 +219,8 @@ def distributed_loads(
 
 
 def film_growth(scene: "CylindricalRollerBearing", load: Float[Array, ""]) -> Float[Array, ""]:
-    """See `AbstractBearing.film_growth`: films of rolling without sliding under the largest load of a roller of a
-    bearing without clearance (Stribeck), a little more than nothing at least."""
+    """See `AbstractBearing.film_growth`. The films are those of rolling without sliding under the largest roller load
+    of a bearing without clearance (Stribeck), plus 1 N so that the load is never 0."""
     if scene.contact is None or scene.oil is None:
         return jnp.zeros(())
     zero = jnp.zeros((2, 1))

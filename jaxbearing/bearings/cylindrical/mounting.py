@@ -1,7 +1,7 @@
-r"""Growth of a cylindrical roller bearing: it changes the clearance and the size of the rollers.
+r"""Effect of growth (by fits, temperatures and speed) on a cylindrical roller bearing: its clearance and roller size.
 
-The raceways, of diameters $d_m \mp D_w$, grow with their rings: $P_d' = P_d + \Delta G_o - \Delta G_i - 2\Delta D_w$.
-Rollers scale with their temperature.
+The raceways, with diameters $d_m \mp D_w$, grow by $\Delta G$ with their rings, and the rollers expand with their
+temperature. The diametral clearance becomes $P_d' = P_d + \Delta G_o - \Delta G_i - 2\Delta D_w$.
 """
 
 import dataclasses
@@ -19,7 +19,7 @@ def _clearance(geometry: RollerGeometry, growth: Growth) -> Array:
 
 
 def running_geometry(geometry: RollerGeometry, growth: Growth) -> RollerGeometry:
-    """The geometry of the grown bearing."""
+    """Geometry of the bearing after growth."""
     scale = 1.0 + growth.element_strain
     return dataclasses.replace(
         geometry,
@@ -32,5 +32,5 @@ def running_geometry(geometry: RollerGeometry, growth: Growth) -> RollerGeometry
 
 
 def running_play(geometry: RollerGeometry, growth: Growth) -> Play:
-    """Clearance of the grown bearing."""
+    """Diametral clearance of the bearing after growth."""
     return Play(_clearance(geometry, growth), None, None, jnp.asarray(True))

@@ -19,11 +19,14 @@ def rated_contacts(
     laminae: LaminaLoads | None,
     force: Float[Array, " freedom"] | None = None,
 ) -> RatedContacts:
-    """**Arguments:** `RollerResults`, `None` of an unloaded bearing, and, of rollers in laminae, `LaminaLoads` of a
-    solution; `force`: its `force`."""
+    """Sizes and loads of the raceway contacts for the life.
+
+    **Arguments:** `elements`: results of the rollers, `None` if the bearing is unloaded; `laminae`: loads of the
+    laminae of a solution, used instead of `elements` if there are any; `force`: the field `force` of the solution.
+    """
     geometry, operation = scene.geometry, scene.operation
     radial, _ = sizes_of_loads(operation, force)
-    # ISO 281 has no formula for an axial load on flanges: it sends its reader to the maker
+    # ISO 281 has no formula for an axial load on flanges: it refers to the manufacturer
     other = is_misaligned(operation) or operation.axial_given
     loads = (jnp.zeros(scene.n_elements),) * 2
     if laminae is not None:

@@ -1,4 +1,4 @@
-"""The rings of a cylindrical roller bearing: the inner one from its operating point, and flexible rings."""
+"""The rings of a cylindrical roller bearing: the inner ring at its operating point, and flexible rings."""
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -9,8 +9,11 @@ from .scene import CylindricalRollerBearing
 
 
 def roller_ring(scene: CylindricalRollerBearing, lever: Array) -> InnerRing:
-    """The ring of a scene, NaN where a traced radial load is not positive: a load factor of a transient run may bring
-    that about (a known one was refused when the scene was built). `lever`: of `InnerRing`, m."""
+    """The inner ring of a scene. Its load is NaN if a traced radial load is not positive, for example because of the
+    load factor of a transient run; a known load was checked when the scene was built.
+
+    **Arguments:** `lever`: as in `InnerRing`, m.
+    """
     ring, radial = inner_ring(scene, lever), scene.operation.radial_load
     if radial is None:
         return ring
@@ -18,7 +21,7 @@ def roller_ring(scene: CylindricalRollerBearing, lever: Array) -> InnerRing:
 
 
 def bending_rings(scene: CylindricalRollerBearing, azimuth: Float[Array, " roller"]) -> BentRings:
-    """The rings of a scene that bend. **Arguments:** `azimuth`: of the rollers, rad."""
+    """The flexible rings of a scene. **Arguments:** `azimuth`: of the rollers, rad."""
     rings, (inner, outer) = scene.materials.of_rings, scene.raceway_diameters
     return BentRings(
         elastic_ring(scene.outer_ring, rings[1], outer, scene.ring_width, azimuth),

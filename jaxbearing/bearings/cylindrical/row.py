@@ -1,4 +1,4 @@
-"""The convex energy of a cylindrical roller bearing whose ring is held: rollers that tilt, and flanges."""
+"""The row model of a cylindrical roller bearing: frictionless tilting rollers and flanges under a held inner ring."""
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -30,7 +30,7 @@ class TiltingRow(AbstractRow):
 
     def hold(self, displacement: Float[Array, "5"], state: RowState) -> HeldRow:
         row = settled_row(*self._both(displacement), state)
-        # the springs that anchor the unknowns do not hold the ring along its axis
+        # the artificial springs of the unknowns must not support the ring along its axis
         across = jnp.asarray(_ACROSS)
         row = row._replace(force=row.force * across, stiffness=row.stiffness * across[:, None] * across[None, :])
         flanges = self.scene.geometry.thrust_flanges
@@ -43,7 +43,7 @@ class TiltingRow(AbstractRow):
         return force if flanges is None else force.at[0].set(flanges.force(displacement[0]))
 
     def _both(self, displacement: Float[Array, "5"]) -> tuple[TiltingRollers, TiltingRollers]:
-        """The equations with the ring held, and with the ring free, which give the force on it."""
+        """Two sets of equations: with the ring held, and with the ring free. The second set gives the force on it."""
         held = self._held(displacement)
         return held, build_tilting(self.scene, held.ring.released(held.load_scale()))
 
@@ -51,7 +51,7 @@ class TiltingRow(AbstractRow):
 def _with_flanges(row: HeldRow, flanges: ThrustFlanges, axial: Array) -> HeldRow:
     sides = [side * axial - flanges.gap for side in flanges.sides]
     energy = flanges.stiffness / (1.0 + EXPONENT) * sum(positive_power(one, 1.0 + EXPONENT) for one in sides)
-    # a power below 1 has no bound on its slope at the touch
+    # at first contact this power, with exponent 1/9, has an unbounded slope
     touched = [jnp.where(one > 0, jnp.where(one > 0, one, 1.0) ** (EXPONENT - 1.0), 0.0) for one in sides]
     stiffness = flanges.stiffness * EXPONENT * sum(touched)
     return row._replace(

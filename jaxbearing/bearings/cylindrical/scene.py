@@ -1,10 +1,11 @@
 """The cylindrical roller bearing as a scene: geometry, materials, oil, contact laws, cage, flange, drag.
 
-Frames and signs. Plane (X, Y), origin at the bearing centre; azimuths from the load line, counter-clockwise, the
-sense of inner ring rotation. The load on the inner ring and its displacement point along azimuth 0; n is the outward
-unit vector at a roller, t the forward tangential one. Spins are relative to the orbiting frame and positive in normal
-running (a roller between a turning inner and a fixed outer ring spins clockwise: the counter-clockwise spin is minus
-`spin_speed`). Pocket face 1 is in front of the roller, face 2 behind it.
+Frames and signs. The plane (X, Y) has its origin at the bearing centre. Azimuths count from the load line,
+counter-clockwise, which is the sense of inner ring rotation. The load on the inner ring and its displacement point
+along azimuth 0; n is the outward unit vector at a roller, t the unit vector forward along the orbit. Spins are relative
+to the orbiting frame and positive in normal running: a roller between a turning inner and a fixed outer ring spins
+clockwise, so that its counter-clockwise spin is minus `spin_speed`. Pocket wall 1 is in front of the roller, wall 2
+behind it.
 """
 
 import dataclasses
@@ -58,35 +59,39 @@ if TYPE_CHECKING:
     from .solution import RollerResults
 
 _ACROSS = ("radial", "lateral", "tilt", "tilt_lateral")
-"""Degrees of freedom of the inner ring that the rollers feel."""
+"""Degrees of freedom of the inner ring that load the rollers."""
 
 
 def _freedoms(value: object) -> tuple[str, ...]:
-    """**Raises:** `ValueError` for what are no degrees of freedom of the ring."""
+    """Converts `ring_freedom` to a tuple. **Raises:** `ValueError` if it is not one of the two that are possible."""
     if isinstance(value, list | tuple) and tuple(map(str, value)) in (("radial",), ("radial", "lateral")):
         return tuple(map(str, value))
     raise ValueError(f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {value!r}")
 
 
 class CylindricalRollerBearing(AbstractMovingBearing):
-    """A steady cylindrical roller bearing under radial load; every part but geometry, materials and operation may
-    be `None`, and is then not modelled: no unknown, no equation, no run time.
+    """A cylindrical roller bearing under radial load, steady or in a transient run.
 
-    - `contact=None`: dry and frictionless; only the load distribution is solved, rollers orbit without slip.
-    - `contact.traction=None`: films, and where named the rolling resistance, but no sliding friction on the raceways;
-      rollers orbit without slip.
-    - with traction a `cage` is needed: without one a roller outside the loaded zone has no steady state, and the scene
-      must have a `simulation`.
-    - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae where they have a
-      profile; with a `contact` without traction: films and what rolling costs, for rolling without sliding.
-    - `geometry.flange_stiffness`: the ring's axial freedom, which nothing else depends on.
-    - `outer_ring`: a flexible outer ring in its housing; `inner_ring`: a flexible inner ring on its shaft;
-      `None`: it is rigid. `inner_roundness`, `outer_roundness`: raceways that are not round, standing still relative to
-      the load. Rollers and cage in motion have rigid rings.
-    - `simulation`: what a transient run does beyond the operating point, a `WarmUpSimulation` with `thermal`; a steady
-      solve does not look at it.
+    Every part except geometry, materials and operation may be `None`. Such a part is not modelled: it adds no unknowns,
+    no equations and no run time.
 
-    **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
+    - `contact=None`: dry and frictionless. Only the load distribution is solved, and rollers orbit without slip.
+    - `contact.traction=None`: films and, if given, rolling resistance, but no sliding friction on the raceways. Rollers
+      orbit without slip.
+    - With `contact.traction`, a steady solve needs a `cage`: without it, a roller outside the loaded zone has no steady
+      state. Only a scene with a `simulation` may leave the cage out.
+    - `profile`, or `operation.misalignment` or `operation.moment`: rollers may tilt, divided into laminae if they have
+      a `profile`. If there is a `contact`, it must be without traction; films and rolling resistance are those of
+      rolling without sliding.
+    - `geometry.flange_stiffness`: flanges hold the ring along its axis. This axial degree of freedom is independent of
+      all others.
+    - `outer_ring`: flexible outer ring in its housing; `None`: it is rigid, as a transient run requires.
+    - `inner_ring`: flexible inner ring on its shaft; `None`: it is rigid, as a transient run requires.
+    - `inner_roundness`, `outer_roundness`: deviations of a raceway that is not round, stationary relative to the load.
+    - `simulation`: settings of a transient run, or a `WarmUpSimulation` if the scene has `thermal`; a steady solve
+      ignores it.
+
+    **Raises:** `ValueError` for combinations that have no steady state or lack a required part.
     """
 
     kind: ClassVar[str] = "cylindrical_roller_bearing"
@@ -167,8 +172,8 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         return solution if flanges is None else flanges.hold(solution, self.operation, ring)
 
     def _solve_across(self, options: NewtonOptions, ring: InnerRing | None) -> Solution:
-        """The solution without the axial freedom."""
-        # dry rollers that carry evenly leave a held ring without unknowns; those that may tilt have the same loads
+        """Solution for all degrees of freedom of the ring except the axial one."""
+        # dry rollers that carry evenly have no unknowns if the ring is held: the tilting model finds the same loads
         evenly = self.slips or not self.tilts
         if ring is not None:
             evenly = self.slips
@@ -192,7 +197,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
     @property
     def ring_width(self) -> Scalar:
-        """Width of flexible rings, where the scene gives none, m."""
+        """Default width of flexible rings, m: the width of the bearing, or the roller length if no width is given."""
         return self.geometry.roller_length if self.geometry.width is None else self.geometry.width
 
     def play(self, growth: Growth) -> Play:
@@ -242,12 +247,12 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
     @property
     def unknown_freedoms(self) -> tuple[str, ...]:
-        """See `AbstractBearing`; the axial one follows in closed form."""
+        """See `AbstractBearing`. The axial one is left out, because it follows in closed form."""
         return tuple(name for name in super().unknown_freedoms if name in _ACROSS)
 
     @property
     def may_tilt(self) -> bool:
-        """False where rollers slide: they carry evenly along their length."""
+        """False if rollers can slide: they carry evenly along their length in this model."""
         return not self.slips
 
     def film_growth(self, load: Array) -> Array:
@@ -261,7 +266,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
     @property
     def tilts(self) -> bool:
-        """True if rollers may tilt; without it they carry evenly along their length."""
+        """True if rollers may tilt; otherwise they carry evenly along their length."""
         return self.profile is not None or self.operation.tilts
 
     @property
@@ -271,12 +276,12 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
     @property
     def port_distance(self) -> Array:
-        """Distance of the ring's reference point from the middle of the rollers along $+e_x$, m: none."""
+        """Distance of the ring's reference point from the middle of the rollers along $+e_x$, m: 0."""
         return jnp.zeros(())
 
     @property
     def slips(self) -> bool:
-        """True if roller and cage speeds are unknowns; without traction they follow from rolling without slip."""
+        """True if roller and cage speeds are unknowns. Without traction they are those of rolling without slip."""
         return self.contact is not None and self.contact.traction is not None
 
     @property
@@ -322,7 +327,10 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
 
 def check_run(operation: Operation) -> None:
-    """**Raises:** `ValueError` where the operating point is none that a transient run can begin at."""
+    """Checks the operating point of a transient run.
+
+    **Raises:** `ValueError` for given displacements, an axial load, or no radial load.
+    """
     if operation.displaced:
         raise ValueError("operation.displacement: expected none in a transient run, where loads move the ring")
     if operation.axial_given:
@@ -333,7 +341,7 @@ def check_run(operation: Operation) -> None:
 
 
 def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:
-    """Laws that were not made for this oil."""
+    """Notes on laws that were not made for this oil."""
     said = []
     if contact.traction is not None:
         said += contact.traction.notes(oil)

@@ -17,7 +17,7 @@ _Values = Float[Array, " element"]
 
 
 class SolvedRollers(NamedTuple):
-    """Converged state of rollers with films that carry evenly along their length."""
+    """Converged state of lubricated rollers that carry evenly along their length."""
 
     system: "LubricatedRollerSystem"
     state: "RollerState"
@@ -32,13 +32,14 @@ def _optional(unit: str, description: str) -> Any:
 
 
 def _computed(unit: str, description: str, of: Callable[[SolvedRollers], Array | None]) -> Any:
-    """Field of `RollerResults` that names its function; `None` of dry and of tilting rollers, and of those in a run in
-    time."""
+    """Field of `RollerResults` that the function `of` computes; `None` for dry rollers, tilting rollers and transient
+    runs."""
     return computed(unit, description, of, default=None)
 
 
 class RollerResults(eqx.Module):
-    """Arrays over the rolling elements; what is not modelled is `None`. Speeds are positive in normal running."""
+    """Results of the rollers as arrays, one value for each roller. A result that is not modelled is `None`. Speeds are
+    positive in normal running."""
 
     azimuth: _Values = _result("rad", "azimuth from the load line")
     load_inner: _Values = _result("N", "normal load on the inner raceway")

@@ -31,14 +31,16 @@ from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults, SolvedRollers
 
 NOTHING_UNKNOWN = ("no unknown: given displacements are the whole state",)
-"""In place of the names of equations."""
+"""Equation names of a system without unknowns."""
 
 
 def build_system(
     scene: CylindricalRollerBearing, ring: InnerRing | None = None
 ) -> DryRollerSystem | LubricatedRollerSystem:
-    """The equations of a scene, with everything prepared that does not depend on the unknowns; with its own ring, or
-    another one."""
+    """Equations of a scene; everything that does not depend on the unknowns is computed here.
+
+    **Arguments:** `ring`: inner ring to use instead of the one at the scene's operating point.
+    """
     geometry, operation = scene.geometry, scene.operation
     azimuth = azimuths(geometry, geometry.n_rollers)
     cosines = outward(azimuth)
@@ -148,17 +150,19 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
 
 
 def drag_area(geometry: RollerGeometry, cage: RollerCage | None) -> Array:
-    """Frontal area of a roller that the cage leaves free: length times (diameter - cage thickness), m^2.
+    """Frontal area of a roller that the cage does not cover: length times (diameter - cage thickness), m^2.
 
-    The analogue of the source's ball formula; 0 where the cage is thicker than the roller.
+    It is the analogue of the source's formula for balls, and 0 if the cage is thicker than the roller.
     """
     thickness = 0.0 if cage is None else (cage.outside(geometry) - cage.bore(geometry)) / 2.0
     return jnp.asarray(geometry.roller_length) * jnp.maximum(geometry.roller_diameter - thickness, 0.0)
 
 
 def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions, ring: InnerRing | None = None) -> Solution:
-    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve. `ring`: instead of that
-    of the scene's operating point.
+    """Solves for the steady state. The function is pure and can be jitted, vmapped and differentiated. A failed solve
+    does not raise.
+
+    **Arguments:** `ring`: inner ring to use instead of the one at the scene's operating point.
 
     **Raises:** `ValueError` for a scene that has no steady state.
     """
@@ -190,9 +194,11 @@ def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions, ring: 
 def _port(
     system: DryRollerSystem | LubricatedRollerSystem, result: NewtonResult, load: Float[Array, " roller"]
 ) -> Port:
-    """The reaction and the stiffness of the ring, everything else in equilibrium; `load`: on the inner race, N.
+    """Reaction and stiffness of the ring, with everything else in equilibrium.
 
-    Of the unknown degrees of freedom; where a displacement is given, of all that the model has.
+    They have the unknown degrees of freedom; if a displacement is given, all that the model has.
+
+    **Arguments:** `load`: on the inner race, N.
     """
     jacobian, shown = result.jacobian, system
     if system.ring.needs_held_load:
@@ -284,16 +290,18 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
 
 
 def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
-    """1 - W / W_free, finite (and then without meaning) where rolling without slip would hold the cage still.
+    """Cage slip 1 - W/W_free, with the cage speed W_free of rolling without slip.
 
-    W_free is smoothed by 1e-8 of the speed scale: relative error 1e-16 with one ring at rest.
+    Near W_free = 0 it stays finite, but has no meaning. For this the quotient is smoothed with 1e-8 of the speed scale,
+    which is a relative error of 1e-16 if one ring is at rest.
     """
     free = motion.free_orbit
     return (free - orbit) * free / (jnp.square(free) + jnp.square(1e-8 * motion.orbit_unit))
 
 
 def _interactions(system: LubricatedRollerSystem, state: RollerState, land: LandState) -> list[Interaction]:
-    """All friction of rollers that slide, each from the force and the speed of its own interaction."""
+    """All friction of a bearing with sliding rollers. The power of each interaction is computed from its own force and
+    its own speed."""
     motion, pocket, cage = system.kinematics, state.pocket, system.cage
     assert pocket is not None
     assert cage is not None

@@ -1,8 +1,9 @@
 r"""Flanges that hold the inner ring of a cylindrical roller bearing along its axis.
 
-$F = \pm k(|x| - g)_+^{10/9}$, x the axial displacement of the inner ring from the middle of its play, g the gap of a
-flange. The stiffness k is a number of the user, since the geometry of the ribs is not modelled. Nothing couples the
-axial freedom with the others, so that force and displacement follow from each other in closed form, after the solve.
+The force is $F = \pm k(|x| - g)_+^{10/9}$, with the axial displacement x of the inner ring from the middle of its play
+and the gap g of a flange. The user gives the stiffness k, because the geometry of the flanges is not modelled. The
+axial degree of freedom is not coupled with the others: force and displacement follow from each other in closed form,
+after the solve.
 """
 
 import dataclasses
@@ -23,9 +24,9 @@ if TYPE_CHECKING:
     from .geometry import RollerGeometry
 
 EXPONENT = 10.0 / 9.0
-"""The exponent of the force over the displacement is that of a line contact."""
+"""Exponent of the displacement in the force of a flange, as in a line contact."""
 SIDES = {"both": (1.0, -1.0), "+x": (1.0,), "-x": (-1.0,)}
-"""Word of a scene for the axial loads that flanges carry -> their signs."""
+"""Value of `geometry.thrust` -> signs of the axial loads that the flanges carry."""
 NO_AXIAL_FREEDOM = (
     "a cylindrical roller bearing without geometry.flange_stiffness has no axial freedom: nothing holds its inner ring "
     "along the axis"
@@ -35,16 +36,16 @@ NOT_MODELLED = (
     "friction of the ribs under the axial load, the tilt that it gives the rollers and its effect on the life are not "
     "modelled; without an axial load the ring stands at 0, inside its play"
 )
-"""A solution of a bearing with flanges has this note."""
+"""Note in the solution of a bearing with flanges."""
 
 
 class ThrustFlanges(eqx.Module):
-    """See the module.
+    """Flanges that hold the inner ring along its axis (see the module).
 
     **Arguments:**
     - `stiffness`: k, N/m^(10/9).
-    - `gap`: axial displacement at which a flange is touched, from the middle of the play, m.
-    - `sides`: signs of the loads that are carried.
+    - `gap`: axial displacement, from the middle of the play, at which the ring touches a flange, m.
+    - `sides`: signs of the axial loads that the flanges carry.
     """
 
     stiffness: Float[Array, ""]
@@ -54,8 +55,8 @@ class ThrustFlanges(eqx.Module):
     def force(self, displacement: Array) -> Array:
         """Axial load that holds the ring at a displacement, N.
 
-        It has a slope everywhere, 0 inside the play. The slope of the slope has no bound where a flange is touched;
-        at the touch itself its derivative here is 0, that of the play.
+        It is differentiable everywhere; its derivative inside the play is 0. The second derivative is unbounded where
+        the ring begins to touch a flange; exactly there, this function has the second derivative 0.
         """
         pressed = [side * positive_power(side * displacement - self.gap, EXPONENT) for side in self.sides]
         return self.stiffness * sum(pressed)
@@ -63,8 +64,8 @@ class ThrustFlanges(eqx.Module):
     def under(self, load: Array) -> tuple[Array, Array]:
         """Displacement, m, and stiffness, N/m, under an axial load, N, towards a flange.
 
-        A load of 0 leaves the ring anywhere in its play: it is put at 0, with no stiffness. The derivatives of both by
-        the load have no bound as it vanishes, and are 0 at 0.
+        Without load the ring may stand anywhere in its play; the result is then displacement 0 and stiffness 0. The
+        derivatives of both with respect to the load are unbounded as the load approaches 0, and are set to 0 at load 0.
         """
         loaded = load != 0
         size = jnp.abs(jnp.where(loaded, load, 1.0))
@@ -73,9 +74,9 @@ class ThrustFlanges(eqx.Module):
         return displacement, jnp.where(loaded, EXPONENT * size / pressed, 0.0)
 
     def hold(self, solution: Solution, operation: Operation, ring: InnerRing | None) -> Solution:
-        """The solution of a bearing with its axial force, displacement and stiffness.
+        """Adds the axial force, displacement and stiffness to a solution.
 
-        **Arguments:** `ring`: that was held instead of the one of the operating point, or `None`.
+        **Arguments:** `ring`: the held ring that was used instead of the ring at the operating point, or `None`.
         """
         held = operation.held_at("axial") if ring is None else ring.held[0]
         load, place = operation.load("axial"), solution.ring.axial
@@ -99,7 +100,10 @@ class ThrustFlanges(eqx.Module):
 
 
 def check_flanges(geometry: "RollerGeometry") -> None:
-    """**Raises:** `ValueError` for flanges of which something is missing."""
+    """Checks that the flanges are fully described.
+
+    **Raises:** `ValueError` if `flange_stiffness` is given without `flange_gap`, or other flange data without it.
+    """
     if geometry.flange_stiffness is not None and geometry.flange_gap is None:
         raise ValueError(
             "geometry.flange_gap: found nothing, expected a length, which geometry.flange_stiffness needs, e.g. '50 um'"
@@ -110,8 +114,11 @@ def check_flanges(geometry: "RollerGeometry") -> None:
 
 
 def check_axial(geometry: "RollerGeometry", operation: Operation) -> None:
-    """**Raises:** `ValueError` for an axial load or displacement that no flange stands against: a known load that
-    points away from the only flange, or either without flanges."""
+    """Checks that the flanges can carry the axial load.
+
+    **Raises:** `ValueError` for an axial load or displacement without flanges, and for a known axial load that the
+    only flange cannot carry because of its direction.
+    """
     load = operation.load("axial")
     if geometry.flange_stiffness is None:
         for name, value in (("axial_load", load), ("displacement.axial", operation.held_at("axial"))):

@@ -1,19 +1,20 @@
-r"""Cylindrical roller bearing whose rollers may tilt: rings misaligned, rollers with a profile; its equations are those
-of dry contacts without friction, in closed form along straight rollers, in laminae along a profile.
+r"""Equations of a cylindrical roller bearing whose rollers may tilt, because rings are misaligned or rollers have a
+profile. The contacts are dry and frictionless. Their loads are integrated in closed form along straight rollers, and
+over laminae along a profile.
 
-Unknowns per roller: the outward displacement x of its end s = 0 and its tilt phi, which moves the end s = l outwards;
-globally the displacements of the inner ring, m, and its tilt $\tau$ (moves azimuth 0 along +axial: the end s = l, on
-the axial side, then moves inwards there), times the length. With the profile h(s) of the roller (on both contacts)
+The unknowns of a roller are the outward displacement x of its end s = 0 and its tilt phi, which moves the end s = l
+outwards. The global unknowns are the displacements of the inner ring, m, and its tilt $\tau$ times the roller length. A
+positive $\tau$ moves the ring at azimuth 0 along +axial; the end s = l is on the axial side, where the ring then moves
+inwards. With the profile h(s) of the roller (on both contacts), the approaches at s are
 
-$\delta_o = x + \phi s - h$, $\delta_i = d\cdot n - J_d/2 - \tau\cos\psi(s - \ell/2) - x - \phi s - h$,
+$\delta_o = x + \phi s - h$, $\delta_i = d\cdot n - J_d/2 - \tau\cos\psi(s - \ell/2) - x - \phi s - h$.
 
-roller: $Q_o - Q_i = F_c$, $M_o - M_i = F_c\ell/2$; ring: $\sum Q_in = F$, $-\sum(M_i - Q_i\ell/2)\cos\psi = M$. The
-gradient of one convex potential, with the springs of `ring.ANCHOR`.
+The balances of a roller are $Q_o - Q_i = F_c$, $M_o - M_i = F_c\ell/2$, those of the ring $\sum Q_in = F$,
+$-\sum(M_i - Q_i\ell/2)\cos\psi = M$. They are the gradient of one convex potential, with the springs of `ring.ANCHOR`.
 
-Flexible rings move outwards by $w_o$, $w_i$ at a roller, along the whole of its length: $w_o$ is taken from
+Flexible rings move outwards by $w_o$, $w_i$ at a roller, along its whole length: $w_o$ is subtracted from
 $\delta_o$, and the roller presses the outer ring by $Q_o$; $w_i$ is added to $\delta_i$, and the roller presses the
-inner ring by $-Q_i$. What races that are not round add to $\delta_i$ is alike along
-the roller too.
+inner ring by $-Q_i$. Races that are not round change $\delta_i$, by the same amount along the whole roller.
 """
 
 import dataclasses
@@ -33,13 +34,15 @@ from ..row import AbstractRowSystem
 from ..tapered.system import FARTHEST, LOAD_FLOOR, LONGEST_STEP, MOST_TILT, START_TOLERANCE
 
 SLOW = 1e-2
-"""Centrifugal force over a roller's share of the load below which a bearing is solved at rest first."""
+"""If the centrifugal force is below this fraction of a roller's share of the load, the bearing is first solved at
+rest."""
 HALVINGS = 60
-"""Number of bisections for the approach of a roller that only its centrifugal force holds."""
+"""Number of bisections for the approach of a roller that only its centrifugal force presses on the outer race."""
 
 
 class TiltingState(NamedTuple):
-    """Approaches f (m) and g (rad) of the races (inner, outer), loads, N, and their moments about s = 0, N m."""
+    """Contacts of all rollers with the races (inner, outer): the approach is f + g s, with `approach` f, m, at the end
+    s = 0 and `slope` g, rad; `load`, N, and its `moment` about s = 0, N m."""
 
     approach: Float[Array, "2 roller"]
     slope: Float[Array, "2 roller"]
@@ -48,8 +51,13 @@ class TiltingState(NamedTuple):
 
 
 class TiltingRollers(AbstractRowSystem):
-    """See the module. `columns[f]` are (towards the roller, slope of the inner race) for a unit of each freedom of the
-    ring, `held` those of what the ring is held at and of races that are not round."""
+    """Equations of a bearing with tilting rollers (see the module).
+
+    - `columns`: displacement of the inner race towards each roller, and its slope along the roller, for a unit of each
+      unknown degree of freedom of the ring.
+    - `held`: the same displacement, m, and slope, rad, by the given displacements of the ring and by races that are not
+      round.
+    """
 
     line: AbstractTiltedLine
     azimuth: Float[Array, " roller"]
@@ -69,7 +77,7 @@ class TiltingRollers(AbstractRowSystem):
         return self.load_scale() / self.azimuth.size + self.centrifugal
 
     def units(self) -> Float[Array, "2 1"]:
-        """x, phi for a unit of the unknowns."""
+        """Factors that convert the unknowns of a roller to x, m, and phi, rad."""
         return LENGTH_UNIT * jnp.stack([jnp.ones(()), 1.0 / jnp.asarray(self.line.length)])[:, None]
 
     def equation_names(self) -> tuple[str, ...]:
@@ -89,12 +97,13 @@ class TiltingRollers(AbstractRowSystem):
         return ArrowPoint(-high.elements, -high.globals), high
 
     def initial(self) -> ArrowPoint:
-        """The ring pressed in by the clearance and what one roller under the whole load needs; rollers half-way, but
-        at least where the outer race bears their centrifugal forces."""
+        """First guess. The ring is displaced by the clearance plus the approaches of one roller that carries the whole
+        load. The rollers are half-way between the races, or further out if the outer race then carries their
+        centrifugal forces."""
         if self.guess is not None:
             return self.guess
         if self.ring.needs_held_load:
-            # where it is held, what else moves at 0
+            # given displacements at their values, all unknowns of the rings at 0
             return ArrowPoint(self._between(self.held[0]), jnp.zeros(self.ring_unknowns))
         load = self.load_scale() + self.centrifugal
         depth = jnp.maximum(
@@ -107,7 +116,8 @@ class TiltingRollers(AbstractRowSystem):
         return ArrowPoint(self._between(inward), ring)
 
     def _between(self, inward: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
-        """First guess of the rollers where the inner race has come nearer by `inward`, m."""
+        """First guess of the roller unknowns. **Arguments:** `inward`: displacement of the inner race towards each
+        roller, m."""
         half = 0.5 * (inward - self.radial_clearance)
         seat = (self.centrifugal / (self.line.of_race(1).stiffness * self.line.length)) ** 0.9
         out = jnp.maximum(half, seat) / LENGTH_UNIT
@@ -117,8 +127,8 @@ class TiltingRollers(AbstractRowSystem):
         return dataclasses.replace(self, guess=None)
 
     def acting(self, unknowns, shared):
-        """See `AbstractConvexArrow`; the energy of a roller is that of its contacts less the work of its centrifugal
-        force, J."""
+        """See `AbstractConvexArrow`. The energy of a roller is the energy of its contacts minus the work of its
+        centrifugal force, J."""
         state = self.state(unknowns, shared)
         balance = self.balance(state) + anchored(unknowns, ANCHOR * LENGTH_UNIT)
         totals = jnp.einsum("fcn,cn->fn", self.columns, self.ring_force(state))
@@ -133,18 +143,19 @@ class TiltingRollers(AbstractRowSystem):
         return self.ring_balance(globals_, totals, floats=True) / self.load_scale(), jnp.zeros(())
 
     def started(self) -> tuple["TiltingRollers", Minimum]:
-        """These equations with the minimum of the potential as first guess, and how it was found.
+        """These equations with the minimum of the potential as first guess, and the result of the search for it.
 
-        Where the bearing turns slowly, the search begins from the bearing at rest, with the rollers that carry nothing
-        there seated on the outer race: a centrifugal force that is next to nothing asks for approaches that are, and
-        the search does not find such a place from afar.
+        For a slow bearing, the search begins at the solution for the bearing at rest, in which the unloaded rollers
+        are placed on the outer race. A very small centrifugal force needs very small approaches, and the search does
+        not find such positions from far away.
         """
         found = in_turn(_minimum, jax.lax.stop_gradient(self))
         return dataclasses.replace(self, guess=found.point), found
 
     def seated(self, point: ArrowPoint) -> ArrowPoint:
-        """The point with each roller that does not reach the inner race seated on the outer one, held there by its
-        centrifugal force; a profile is the same on both sides of the middle, so that it does not tilt."""
+        """The point, with each roller that does not touch the inner race moved to where its centrifugal force is in
+        balance with its load on the outer race. Profiles are symmetric about the middle: such a roller does not
+        tilt."""
         line, length, zero = self.line.of_race(1), jnp.asarray(self.line.length), jnp.zeros(())
         position = jnp.linspace(0.0, 1.0, 101)
         high = (self.centrifugal / (line.stiffness * length)) ** 0.9 + jnp.max(line.drop(position))
@@ -173,18 +184,19 @@ class TiltingRollers(AbstractRowSystem):
         return TiltingState(approach, slope, *self.line.load_and_moment(approach, slope))
 
     def balance(self, state: TiltingState) -> Float[Array, "2 roller"]:
-        """Force, N, and moment about s = 0 over the length, N."""
+        """Residuals of the balances of each roller: force, N, and moment about s = 0, divided by the length, N."""
         force = state.load[1] - state.load[0] - self.centrifugal
         moment = (state.moment[1] - state.moment[0]) / self.line.length - 0.5 * self.centrifugal
         return jnp.stack([force, moment])
 
     def ring_force(self, state: TiltingState) -> Float[Array, "2 roller"]:
-        """Force on each roller, N, and moment about its middle, N m, conjugate to (towards the roller, slope)."""
+        """Force of the inner race on each roller, N, and its moment about the middle of the roller, N m. They are
+        conjugate to the two rows of `columns`: displacement towards the roller, and slope."""
         return jnp.stack([state.load[0], state.moment[0] - 0.5 * self.line.length * state.load[0]])
 
 
 def _minimum(system: TiltingRollers) -> Minimum:
-    """Finds the minimum that `TiltingRollers.started` begins with."""
+    """Minimum of the potential for `TiltingRollers.started`."""
     slow = system.centrifugal < SLOW * system.load_scale() / system.azimuth.size
     resting = dataclasses.replace(system, centrifugal=jnp.where(slow, 0.0, system.centrifugal))
 

@@ -1,9 +1,9 @@
 r"""Steady state of a cylindrical roller bearing with tilting, profiled rollers.
 
-The load distribution is dry and frictionless; that of straight rollers is integrated in closed form, that of a profile
-over its laminae. With an oil and contact laws films and rolling resistance follow from it for rolling without sliding:
-laminae are short line contacts side by side, each with its own load per length. The tractions that rolling without
-sliding needs balance each roller; ring torques are assembled from them.
+The load distribution is dry and frictionless. Loads are integrated in closed form along straight rollers, and over
+laminae along a profile. If the scene has an oil and contact laws, films and rolling resistance follow from the loads,
+for rolling without sliding: the laminae are short line contacts side by side, each with its own load per length. The
+tractions that keep the rollers rolling follow from the balance of each roller, and the ring torques from the tractions.
 """
 
 import dataclasses
@@ -38,7 +38,7 @@ from .tilting import TiltingRollers, TiltingState
 
 
 def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None) -> TiltingRollers:
-    """The equations of a scene, with its own ring or another one."""
+    """Equations of a scene. **Arguments:** `ring`: inner ring to use instead of the one at the operating point."""
     geometry = scene.geometry
     azimuth = azimuths(geometry, geometry.n_rollers)
     length = jnp.asarray(geometry.loaded_length)
@@ -74,16 +74,17 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
 
 
 def _columns(azimuth: Float[Array, " roller"], lever: Array) -> Float[Array, "5 2 roller"]:
-    """(towards the roller, slope of the inner race) for a unit of each of `RING_FREEDOMS`; tilts times `lever` are
-    lengths. The rollers do not feel the axial freedom."""
+    """Displacement of the inner race towards each roller, and its slope along the roller, for a unit of each degree of
+    freedom in `RING_FREEDOMS`. Tilts are multiplied by `lever`, m, and so are lengths. The axial displacement has no
+    effect on the rollers."""
     zero, cosine, sine = jnp.zeros_like(azimuth), jnp.cos(azimuth), jnp.sin(azimuth)
     pairs = ((zero, zero), (cosine, zero), (sine, zero), (zero, -cosine / lever), (zero, -sine / lever))
     return jnp.stack([jnp.stack(pair) for pair in pairs])
 
 
 def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions, ring: InnerRing | None = None) -> Solution:
-    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve. `ring`: instead of that
-    of the scene's operating point."""
+    """Solves for the steady state. The function is pure and can be jitted, vmapped and differentiated. A failed solve
+    does not raise. **Arguments:** `ring`: inner ring to use instead of the one at the scene's operating point."""
     started, minimum = build_tilting(scene, ring).started()
     system, result = newton_solve(started, options)
     none = ~result.converged & minimum.outside
@@ -129,7 +130,7 @@ def _results(
         scene.materials.race_modulus,
     )
     if scene.profile is None:
-        # what is straight carries most at an end
+        # the load per length of a straight roller is largest at one of its ends
         ends = jnp.asarray([0.0, 1.0])[:, None, None]
         per_length = system.line.load_per_length(state.approach[None], state.slope[None], ends)
         most = jnp.max(per_length, axis=0) * contact.length
@@ -170,15 +171,16 @@ def _films(
     load: Float[Array, "2 roller"],
     laminae: Float[Array, "2 roller lamina"],
 ) -> tuple[dict[str, Array], Float[Array, "2 roller"] | None, Starvation | None]:
-    """Films, NaN where nothing is loaded, the rolling resistance of each contact, N, and what little oil does to it.
+    """Films by the names of the results, rolling resistance of each contact, N, and its starvation.
 
-    `film_*`: of the whole contact, its load spread evenly over the length; `film_least_*`: the thinnest of the laminae.
+    `film_*` are the films of whole contacts, with the load spread evenly over the length, m; `film_least_*` are the
+    thinnest films of the laminae, m. Both are NaN for contacts without load.
     """
     laws, oil = scene.contact, scene.oil
     if laws is None or oil is None:
         return {}, None, None
     inlet = oil_of_races(scene)
-    # of laminae, the last axis
+    # laminae are the last axis
     along = lambda tree: jax.tree.map(lambda values: values[..., None] if jnp.ndim(values) else values, tree)
     inlet_along = along(inlet)
     speed = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))[0][:, None]
@@ -192,7 +194,7 @@ def _films(
     radius, modulus = along((contact.reduced_radius, contact.reduced_modulus))
     each = LineContact(radius, contact.length / laminae.shape[2], modulus)
     if inlet.flow is not None:
-        # of each lamina its share
+        # the flow is shared equally by the laminae
         inlet_along = dataclasses.replace(inlet_along, flow=inlet.flow / laminae.shape[2])
     carried, parts = loaded(each, laminae, speed[..., None], inlet_along)
     blank = lambda values: jnp.where(carries, values, jnp.nan)
@@ -208,12 +210,12 @@ def _films(
 
 
 def _port(scene: CylindricalRollerBearing, system: TiltingRollers, point: ArrowPoint) -> Port:
-    """The reaction and the stiffness of the ring's degrees of freedom, rollers in equilibrium."""
+    """Reaction and stiffness of the ring, with the rollers in equilibrium."""
     full = build_tilting(scene, system.ring.released(system.load_scale()))
     place = ArrowPoint(point.elements, system.ring.released_unknowns(point.globals))
     equations, jacobian = linearize(full, place)
     force = full.of_freedoms(equations.residual.globals) * full.load_scale() + full.ring.load
     port = full.ring.port(jacobian, force, full.load_scale(), system.freedoms)
-    # nothing holds it axially: not the springs that anchor the unknowns either
+    # nothing holds the ring axially: the artificial springs of the unknowns must not count
     held = jnp.asarray([0.0, 1.0, 1.0, 1.0, 1.0])
     return Port(port.force * held, port.stiffness * held[:, None] * held[None, :], port.free)

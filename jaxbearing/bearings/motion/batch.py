@@ -1,4 +1,4 @@
-"""Many transient runs of a bearing of any family at once, in one program."""
+"""Batches of transient runs of a bearing of any family, in one compiled program."""
 
 from collections.abc import Mapping
 from typing import Any, Literal
@@ -42,7 +42,7 @@ def simulate_bearing_batch(
     scene, chosen = (jax.tree.map(as_float, tree) for tree in (scene, chosen))
     pieces = max(1, round(length / interval))
     times = jnp.linspace(0.0, length, pieces + 1)[1:]
-    # that of the scene may change from lane to lane
+    # without a given simulation each lane takes that of its scene, which may differ between lanes
     given = simulation is not None or scene.simulation is None
     share = may_be_shared_out((scene, chosen, values))
     return _batch(scene, chosen if given else None, values, times, method, share)
@@ -68,7 +68,7 @@ def _batch(
 
 
 def _lane(scene: AbstractMovingBearing, given: Simulation | None, times: Float[Array, " time"]) -> History:
-    """One whole run in one go, from its quasi-static start; pure."""
+    """One complete run of the batch, from its quasi-static start; pure."""
     simulation: Simulation = given or scene.simulation or Simulation()
     operation = scene.operation
     scene, inputs = checked_lane(scene, simulation)
@@ -76,7 +76,7 @@ def _lane(scene: AbstractMovingBearing, given: Simulation | None, times: Float[A
     start = motion.begin(scene, simulation, motion.quasi_static(at_start(scene, simulation)))
     zero = jnp.zeros(())
     begun = jnp.where(inputs.valid, start.status, int(Status.INVALID_INPUT))
-    # a lane without a start takes no steps, for which the others would have to wait
+    # a lane whose start was not found takes no steps, so that the other lanes need not wait for it
     until = jnp.where(begun == Status.CONVERGED, times, zero)
     found = advance(start.dynamics, start.state, zero, until, simulation.options, jnp.asarray(FIRST_STEP))
     segment = found.segment

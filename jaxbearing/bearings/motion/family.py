@@ -1,9 +1,9 @@
-"""Interface of a family of bearings in motion: its equations of motion, and the way from a scene to them.
+"""Interface of a bearing family with transient runs: its equations of motion, and how they are made from a scene.
 
-A family that moves has a scene that derives from `AbstractMovingBearing` and a folder with two classes: one of
-equations of motion (`AbstractDynamics`) and one that makes them from a scene (`AbstractMotion`). Integration, restart,
-batches, history and files are those of this folder, for every family. An *instant* holds all results of a run at one
-time. A function is *pure* if JAX can transform it: its result depends on its arguments alone.
+Such a family has a scene class derived from `AbstractMovingBearing`, a class of its equations of motion
+(`AbstractDynamics`) and a class that makes these from a scene (`AbstractMotion`). Integration, restart, batches,
+history and files are common to all families and are in this folder. An *instant* holds all results of a run at one time. A
+function is *pure* if JAX can transform it: its result depends on its arguments alone.
 """
 
 import abc
@@ -29,14 +29,14 @@ from .settings import Simulation
 class AbstractDynamics(eqx.Module):
     """Equations of motion of one bearing.
 
-    The state is an `ArrowPoint` in units of the family, in which one tolerance serves for all components. Its last
-    globals are the works of the energy balance, which nothing depends on. Positions are counted in a frame that turns
-    with the elements, so that they stay small and are resolved.
+    The state is an `ArrowPoint`, scaled by the family so that one tolerance suits all components. Its last globals are
+    the works of the energy balance; the motion does not depend on them. Positions are measured in a frame that turns
+    with the elements, so that they stay small and lose no digits.
     """
 
     works: ClassVar[tuple[str, ...]]
-    """Names of the works, integrals of power over time in J, that are integrated beside the motion, in their order in
-    the state."""
+    """Names of the works, J, that are integrated along with the motion, in their order in the state. A work is the
+    integral of a power over time."""
     reference_speed: eqx.AbstractVar[Float[Array, ""]]
     """Speed of the frame at the operating point, rad/s."""
 
@@ -44,42 +44,43 @@ class AbstractDynamics(eqx.Module):
     def nested_rates(
         self, time: Scalar, state: ArrowPoint, guess: ArrowPoint, tolerance: Scalar
     ) -> tuple[ArrowPoint, ArrowPoint]:
-        """Rates of the state, 1/s, and the solution of the equations that are solved inside them.
+        """Rates of the state, 1/s, and the solution of the nested equations that must be solved to compute them.
 
-        The solution must follow time smoothly: the integrator extrapolates it to the next `guess`. A family without
-        equations inside its rates returns an empty point. NaN rates make the integrator shorten its step.
+        The solution must be smooth in time: the integrator extrapolates it to the next `guess`. A family without nested
+        equations returns an empty point. NaN rates make the integrator shorten its step.
 
-        **Arguments:** `time`, s; `guess`: of the solution; `tolerance`: of the integration.
+        **Arguments:** `time`: s; `guess`: first guess of the solution; `tolerance`: tolerance of the integration.
         """
 
     @abc.abstractmethod
     def first_guess(self, time: Scalar, state: ArrowPoint) -> ArrowPoint:
-        """The argument `guess` of `nested_rates` for a state that nothing is known about."""
+        """The argument `guess` of `nested_rates` for a state without a preceding solution."""
 
     @abc.abstractmethod
     def observe(self, time: Scalar, state: ArrowPoint) -> Instant:
         """All results at one time, s; pure."""
 
     def peaks(self, times: Float[Array, "interval part"], states: ArrowPoint) -> PocketPeaks | None:
-        """Largest pocket loads in each interval between two instants, for shocks that last less than an interval.
+        """Largest pocket loads in each interval between two instants, because a shock is shorter than an interval.
 
-        **Arguments:** `times`, s, within each interval; `states`: at these times, with `interval * part` in front.
+        **Arguments:** `times`: times within each interval, s; `states`: states at these times, with one first axis of
+        length interval * part.
 
-        **Returns:** arrays of shape (interval, element); `None` if the elements do not meet a cage.
+        **Returns:** arrays of shape (interval, element); `None` if there is no cage.
         """
         return None
 
     @abc.abstractmethod
     def energy(self, state: ArrowPoint, first: Instant, last: Instant) -> Energy:
-        """Works from the start of the run up to a state, J, and what their balance leaves open.
+        """Works from the start of the run up to a state, J, and the error of their balance.
 
         **Arguments:** `first`, `last`: the instants of the start and of the state.
         """
 
 
 class Start(NamedTuple):
-    """Equations of motion and state at time 0. `status` and `residual` are those of the quasi-static solve from which
-    the state follows."""
+    """Equations of motion and state at time 0. `status` and `residual` belong to the quasi-static solve that gave the
+    state."""
 
     dynamics: AbstractDynamics
     state: ArrowPoint
@@ -88,25 +89,27 @@ class Start(NamedTuple):
 
 
 class Resumed(NamedTuple):
-    """Equations of motion, and the state that an earlier run ended with."""
+    """Equations of motion, and the last state of an earlier run."""
 
     dynamics: AbstractDynamics
     state: ArrowPoint
 
 
 class AbstractMotion(abc.ABC):
-    """The way from the scene of a family to its equations of motion; it holds no numbers."""
+    """Makes the equations of motion of a family from a scene. Objects of this class hold no numbers."""
 
     instant: ClassVar[type[Instant]]
-    """Class of the instants; it names the components of the states. The first one of a rolling element is its
-    position along the pitch circle, m."""
+    """Class of the instants, which also names the components of the states. The first component of a rolling element is
+    its position along the pitch circle, m."""
 
     @abc.abstractmethod
     def require_moving(self, scene: Any) -> None:
-        """**Raises:** `ValueError` for a scene whose rolling elements nothing drives."""
+        """Checks that friction drives the rolling elements of the scene.
+
+        **Raises:** `ValueError` if nothing drives them."""
 
     def require_settings(self, scene: Any, simulation: Simulation) -> None:
-        """Checks the settings before anything is solved. Here all are accepted; families override it.
+        """Checks the settings before anything is solved. This base method accepts all settings; families override it.
 
         **Raises:** `ValueError` if a setting is missing or does not belong to the scene.
         """
@@ -114,35 +117,35 @@ class AbstractMotion(abc.ABC):
 
     @abc.abstractmethod
     def quasi_static(self, scene: Any, options: NewtonOptions | None = None) -> Any:
-        """Steady state of the operating point, as places and speeds of elements and cage, with a `status`; pure."""
+        """Steady state of the operating point: positions and speeds of elements and cage, and a `status`; pure."""
 
     @abc.abstractmethod
     def begin(self, scene: Any, simulation: Simulation, found: Any) -> Start:
-        """The equations of motion and the state that a run begins with; pure.
+        """The equations of motion and the initial state of a run; pure.
 
-        **Arguments:** `found`: the result of `quasi_static` for the speed and the loads of time 0.
+        **Arguments:** `found`: result of `quasi_static` for the speed and the loads at time 0.
         """
 
     @abc.abstractmethod
     def resume(self, scene: Any, simulation: Simulation, last: LastState) -> Resumed:
-        """The equations of motion and the state that an earlier run ended with; pure.
+        """The equations of motion and the initial state of a run that continues an earlier one; pure.
 
-        Speeds and loads over time may differ from those of the earlier run; places and speeds of the elements are
-        continuous all the same.
+        Speeds and loads over time may differ from those of the earlier run; positions and speeds of the elements are
+        continuous in any case.
         """
 
     @abc.abstractmethod
     def range_excess(self, scene: Any, instants: Instant) -> Excess:
         """Excess of the results of a run over the ranges of laws and bearings; pure.
 
-        **Arguments:** `instants`: of a run or of a piece of it, with the times in front of every array.
+        **Arguments:** `instants`: instants of a run or of a piece of it; the first axis of every array is time.
 
-        **Returns:** text -> the largest number of all instants, positive where the check applies.
+        **Returns:** text of a warning -> largest excess over all instants, positive if the warning applies.
         """
 
 
 class AbstractMovingBearing(AbstractBearing):
-    """Base of the bearings whose rolling elements `jaxbearing.simulate` moves in time."""
+    """Base of the bearings whose rolling elements can be simulated in time with `jaxbearing.simulate`."""
 
     runs_in_programs: ClassVar[bool] = True
     loads_over_time: ClassVar[tuple[str, ...]] = ("radial_load", "radial_load_lateral")

@@ -1,7 +1,7 @@
-"""Results of a transient run, labelled: every quantity carries its unit and description where it is defined.
+"""Results of a transient run. Every quantity has its unit and description in the metadata of its field.
 
-The command line, JSON, files and plots read this metadata; nothing keeps a second list. A family derives its own
-classes of an instant and of the energy balance from `Instant` and `Energy`, with what only it has.
+The command line, JSON, files and plots read this metadata; there is no second list. A family derives its own classes of
+an instant and of the energy balance from `Instant` and `Energy`, and adds its own fields to them.
 """
 
 from collections.abc import Mapping
@@ -20,11 +20,12 @@ from ..operation import AbstractOperation
 from ..solution import RingDisplacement, label, losses_not_modelled
 
 CAGE_ANGLE = "q"
-"""Name of the component of a cage's state that is its angle in the frame of the run times the pitch radius, m."""
+"""Name of the component of the cage state that holds the angle of the cage, in the frame of the run, times the pitch
+radius, m."""
 
 
 class CageMotion(eqx.Module):
-    """The cage's centre, in the plane with Y along the load line and X a quarter turn behind it, and its speeds."""
+    """Position of the cage centre and speeds of the cage. Y points along the load line, X a quarter turn behind it."""
 
     x: Float[Array, ""] = eqx.field(metadata=label("m", "cage centre across the load line (X)"))
     y: Float[Array, ""] = eqx.field(metadata=label("m", "cage centre along the load line (Y)"))
@@ -36,7 +37,8 @@ class CageMotion(eqx.Module):
 
 
 class PocketPeaks(eqx.Module):
-    """A shock lasts some microseconds, less than lies between two instants: the largest loads in between."""
+    """Largest loads on the cage between two instants. They are recorded because a shock lasts only some microseconds,
+    less than the interval between instants."""
 
     front: Float[Array, " element"] = eqx.field(
         metadata=label("N", "largest load on the front pocket wall since the instant before")
@@ -50,11 +52,12 @@ class PocketPeaks(eqx.Module):
 
 
 class Instant(eqx.Module):
-    """State and results at one time; in a `History` every array has the times in front.
+    """State and results at one time; in a `History` the first axis of every array is time.
 
-    **Arguments:** the labels of the fields describe them; others are those of the steady solution of the family. Of the
-    rolling elements every family has `azimuth`, which goes on beyond a turn; reports show their `orbital_speed`, and
-    `load`, `pressure` and `sliding` with `_inner` and `_outer`, where it has them.
+    **Arguments:** see the labels of the fields; fields without a label are those of the steady solution of the family.
+    In every family the rolling elements have `azimuth`, which continues beyond a full turn. Reports show their
+    `orbital_speed`, and `load`, `pressure` and `sliding` at the inner and outer race (`_inner`, `_outer`), if the
+    family has these fields.
     """
 
     element_state: ClassVar[tuple[str, ...]] = ()
@@ -62,7 +65,7 @@ class Instant(eqx.Module):
     cage_state: ClassVar[tuple[str, ...]] = ()
     """Names of the components of `state_cage`."""
     groove_angles: ClassVar[np.ndarray] = np.zeros(0)
-    """Middles of the intervals of angle over which losses in grooves are added up, rad; empty without grooves."""
+    """Midpoints of the intervals of angle in which losses across a groove are summed, rad; empty without grooves."""
 
     inner_speed: Float[Array, ""] = eqx.field(metadata=label("rad/s", "inner ring speed"))
     radial_load: Float[Array, ""] = eqx.field(metadata=label("N", "load on the inner ring along the load line"))
@@ -87,16 +90,16 @@ class Instant(eqx.Module):
 
 
 Moment = TypeVar("Moment", bound=Instant)
-"""The family's class of an instant."""
+"""Instant class of a family."""
 
 
 class LastState(eqx.Module):
-    """The state from which another run can go on: `History.last_state`, or that of a file.
+    """State from which another run can continue: `History.last_state`, or read from a file.
 
     **Arguments:**
-    - `time`: s.
-    - `elements`: state of each rolling element, with the components that the family names (`Instant.element_state`).
-    - `cage`: state of the cage, likewise (`Instant.cage_state`).
+    - `time`: time of the state, s.
+    - `elements`: state of each rolling element; the family names its components (`Instant.element_state`).
+    - `cage`: state of the cage; the family names its components (`Instant.cage_state`).
     - `frame_angle`, `frame_speed`: angle and speed of the frame in which positions are counted, rad and rad/s.
     - `reference_speed`: speed of that frame at the operating point, rad/s.
     - `azimuth`: azimuths of the rolling elements, rad.
@@ -119,8 +122,8 @@ class LastState(eqx.Module):
 
 
 class Energy(eqx.Module):
-    """Works and energies over the run, J. `drive` = `kinetic` + `dissipation` + `pocket_films`, up to `error`, and
-    what the class of a family adds."""
+    """Works and energies over the run, J. The balance is `drive` = `kinetic` + `dissipation` + `pocket_films` + terms
+    of the family, up to `error`."""
 
     drive: Float[Array, ""] = eqx.field(metadata=label("J", "work of the torques that drive the rings"))
     dissipation: Float[Array, ""] = eqx.field(metadata=label("J", "dissipated, but for the squeezed pocket films"))
@@ -133,9 +136,9 @@ class Energy(eqx.Module):
 
 
 class History(AbstractHistory, Generic[Moment]):
-    """Result of a transient run: all instants up to the last good one, also where it stopped early.
+    """Result of a transient run: all instants up to the last good one, even if the run stopped early.
 
-    `instants` holds the results with the times in front: `history.instants.cage.speed` has the shape of `time`.
+    `instants` holds the results, with time as the first axis: `history.instants.cage.speed` has the shape of `time`.
     """
 
     of: ClassVar[str] = "bearing"
@@ -166,9 +169,9 @@ class History(AbstractHistory, Generic[Moment]):
         return losses_not_modelled(self.instants.power_loss)
 
     def last_state(self) -> LastState:
-        """The state of the last instant, for `jaxbearing.simulate(..., restart=...)`.
+        """State of the last instant, for `jaxbearing.simulate(..., restart=...)`.
 
-        **Raises:** `ValueError` for a run that did not begin.
+        **Raises:** `ValueError` for a run without a start.
         """
         if np.size(self.time) == 0:
             raise ValueError(self.failure())

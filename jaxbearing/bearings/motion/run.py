@@ -1,4 +1,4 @@
-"""A run of a bearing in time, piece by piece, and the check of the state from which it goes on."""
+"""Integration of one piece of a transient run, and the check of the state from which a run continues."""
 
 from typing import NamedTuple
 
@@ -17,13 +17,13 @@ from .family import AbstractDynamics, AbstractMovingBearing
 from .history import Instant, LastState
 
 PARTS = 16
-"""Number of places in each interval at which pocket loads are evaluated; a shock is shorter than an interval."""
+"""Number of times in each interval at which pocket loads are evaluated, because a shock is shorter than an interval."""
 
 
 class Advanced(NamedTuple):
-    """A segment of a run, with the instants of its start, of the times asked for and of its last state.
+    """A segment of a run, with the instants at its start, at the requested times and at its last state.
 
-    The instants behind the place where the segment stopped repeat its last state."""
+    If the segment stopped early, the remaining instants repeat its last state."""
 
     segment: Segment
     times: Float[Array, " time"]
@@ -34,7 +34,7 @@ FIELD = NestedField(
     rates=lambda time, state, dynamics, guess, tolerance: dynamics.nested_rates(time, state, guess, tolerance),
     guess=lambda time, state, dynamics: dynamics.first_guess(time, state),
 )
-"""The vector field of every family, as the integrator takes it."""
+"""Vector field for the integrator, the same for all families."""
 
 
 def advance(
@@ -49,9 +49,9 @@ def advance(
     """Integrates from `start` to the last of `times`; pure.
 
     **Arguments:**
-    - `start`, `times`: s.
+    - `start`, `times`: start and requested times, s.
     - `step`: first step that is tried, s.
-    - `parts`: number of places in each interval at which pocket loads are evaluated.
+    - `parts`: number of times in each interval at which pocket loads are evaluated.
     """
     from ...numerics.integrate import integrate_segment  # diffrax, which nothing else needs, takes a second to import
 
@@ -84,9 +84,10 @@ def advance(
 
 
 MOST_GROWTH = 1e-2
-"""Largest relative growth of the pitch circle of the same bearing on seats: 1 % is 800 K of steel."""
+"""Largest relative growth of the pitch circle at which a bearing with fits still counts as the same bearing: 1 %, the
+expansion of steel by 800 K."""
 MAY_CHANGE = ("operation", "oil", "contact", "drag", "simulation", "ring_freedom", "rating", "temperatures")
-"""Parts of a scene that may differ from those of the run that is continued."""
+"""Parts of a scene that may differ from those of the earlier run that is continued."""
 UNKNOWN = Information(
     "restart: the state does not say of which bearing it is (an earlier version wrote it); only the number of rollers, "
     "the pitch circle and whether there is a cage have been compared"
@@ -100,9 +101,9 @@ def identity(scene: AbstractMovingBearing) -> Identity:
 
 
 def check_fits(scene: AbstractMovingBearing, last: object) -> None:
-    """Checks that a state is one of this bearing.
+    """Checks that a state belongs to this bearing.
 
-    **Raises:** `ValueError` that says what differs.
+    **Raises:** `ValueError` that names the difference.
     """
     if not isinstance(last, LastState):
         raise ValueError(f"restart: a state of a {getattr(last, 'of', type(last).__name__)}, for a scene of a bearing")
@@ -123,7 +124,7 @@ def check_fits(scene: AbstractMovingBearing, last: object) -> None:
     pitch = 0.5 * float(scene.geometry.pitch_diameter)
     places = np.asarray(azimuths(scene.geometry, count)) + np.asarray(last.elements)[0] / pitch
     apart = np.abs(np.asarray(last.azimuth) - places - float(last.frame_angle))
-    # the pitch circle of a bearing on seats is that of its temperatures and speeds
+    # with fits the pitch circle depends on temperatures and speeds
     grown = 0.0 if scene.fits is None else MOST_GROWTH * np.abs(np.asarray(last.elements)[0]) / pitch
     if np.any(apart > 1e-7 + grown):
         raise ValueError(f"restart: a state of another bearing: its {scene.element}s do not stand on this pitch circle")

@@ -1,4 +1,4 @@
-"""Transient runs of a bearing of any family: one at a time, and as a pure function. `batch` has many at once."""
+"""Single transient runs of a bearing of any family, also as a pure function. Batches of runs are in `batch`."""
 
 import contextlib
 import dataclasses
@@ -37,7 +37,7 @@ FIRST_STEP = 1e-7
 SEGMENT = 128
 """Number of instants that one call of the compiled program computes."""
 ENERGY_LIMIT = 1e-3
-"""Relative error of the energy balance above which a run warns."""
+"""Relative error of the energy balance above which a warning is given."""
 MOST_INSTANTS = 1_000_000
 """Largest number of instants of a run; each takes some kilobytes."""
 Progress = Callable[[float, float], None]
@@ -46,7 +46,7 @@ Progress = Callable[[float, float], None]
 def trajectory(
     start: Start, times: Float[Array, " time"], simulation: Simulation, adjoint: "dfx.AbstractAdjoint | None" = None
 ) -> Segment:
-    """The motion at given times, in one program: pure, jit-able, vmap-able, differentiable.
+    """The motion at given times, as one program that is pure, jit-able, vmap-able and differentiable.
 
     Derivatives are meaningful until the first shocks; after them neighbouring trajectories separate. Reverse mode uses
     checkpoints and needs an explicit solver:
@@ -59,13 +59,13 @@ def trajectory(
 
         jax.jit(jax.grad(mean_load))(300e-6)  # N per m
 
-    If the start was not found, no step is taken: the trajectory has its status, and its states are NaN.
+    If the start was not found, no step is taken: the trajectory has the status of the start, and its states are NaN.
 
     **Arguments:**
     - `start`: result of `quasi_static_start`.
-    - `times`: positive and increasing, s, shape (time,).
-    - `simulation`: solver and tolerance.
-    - `adjoint`: an adjoint of diffrax such as `diffrax.ForwardMode()`; left out: reverse mode with checkpoints.
+    - `times`: positive and increasing times, s, shape (time,).
+    - `simulation`: settings, of which solver and tolerance are used.
+    - `adjoint`: an adjoint of diffrax such as `diffrax.ForwardMode()`; by default reverse mode with checkpoints.
     """
     from ...numerics.integrate import integrate_segment  # diffrax, which nothing else needs, takes a second to import
 
@@ -103,7 +103,7 @@ def _range_excess(scene: AbstractMovingBearing, instants: Instant) -> Excess:
     return scene.motion.range_excess(scene, instants)
 
 
-# all but `advance` run once, so that compiling them takes longer than running them
+# all programs but `advance` run only once or take little time: compiling them takes longer than running them
 _QUASI_STATIC = KeptProgram(_quasi_static, quick=True)
 _BEGIN = KeptProgram(_begin, quick=True)
 _RESUME = KeptProgram(_resume, quick=True)
@@ -115,7 +115,7 @@ _EXCESS = KeptProgram(_range_excess, quick=True)
 def requested(
     scene: AbstractMovingBearing, duration: float | None, simulation: Simulation | None, interval: float
 ) -> tuple[Simulation, float]:
-    """The settings of a run and its duration, s, both checked."""
+    """Checks and returns the settings of a run and its duration, s."""
     scene.motion.require_moving(scene)
     check_inputs(scene)
     chosen = simulation or scene.simulation or Simulation()
@@ -135,7 +135,7 @@ def requested(
         raise ValueError(
             f"duration and interval must make at most {MOST_INSTANTS} instants, got {length:g} and {interval:g} s"
         )
-    # the length of the run is no part of the program
+    # the compiled program must not depend on the length of the run
     return dataclasses.replace(chosen, duration=None), length
 
 
@@ -162,11 +162,11 @@ def simulate_bearing(
         check_fits(scene, last)
     begin_time = 0.0 if last is None else float(last.time)
     stop = begin_time + length
-    # one shape of the compiled program, whatever the duration
+    # the compiled program has the same shapes for every duration
     pieces = max(1, round(length / (SEGMENT * interval)))
     times = np.linspace(begin_time, stop, pieces * SEGMENT + 1)
     scene, chosen = (jax.tree.map(as_float, tree) for tree in (scene, chosen))
-    # a weak type, as that of a Python number, would have the program compiled again for the second piece
+    # with the weak type of a Python number the program would be compiled again for the second piece
     step = jnp.asarray(FIRST_STEP, dtype=float)
 
     if last is None:
@@ -177,7 +177,7 @@ def simulate_bearing(
         begun = _BEGIN(scene, chosen, found)
         dynamics, state = begun.dynamics, begun.state
     else:
-        # which bearing it is has been compared, and is no part of the program
+        # the identity has been compared above; the program does not need it
         dynamics, state = _RESUME(scene, chosen, dataclasses.replace(last, identity=None))
     done: list[tuple[np.ndarray, Instant, Segment, Excess]] = []
     with contextlib.ExitStack() as stack:
@@ -189,7 +189,7 @@ def simulate_bearing(
                 state, step = found.segment.last, found.segment.step
                 done.append((*_kept(found, here, first=piece == 0), _EXCESS(scene, found.instants)))
                 if piece == 0:
-                    # from now on there is something to keep
+                    # from now on an interrupt ends the run but keeps its results
                     interrupt = stack.enter_context(deferred_interrupts())
                 if int(found.segment.status) != Status.CONVERGED:
                     break
@@ -198,7 +198,7 @@ def simulate_bearing(
                 if interrupt.seen:
                     break
         except KeyboardInterrupt:
-            # of `progress`, or of a second Ctrl-C
+            # raised by `progress`, or by a second Ctrl-C
             if not done:
                 raise
             interrupt.seen = True
@@ -207,7 +207,7 @@ def simulate_bearing(
         notes = (*((UNKNOWN,) if unknown else ()), *scene.assumptions(), *supply_notes(scene), *notes_of_seats(scene))
         history = _history(scene, chosen, dynamics, done, stop, interrupted, notes)
         interrupt.taken()
-    # who interrupts a run wants what there is
+    # a user who interrupts a run wants the results so far
     if throw and not interrupted:
         history.raise_if_failed()
     return history
@@ -226,7 +226,7 @@ def _history(
     interrupted: bool,
     notes: tuple[str, ...],
 ) -> History:
-    """The history of a run from its pieces."""
+    """Joins the pieces of a run to its history."""
     kept_times, kept, segments, excess = zip(*done, strict=True)
     instants = jax.tree.map(lambda *leaves: np.concatenate(leaves), *kept)
     ends = [jax.tree.map(lambda leaf, at=at: leaf[at], instants) for at in (0, -1)]
@@ -253,7 +253,7 @@ def _history(
 
 
 def run_checks(scene: AbstractMovingBearing, energy: Energy, excess: Excess) -> dict[str, Array]:
-    """Warnings of a run: its energy balance, and the range checks that a steady solve makes of the same scene."""
+    """Warnings of a run: those of its energy balance, of its results, of the inputs and of the fits."""
     text = f"the energy balance leaves more than {ENERGY_LIMIT:g} of the drive work open: choose a smaller tolerance"
     found = input_excess(scene) | excess
     _, fit, _ = running_scene(scene)
@@ -263,7 +263,8 @@ def run_checks(scene: AbstractMovingBearing, energy: Energy, excess: Excess) -> 
 
 
 def _kept(found: Advanced, times: np.ndarray, first: bool) -> tuple[np.ndarray, Instant, Segment]:
-    """Times and instants of a segment that are new and were reached: its last state only where it stopped early."""
+    """Times and instants of a segment that the history keeps: those that were reached, without the start except in the
+    first piece, and with the last state if the segment stopped early."""
     segment = found.segment
     good = np.append(times <= float(segment.last_time), int(segment.status) != Status.CONVERGED)
     good[0] = first

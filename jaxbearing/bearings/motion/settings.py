@@ -1,4 +1,4 @@
-"""Settings of a transient run: the same for all kinds of bearings."""
+"""Settings of a transient run, for all kinds of bearings."""
 
 from typing import ClassVar
 
@@ -14,25 +14,26 @@ DEFAULT_TOLERANCE = 1e-5
 
 
 class Simulation(Checked):
-    """A transient run, from the quasi-static state of the operating point.
+    """A transient run that starts from the quasi-static state of the operating point.
 
     **Arguments:**
-    - `duration`: s; `None`: it must be given with the run.
+    - `duration`: duration of the run, s; if `None`, it must be passed with the run.
     - `speed`: inner ring speed over that of the operating point, as a function of time.
-    - `load`: radial and lateral load over those of the operating point, as a function of time; of ball bearings all
-      loads and moments.
-    - `rotating_load`: a further, turning load; it frees the ring across the load line too.
-    - `solver`: one of `numerics.integrator.SOLVERS`; of a run of the rollers tsit5 where not given; "auto" chooses
-      between tsit5 and kvaerno5 by the stiffness that it measures.
-    - `tolerance`: relative tolerance, and absolute one in the units of the state.
-    - `entrainment_smoothing`: smoothing of the mean surface speed's modulus in the films of the raceways, m/s: what
-      film is left where a roller's surface passes through rest.
-    - `ring_mass`: of the inner ring with the shaft's share, kg, of a ball bearing whose ring moves under loads.
-    - `ring_damping`: of that ring, from outside, N s/m; of ball bearings 0 where not given.
-    - `meridian`: whether balls and inner ring move in the planes through the axis by their inertia, or are in balance
-      there at every instant ("quasi_static": no mass and no damping count).
-    - `contact_damping`: normal loads of ball bearings are the elastic ones times 1 + that times the rate of approach,
-      s/m; 0.05 s/m where not given.
+    - `load`: radial and lateral load over those of the operating point, as a function of time. In ball bearings it
+      applies to all loads and moments.
+    - `rotating_load`: additional load whose direction rotates. With it the ring can also move across the load line.
+    - `solver`: one of `numerics.integrator.SOLVERS`; tsit5 for a run of the rolling elements if not given. "auto"
+      chooses between tsit5 and kvaerno5 by the stiffness that it measures.
+    - `tolerance`: relative tolerance, also the absolute tolerance in the units of the state.
+    - `entrainment_smoothing`: speed by which the absolute value of the mean surface speed in the raceway films is
+      smoothed, m/s. It determines the film that remains where the surface of a roller passes through rest.
+    - `ring_mass`: mass of the inner ring and its share of the shaft, kg; for a ball bearing whose ring moves under
+      loads.
+    - `ring_damping`: external damping of the moving inner ring, N s/m; 0 for ball bearings if not given.
+    - `meridian`: motion of balls and inner ring in the planes through the axis: "dynamic", with their inertia, or
+      "quasi_static", in balance at every instant, so that masses and damping have no effect.
+    - `contact_damping`: damping factor of the ball contacts, s/m; 0.05 s/m if not given. The normal load is the elastic
+      load times 1 + this factor times the rate of approach.
     """
 
     part: ClassVar[str] = "simulation"
@@ -50,7 +51,9 @@ class Simulation(Checked):
     meridian: str = choice("simulation.meridian", ("dynamic", "quasi_static"), "dynamic")
 
     def require_no_mass(self) -> None:
-        """**Raises:** `ValueError` where settings of ball bearings are given, which other bearings do not have."""
+        """Checks that no setting is given that only ball bearings have.
+
+        **Raises:** `ValueError` if one is given."""
         for name in ("ring_mass", "ring_damping", "contact_damping"):
             if getattr(self, name) is not None:
                 raise ValueError(f"simulation.{name}: expected none, it belongs to a run of a ball bearing")

@@ -1,4 +1,4 @@
-"""The state that a transient run begins with, for every family."""
+"""Initial state of a transient run, for all families."""
 
 import dataclasses
 from typing import TypeVar
@@ -26,13 +26,13 @@ def at_start(scene: Bearing, simulation: Simulation) -> Bearing:
 def quasi_static_start(
     scene: AbstractMovingBearing, simulation: Simulation, options: NewtonOptions | None = None
 ) -> Start:
-    """Equations of motion and the state that a run begins with; pure, jit-able.
+    """Equations of motion and initial state of a run; pure and jit-able.
 
-    If a traced input is invalid, `status` says so and the state is NaN.
+    If a traced input is invalid, `status` is `INVALID_INPUT` and the state is NaN.
 
-    **Arguments:** `simulation`: speeds and loads over time; `options`: those of the quasi-static solve.
+    **Arguments:** `simulation`: speeds and loads over time; `options`: options of the quasi-static solve.
 
-    **Raises:** `ValueError` for a scene that nothing drives, or whose ring is held.
+    **Raises:** `ValueError` for a scene whose rolling elements nothing drives, or whose ring is held.
     """
     lane, inputs = checked_lane(scene, simulation)
     start = lane.motion.begin(lane, simulation, lane.motion.quasi_static(at_start(lane, simulation), options))
@@ -40,7 +40,8 @@ def quasi_static_start(
 
 
 def checked_lane(scene: Bearing, simulation: Simulation) -> tuple[Bearing, InputChecks]:
-    """The scene with an operation that is NaN if its traced inputs are invalid, and the checks of these inputs."""
+    """Checks the inputs of a scene. Returns the scene, with an operating point of NaN if traced inputs are invalid, and
+    the result of the checks."""
     inputs = check_inputs(dataclasses.replace(scene, simulation=simulation))
     lane = gate(scene, inputs.valid)
     return dataclasses.replace(lane, operation=nan_unless(lane.operation, inputs.valid)), inputs

@@ -1,4 +1,4 @@
-"""Friction by spinning of an elliptical contact: the source's Figure 41."""
+"""Plot of the spin friction of an elliptical contact (Figure 41 of the source)."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -20,17 +20,17 @@ if TYPE_CHECKING:
     import matplotlib.axes
     import matplotlib.figure
 
-# The caption of Figure 41, and what it decodes to (inner contact of the source's ball bearing)
+# Values from the caption of Figure 41, for the inner contact of the source's ball bearing, and values derived from them
 ROLL_RATE = 5337.27
-"""rad/s."""
+"""Rolling speed ω_roll, rad/s."""
 SEMI_MAJOR, AT_PRESSURE, RATIO = 2.605e-3, 1.89e9, 8.1423
-"""Semi-axis across rolling, m, at a Hertz pressure, Pa, and its ratio to the one along rolling."""
+"""Semi-axis a across rolling, m; Hertz pressure at which it has this size, Pa; ratio a/c, with c along rolling."""
 SPEED_NUMBER, MATERIAL_NUMBER = 4.5473e-10, 2364.49
-"""U* (with the sum of the surface speeds) and G*."""
+"""Dimensionless numbers U* (with the sum of the surface speeds) and G*."""
 MODULUS, RADIUS, RADIUS_RATIO = 214.4e9, 9.212e-3, 26.03
-"""E', Pa, and Rx, m, and Ry/Rx that follow from a, a/c and W*."""
+"""E', Pa, Rx, m, and Ry/Rx, calculated from a, a/c and W*."""
 TEMPERATURE = 353.15
-"""K; U* asks for 72 °C and G* for 89 °C: between the two."""
+"""Assumed oil temperature, K: between 72 °C, which fits U*, and 89 °C, which fits G*."""
 RESOLUTION = Resolution(64, 64)
 PRESSURES = (1.19e9, 1.50e9, 1.89e9, 2.38e9)
 
@@ -38,10 +38,10 @@ PRESSURES = (1.19e9, 1.50e9, 1.89e9, 2.38e9)
 def spin_friction(
     pressures: Sequence[float] = PRESSURES, temperature: float = TEMPERATURE, axes: "matplotlib.axes.Axes | None" = None
 ) -> "matplotlib.figure.Figure":
-    """Spin torque over load and mean semi-axis against the spin-to-roll ratio (Figure 41).
+    """Plots the spin torque, divided by load and mean semi-axis √(ac), over the spin-to-roll ratio (Figure 41).
 
-    **Arguments:** `pressures`: Hertz (peak), Pa, > 0; `temperature`: of the oil in the contact, K; `axes`: matplotlib
-    axes to draw into.
+    **Arguments:** `pressures`: Hertz (peak) pressures, Pa, > 0; `temperature`: of the oil in the contact, K; `axes`:
+    matplotlib axes to draw into.
     """
     caption = (
         "Spin torque over normal load and √(ac) of the contact of Figure 41 of the source (Mobil Jet II, a/c = 8.1423, "
@@ -63,7 +63,7 @@ def spin_friction(
 
 
 def film_thickness(pressure: float) -> float:
-    """Central film at a Hertz pressure, m, from the printed U* and G*."""
+    """Central film thickness, m, from the printed U* and G*. **Arguments:** `pressure`: Hertz pressure, Pa."""
     contact = PointContact(RADIUS, RADIUS_RATIO * RADIUS, MODULUS)
     speed = ROLL_RATE * RADIUS
     viscosity = SPEED_NUMBER * MODULUS * RADIUS / (2.0 * speed)
@@ -73,7 +73,7 @@ def film_thickness(pressure: float) -> float:
 
 
 def patch_at(pressure: float) -> ContactPatch:
-    """The Hertz ellipse: its axes grow with the pressure."""
+    """Hertz contact ellipse. **Arguments:** `pressure`: Hertz pressure, Pa; the semi-axes are proportional to it."""
     semi_major = SEMI_MAJOR * pressure / AT_PRESSURE
     return ContactPatch(jnp.asarray(pressure), jnp.asarray(semi_major / RATIO), jnp.asarray(semi_major))
 
@@ -81,8 +81,8 @@ def patch_at(pressure: float) -> ContactPatch:
 def spin_coefficient(
     ratios: Any, pressure: float, temperature: float = TEMPERATURE, elastic: bool = True
 ) -> np.ndarray:
-    """Spin torque over load and √(ac) at spin-to-roll ratios. **Arguments:** `elastic`: with the oil's shear
-    modulus."""
+    """Spin torque divided by load and √(ac), for each spin-to-roll ratio. **Arguments:** `elastic`: True to include the
+    shear modulus of the oil."""
     patch, lubricant = patch_at(pressure), oil_named("mobil_jet_ii")[0]
     spin = ROLL_RATE * jnp.asarray(ratios, dtype=float)
     sliding = Sliding(jnp.zeros_like(spin), jnp.zeros_like(spin), spin)

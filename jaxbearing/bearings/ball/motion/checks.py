@@ -1,4 +1,4 @@
-"""Range checks of a transient run of balls: those of `bearings.checks`, over all instants together."""
+"""Range checks of a transient run of a ball bearing: the checks of `bearings.checks`, over all instants together."""
 
 from collections.abc import Callable
 
@@ -16,12 +16,12 @@ from .results import BallInstant
 
 
 def run_excess(scene: BallBearing, instants: BallInstant) -> Excess:
-    """Excess of the results of a run over the ranges of laws and bearings: text -> the largest number of all
-    instants, positive where the check applies. Pure.
+    """Excess of the results of a run over the validity ranges of laws and bearings: a dictionary from the text of each
+    check to the largest excess of all instants, positive if the check fails. Pure.
 
-    **Arguments:** `instants`, of a run or of a piece of it, with the times in front of every array. All contacts of a
-    raceway at all these times are looked at together: those count that carry a part of the largest load. Instants with
-    a load that is not finite, at which a run breaks off, count nothing.
+    **Arguments:** `instants`: instants of a run or of a part of it, with the time as first axis of every array. The
+    contacts of a raceway at all these times are checked together: a contact counts if it carries a certain part of the
+    largest load among them. Instants with a load that is not finite, at which a run breaks off, do not count.
     """
     oil, elements = scene.oil, instants.elements
     assert oil is not None
@@ -62,7 +62,7 @@ def run_excess(scene: BallBearing, instants: BallInstant) -> Excess:
 def _mean_speeds(
     scene: BallBearing, inner_speed: Array, motion: BallMotion, inner_angle: Array, outer_angle: Array
 ) -> Array:
-    """Mean surface speeds on both races at one time, m/s."""
+    """Entrainment speeds of all balls on both races at one time, m/s."""
     geometry, operation = scene.geometry, scene.operation
     sizes = (operation.outer_speed, geometry.pitch_diameter, geometry.ball_diameter)
     kinematics = BallKinematics(inner_speed, *(jnp.asarray(size) for size in sizes))

@@ -1,4 +1,5 @@
-"""Forces on a moving cage, and by it: the walls of its pockets and its lands (source eqs. (31)-(36))."""
+"""Forces of a moving cage on rollers and guiding ring, and their reactions: pocket walls and lands (source eqs.
+(31)-(36))."""
 
 from typing import NamedTuple
 
@@ -15,7 +16,8 @@ from ..kinematics import RollerKinematics
 
 
 class LandForces(NamedTuple):
-    """Both lands: force and torque on the cage, torque on the guiding ring, dissipation, eccentricity ratio."""
+    """Sums over all cage lands: force, N, and torque, N m, on the cage, torque on the guiding ring, N m, and
+    dissipation, W; and the eccentricity ratio of the cage."""
 
     force: Float[Array, "2"]
     cage_torque: Float[Array, ""]
@@ -25,7 +27,8 @@ class LandForces(NamedTuple):
 
 
 class PocketState(NamedTuple):
-    """Both walls of every pocket, and the rates at which their gaps open, m/s."""
+    """Contacts with the front and the rear wall of every pocket. `gap_rate`: rate at which the front gap opens, m/s;
+    the rear gap closes at the same rate."""
 
     front: PocketFace
     rear: PocketFace
@@ -58,10 +61,12 @@ def pocket_state(
     """Films, loads and friction on both walls of every pocket.
 
     **Arguments:**
-    - `face`: film on one wall; `clearance`: pocket clearance J_p, m; `viscosity`: of the oil at the inlet, Pa s.
-    - `roller`: q, m, v and u, m/s, of each roller.
-    - `position`: X, Y and q_c of the cage, m; `velocity`: V_x, V_y and v_c, m/s.
-    - `azimuth`, rad, and `orbit`, rad/s, of each roller.
+    - `face`: model of the film on one wall.
+    - `clearance`: circumferential pocket clearance J_p, m.
+    - `viscosity`: of the oil at the inlet, Pa s.
+    - `roller`: q, m, and v and u, m/s, of each roller (see `rates`).
+    - `position`: X, Y and q_c of the cage, m; `velocity`: V_x, V_y and v_c of the cage, m/s.
+    - `azimuth`: of each roller, rad; `orbit`: orbital speed of each roller, rad/s.
     """
     (q, v, u), (x, y, q_c), (v_x, v_y, v_c) = roller, position, velocity
     cosine, sine = cosine_and_sine(azimuth)
@@ -87,8 +92,8 @@ def land_forces(
     """Forces, torques and losses of the lands that guide the cage.
 
     **Arguments:**
-    - `ring`: displacement of the inner ring, whose speed is neglected.
-    - `centre`, `velocity`: of the cage, along X and Y, m and m/s.
+    - `ring`: displacement of the inner ring; its velocity is neglected.
+    - `centre`, m, and `velocity`, m/s: of the cage, along X and Y.
     - `cage_orbit`: speed of the cage, rad/s.
     - `turbulence_speed`: cage speed at which the turbulence of the films is evaluated, rad/s.
     """

@@ -1,4 +1,5 @@
-"""Range checks of a transient run of cylindrical rollers: those of `bearings.checks`, over all instants together."""
+"""Range checks of a transient run of cylindrical rollers: the checks of `bearings.checks`, for all instants
+together."""
 
 import dataclasses
 from collections.abc import Callable
@@ -17,12 +18,13 @@ from .results import RollerInstant
 
 
 def run_excess(scene: CylindricalRollerBearing, instants: RollerInstant) -> Excess:
-    """Excess of the results of a run over the ranges of laws and bearings: text -> the largest number of all
-    instants, positive where the check applies. Pure.
+    """Excess of the results of a run over the ranges of the laws and of the bearing, largest over all instants: text ->
+    number, positive where the check applies. Pure.
 
-    **Arguments:** `instants`, of a run or of a piece of it, with the times in front of every array. All contacts of a
-    raceway at all these times are looked at together: those count that carry a part of the largest load. Instants with
-    a load that is not finite, at which a run breaks off, count nothing.
+    All contacts on a raceway at all times are compared together. Only contacts that carry a certain fraction of the
+    largest load count. Instants with a load that is not finite, at which a run breaks off, do not count.
+
+    **Arguments:** `instants`: of a run or of a part of it, with time as the first axis of every array.
     """
     oil, elements = scene.oil, instants.elements
     assert oil is not None

@@ -1,30 +1,30 @@
-r"""Energy of the moving cylindrical roller bearing: losses, works and stored energies, and what balances them.
+r"""Energy of the moving cylindrical roller bearing: losses, works, stored energies and their balance.
 
 Multiplying each equation of motion (see `rates`) by its speed gives, exactly,
 
 $$\frac{dE_{kin}}{dt} = \omega_iT_i + \omega_oT_o - \sum D - \Pi - \Lambda,$$
 
 $E_{kin} = \sum_j[\tfrac12 m R_m^2W_j^2 + \tfrac12J(W_j - s_j)^2] + \tfrac12 m_c(V_x^2 + V_y^2) + \tfrac12J_cW_c^2$,
-T the torques that drive the rings, and
+with the torques T that drive the rings, and
 
-- dissipations D, each its own force times its own sliding speed: raceways $F\,\Delta u$, rolling resistance
-  $P\,u$, pocket friction $(F_{C1} + F_{C2})R_R(s + W_c - W) - (F_{C1} - F_{C2})\,V\cdot n$, flanges, rails, lands,
-  drag;
-- $\Pi = -\sum(Q_1\dot H_1 + Q_2\dot H_2)$: work that closes the pocket films. A part is stored by their elastic
-  flattening, $E_{pocket} = \sum\frac{0.9}{1.9}kQ^{1.9}$, the rest squeezes oil out;
-- $\Lambda = \sum(Q_1 - Q_2)(X\sin\Psi - Y\cos\Psi)W_j$: neglected by the model, which takes the moment of the pocket
-  loads on the cage about the bearing's centre instead of about the cage's (eq. (33)).
+- the dissipations D, each of them a friction force times its own sliding speed: raceways $F\,\Delta u$, rolling
+  resistance $P\,u$, pocket friction $(F_{C1} + F_{C2})R_R(s + W_c - W) - (F_{C1} - F_{C2})\,V\cdot n$, flanges, rails,
+  lands, drag;
+- $\Pi = -\sum(Q_1\dot H_1 + Q_2\dot H_2)$: power that closes the pocket films. A part of this work is stored in the
+  elastic flattening of the contacts, $E_{pocket} = \sum\frac{0.9}{1.9}kQ^{1.9}$; the rest squeezes oil out;
+- $\Lambda = \sum(Q_1 - Q_2)(X\sin\Psi - Y\cos\Psi)W_j$: power that the model neglects, because it takes the moment of
+  the pocket loads on the cage about the centre of the bearing instead of the centre of the cage (eq. (33)).
 
-The radial direction is quasi-static and a balance of its own (the derivative of eq. (38), weighted by Q):
+The radial direction is quasi-static and has its own balance (the derivative of eq. (38), weighted by Q):
 
 $$F\cdot\dot d = \frac{dE_{race}}{dt} - \Omega - \sum Q_i\frac{d(h_i + h_o)}{dt} - \sum F_c\frac{d\delta_o}{dt},$$
 
-$E_{race} = \sum\frac{0.9}{1.9}(k_iQ_i^{1.9} + k_oQ_o^{1.9})$: the work of the load on the ring is stored by the
-raceways but for the work on the films, that of the centrifugal force, and $\Omega = \sum Q_i\,(d\cdot t)\,W_j$:
-rollers roll into the wedge between displaced rings, and the model neglects the tangential force $Q_i\,(d\cdot t)/R_m$
-that would pay for it. On raceways that are not round $\Omega$ has the further part $\sum Q_ip'(\psi_j)\,W_j$ with p the
-closing of the rings by their deviations, and is neglected for the same reason. The identities hold to round-off at
-every state, and `tests` check them so.
+$E_{race} = \sum\frac{0.9}{1.9}(k_iQ_i^{1.9} + k_oQ_o^{1.9})$. The raceways store the work of the load on the ring,
+except for the work on the films, the work of the centrifugal force, and $\Omega = \sum Q_i\,(d\cdot t)\,W_j$: the
+rollers roll into the wedge between the displaced rings, and the model neglects the tangential force
+$Q_i\,(d\cdot t)/R_m$ that would supply this work. If raceways are not round, $\Omega$ has the additional part
+$\sum Q_ip'(\psi_j)\,W_j$, neglected for the same reason; p is the closing of the rings by their deviations. The
+identities hold to round-off at every state, which `tests` check.
 """
 
 from typing import TYPE_CHECKING
@@ -45,13 +45,14 @@ if TYPE_CHECKING:
     from .rates import MovingState, RollerDynamics
 
 WORKS = ("drive", "dissipation", "pocket_films", "lever_arm", "load")
-"""Works that are integrated beside the motion, in their order in the state."""
+"""Works that are integrated together with the motion, in the order of the state."""
 _PALMGREN_ENERGY = 0.9 / 1.9
 
 
 def power_by_location(dynamics: "RollerDynamics", now: "MovingState") -> FrictionTotals[PowerLoss]:
-    """Losses by location, W, and what drives the rings, each from the force and the sliding speed of its own
-    interaction; without the squeezing of the pocket films (see `powers`)."""
+    """Losses by location and drive power, W, and torques that drive the rings, N m. Each loss is computed from the
+    force and the sliding speed of its own interaction. The power that squeezes the pocket films is not among them (see
+    `powers`)."""
     motion, forces, parts = now.motion, now.forces, dynamics.system.cage
     assert parts is not None
     found = friction_on_rings(
@@ -77,8 +78,8 @@ def power_by_location(dynamics: "RollerDynamics", now: "MovingState") -> Frictio
 
 
 def powers(dynamics: "RollerDynamics", time: Scalar, now: "MovingState") -> Float[Array, " work"]:
-    r"""Rates of `WORKS`, W. That of the load is $-\dot F\cdot d$: its work is this integral plus the change of
-    $F\cdot d$."""
+    r"""Rates of `WORKS`, W. The rate of the load is $-\dot F\cdot d$: the work of the load is the integral of this rate
+    plus the change of $F\cdot d$."""
     cost = power_by_location(dynamics, now)
     closing = lever = jnp.zeros(())
     if now.pocket is not None:
@@ -110,7 +111,7 @@ def kinetic_energy(dynamics: "RollerDynamics", time: Scalar, state: ArrowPoint) 
 
 
 def pocket_energy(dynamics: "RollerDynamics", now: "MovingState") -> Float[Array, ""]:
-    """Elastic energy of the pocket films, J."""
+    """Elastic energy of the flattening in the pocket contacts, J."""
     if now.pocket is None or dynamics.pocket is None:
         return jnp.zeros(())
     return jnp.sum(dynamics.pocket.flattening_energy(jnp.stack([now.pocket.front.load, now.pocket.rear.load])))
@@ -123,7 +124,10 @@ def raceway_energy(dynamics: "RollerDynamics", now: "MovingState") -> Float[Arra
 
 
 def energy_of(dynamics: "RollerDynamics", state: ArrowPoint, first: RollerInstant, last: RollerInstant) -> RollerEnergy:
-    """The works of the run up to a state, and how well they balance."""
+    """Works and changes of energy from the start of the run to a state, J, and the relative error of their balance.
+
+    **Arguments:** `first`, `last`: instants at the start and at the state.
+    """
     works = dict(zip(WORKS, jnp.asarray(dynamics.unscaled(state)[2]), strict=True))
     gain = lambda name: jnp.asarray(getattr(last, name)) - jnp.asarray(getattr(first, name))
     kinetic = gain("kinetic_energy")

@@ -1,4 +1,4 @@
-"""Motion of the cylindrical roller bearing, as `motion.family` asks for it."""
+"""Motion of the cylindrical roller bearing: implementation of the interface `motion.family`."""
 
 from typing import ClassVar
 
@@ -15,7 +15,7 @@ from .start import QuasiStatic
 
 
 class RollerMotion(AbstractMotion):
-    """Motion of rollers and cage in the plane across the axis."""
+    """Motion of rollers and cage in the plane perpendicular to the axis."""
 
     instant: ClassVar[type[Instant]] = RollerInstant
 

@@ -81,7 +81,8 @@ def observe(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Roller
 
 
 def pocket_loads(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Float[Array, "2 roller"]:
-    """Loads on the front and the rear pocket walls, N: a cheap part of `observe`, for shocks between instants."""
+    """Loads on the front and the rear pocket walls, N. They cost less than `observe` and show shocks between
+    instants."""
     rollers, cage, _ = dynamics.unscaled(state)
     pitch, (turned, turning, _) = dynamics.system.kinematics.pitch_radius, dynamics.frame(time)
     azimuth = dynamics.system.azimuth + rollers[0] / pitch + turned
@@ -92,12 +93,12 @@ def pocket_loads(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> F
 
 
 def pocket_peaks(dynamics: RollerDynamics, times: Float[Array, "interval part"], states: ArrowPoint) -> PocketPeaks:
-    """Largest loads on the front and the rear walls in each interval, shape (interval, roller), of states at several
-    times within it.
+    """Largest loads on the front and the rear pocket walls in each interval, N, shape (interval, roller).
 
-    **Arguments:** `states`, with `interval * part` in front.
+    **Arguments:** `times`: several times within each interval, s; `states`: at these times, with first axis of length
+    `interval * part`.
     """
-    # one search for all: rollers far from a wall cost as little as the rest
+    # one search for all states: rollers far from a wall do not lengthen it
     loads = jax.vmap(lambda time, state: pocket_loads(dynamics, time, state))(times.reshape(-1), states)
     front, rear = jnp.swapaxes(jnp.max(loads.reshape(*times.shape, *loads.shape[1:]), axis=1), 0, 1)
     return PocketPeaks(front=front, rear=rear)

@@ -1,17 +1,18 @@
-r"""The moving cylindrical roller bearing: rate of change of rollers and cage (source eqs. (27)-(41)).
+r"""Equations of motion of rollers and cage of the moving cylindrical roller bearing (source eqs. (27)-(41)).
 
-State of roller j: $q_j = R_m(\Psi_j - \Psi^0_j - \int w)$, $v_j = R_m(W_j - w)$, $u_j = R_R s_j$; of the cage: its
-centre X, Y, $q_c = R_m(\Psi_c - \int w)$ and the speeds $V_x, V_y, v_c = R_m(W_c - w)$. The frame turns at
-$w = w_{ref}\,\omega_i(t)/\omega_i$, in proportion to the shaft, so that positions stay small and are resolved. All
-are in units (`ROLLER_UNITS`, `CAGE_UNITS`) with which one tolerance serves for all. Loads and ring displacement follow
-from the state (`loads.distributed_loads`): they are no part of it. Frames and signs: see `cylindrical.scene`.
+The state of roller j is $q_j = R_m(\Psi_j - \Psi^0_j - \int w)$, $v_j = R_m(W_j - w)$, $u_j = R_R s_j$. The state of
+the cage is its centre X, Y, $q_c = R_m(\Psi_c - \int w)$ and the speeds $V_x, V_y, v_c = R_m(W_c - w)$. The frame turns
+at $w = w_{ref}\,\omega_i(t)/\omega_i$, in proportion to the shaft, so that positions stay small and are resolved. The
+units of the components (`ROLLER_UNITS`, `CAGE_UNITS`) let one tolerance serve for all of them. Loads and ring
+displacement are not part of the state; they follow from it (`loads.distributed_loads`). Frames and signs: see
+`cylindrical.scene`.
 
 $$m\dot v = Q_2 - Q_1 - F_{OL} + F_i - F_o + F_E + F_{Ec} + F_P,\qquad
 J(\dot v/R_m - \dot u/R_R) = R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} + \tfrac12R_R(P_i + P_o)$$
 
-and the cage by the reactions and by its lands. A pocket wall is a compliant squeeze film (`gaps.CompliantPocketFace`)
-in the gap $H_1 = J_p/2 + q_c - q_j - (X\cos\Psi + Y\sin\Psi)$ in front, $H_2 = J_p - H_1$ behind. `energy` has the
-balance of energy that follows from these equations.
+The reactions of the rollers and the forces of the lands act on the cage. A pocket wall is a compliant squeeze film
+(`gaps.CompliantPocketFace`) in the gap $H_1 = J_p/2 + q_c - q_j - (X\cos\Psi + Y\sin\Psi)$ in front of the roller, or
+$H_2 = J_p - H_1$ behind it. `energy` has the energy balance that follows from these equations.
 """
 
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
@@ -44,35 +45,38 @@ if TYPE_CHECKING:
     from ..scene import CylindricalRollerBearing
 
 ROLLER_UNITS = (1e-5, 0.1, 1.0)
-"""Units of q, m, v and u, m/s: with the same tolerance, absolute in these units and relative, q is held to 1e-9 m, v
-to 1e-5 m/s and u to 1e-4 m/s at 1e-4."""
+"""Units of q, m, v, m/s, and u, m/s. The tolerance of the integration is relative and, in these units, absolute: at
+1e-4 it holds q to 1e-9 m, v to 1e-5 m/s and u to 1e-4 m/s."""
 CAGE_UNITS = (1e-5, 1e-5, 1e-5, 0.1, 0.1, 0.1)
-"""Units of X, Y, q_c, m, and their speeds, m/s."""
+"""Units of X, Y and q_c, m, and of V_x, V_y and v_c, m/s."""
 WORK_PART = 0.1
-"""Unit of the works that are integrated beside the state, over the rollers' kinetic energy at the operating point: so
-large that they do not steer the step (some 100 J in a turbine), and in proportion also where all turns slowly."""
+"""Unit of the works in the state, divided by the kinetic energy of the rollers at the operating point. It is so large
+that the works do not control the step size (some 100 J in a turbine), and it becomes smaller for slow bearings."""
 LEAST_WORK = 1e-9
 """Lower limit of the unit of the works, J."""
 LOAD_TOLERANCE = 0.3
-"""Scaled residual of the load distribution before the last step, which squares it, over the root of the integration's
-tolerance: loads are found to a tenth of that, their derivatives to 1e-7 at 1e-5."""
+"""Largest scaled residual of the load distribution before the last Newton step, divided by the square root of the
+integration's tolerance. The last step squares the residual: loads are then found to a tenth of that tolerance, and
+their derivatives to 1e-7 at a tolerance of 1e-5."""
 FINE = 1e-11
-"""Tolerance for which loads are found where none is given."""
+"""Tolerance of the integration that decides how exactly the loads are found, if none is given."""
 LOAD_STEPS = 40
-"""Newton steps that one load distribution may take."""
+"""Largest number of Newton steps for one load distribution."""
 LOAD_FAILURE = 2.0
 """The rates are NaN if the residual of the loads is larger than its tolerance times this factor; the integrator then
 rejects the step and shortens it."""
 
 
 class MovingState(NamedTuple):
-    """Speeds, films and forces at one instant; arrays over rollers, the inner and the outer race first.
+    """Speeds, films and forces at one instant. The last axis of arrays runs over the rollers; a first axis of length 2
+    runs over the races (inner, outer).
 
-    - `azimuth`, rad; `orbit`, `spin`: speeds of each roller, rad/s; `cage_orbit`: speed of the cage, rad/s.
-    - `centre`, m, and `velocity`, m/s, of the cage along X and Y.
+    - `azimuth`: rad; `orbit`, `spin`: orbital speed and spin of each roller, rad/s; `cage_orbit`: cage speed, rad/s.
+    - `centre`, m, and `velocity`, m/s: of the cage along X and Y.
     - `mean_speed`, `sliding_speed`: of the surfaces on each race, m/s.
-    - `tangential`, N, and `moment`, N m: sums on each roller; `cage_force` and `cage_moment`: sums on the cage.
-    - The other fields have classes that say what they hold.
+    - `tangential`, N, and `moment`, N m: sums of the forces along the orbit and of the moments on each roller.
+    - `cage_force`, N, and `cage_moment`, N m: sums on the cage.
+    - Other fields: see their classes.
     """
 
     motion: RollerKinematics
@@ -96,21 +100,24 @@ class MovingState(NamedTuple):
 
 
 class RollerDynamics(AbstractDynamics):
-    """Equations of motion of rollers and cage; a part that is `None` is not modelled.
+    """Equations of motion of rollers and cage. A part that is `None` is not modelled.
 
     **Arguments:**
-    - `system`: raceways, roller ends, drag and land, with the oil at its inlet temperature, at the operating point.
-      Its rigid pocket films are not used.
-    - `reference_speed`: w_ref, speed of the frame in which positions are counted, at the operating point, rad/s.
-    - `roller_inertia`: J, kg m^2; `cage_mass`, kg; `cage_inertia`: J_c, kg m^2, about the bearing axis; `None` without
-      a cage, whose states then stand still.
-    - `pocket`: film on one wall of a pocket; `None`: rollers do not meet the cage.
-    - `speed`, `load`: the inner ring's speed and the radial load over those of the operating point.
-    - `rotating_load`: a further, turning load; it needs a ring that is free in both directions.
-    - `land_speed`: cage speed at which the lands' turbulence is evaluated, rad/s; `None`: the current one.
-    - `seats`: the scene on the drawing of a bearing whose clearance follows the current speed; `None`: it stays.
-    - `inner_roundness`, `outer_roundness`: raceways that are not round and stand still relative to the load; `None`:
-      they are round.
+    - `system`: equations of the steady bearing at the operating point, with the oil at its inlet temperature. Their
+      raceways, roller ends, drag and lands are used; their rigid pocket films are not.
+    - `reference_speed`: w_ref, speed at the operating point of the frame in which positions are counted, rad/s.
+    - `roller_inertia`: J, moment of inertia of a roller about its axis, kg m^2.
+    - `cage_mass`, kg, and `cage_inertia`: J_c, about the bearing axis, kg m^2; `None`: there is no cage, and its states
+      stay constant.
+    - `pocket`: model of the film on one pocket wall; `None`: rollers do not touch the cage.
+    - `pocket_clearance`: J_p, total circumferential clearance of a roller in its pocket, m.
+    - `speed`, `load`: speed of the inner ring and radial load over time, divided by those of the operating point.
+    - `rotating_load`: additional load that rotates; it requires the ring to be free in both directions.
+    - `land_speed`: cage speed at which the turbulence of the land films is evaluated, rad/s; `None`: the current one.
+    - `seats`: scene with the dimensions of the drawing, from which the clearance at the current speed is computed;
+      `None`: the clearance is constant.
+    - `inner_roundness`, `outer_roundness`: deviations of raceways that are not round, stationary relative to the load;
+      `None`: they are round.
     """
 
     works: ClassVar[tuple[str, ...]] = WORKS
@@ -137,12 +144,12 @@ class RollerDynamics(AbstractDynamics):
     # -- operating point ------------------------------------------------------------------------------------------
 
     def motion(self, time: Scalar) -> RollerKinematics:
-        """Speeds of the rings."""
+        """Kinematics of the rollers at the ring speeds of this time."""
         steady = self.system.kinematics
         return eqx.tree_at(lambda m: m.inner_speed, steady, steady.inner_speed * self.speed.factor(time))
 
     def frame(self, time: Scalar) -> tuple[Float[Array, ""], Float[Array, ""], Float[Array, ""]]:
-        """Angle, rad, speed and acceleration of the frame in which positions are counted."""
+        """Angle, rad, speed, rad/s, and acceleration, rad/s^2, of the frame in which positions are counted."""
         return turning_frame(self.reference_speed, self.speed, time)
 
     def ring_load(self, time: Scalar) -> Float[Array, " freedom"]:
@@ -162,14 +169,15 @@ class RollerDynamics(AbstractDynamics):
     # -- state ----------------------------------------------------------------------------------------------------
 
     def scaled(self, rollers: Float[Array, "3 roller"], cage: Float[Array, "6"]) -> ArrowPoint:
-        """State, with works of 0, from q, v, u and from X, Y, q_c, V_x, V_y, v_c, SI."""
+        """State of a run, with all works 0. **Arguments:** `rollers`: q, v, u; `cage`: X, Y, q_c, V_x, V_y, v_c; in SI
+        units."""
         works = jnp.zeros(len(WORKS))
         return ArrowPoint(
             rollers / jnp.asarray(ROLLER_UNITS)[:, None], jnp.concatenate([cage / jnp.asarray(CAGE_UNITS), works])
         )
 
     def unscaled(self, state: ArrowPoint) -> tuple[Float[Array, "3 roller"], Float[Array, "6"], Float[Array, " work"]]:
-        """q, v, u; X, Y, q_c, V_x, V_y, v_c; works in the order of `WORKS`, J."""
+        """Components of a state in SI units: q, v, u; X, Y, q_c, V_x, V_y, v_c; works in the order of `WORKS`, J."""
         cage, works = state.globals[:6] * jnp.asarray(CAGE_UNITS), state.globals[6:] * self.work_unit
         return state.elements * jnp.asarray(ROLLER_UNITS)[:, None], cage, works
 
@@ -192,14 +200,15 @@ class RollerDynamics(AbstractDynamics):
         )
 
     def _opening(self, motion: RollerKinematics, azimuth: Float[Array, " roller"]) -> Float[Array, "*roller"]:
-        """Half the clearance, m, at each roller where a raceway is not round."""
+        """Half the diametral clearance, m; if a raceway is not round, the radial opening of the rings at each
+        roller."""
         clearance = self._radial_clearance(motion)
         form = out_of_round(self.inner_roundness, self.outer_roundness, azimuth)
         return clearance if form is None else clearance - form
 
     def _radial_clearance(self, motion: RollerKinematics) -> Float[Array, ""]:
-        """Half the clearance at the current speed, which rings and seats follow without delay, m. Other sizes are those
-        of the operating point."""
+        """Half the diametral clearance at the current speed, m. Rings and seats expand without delay; all other
+        dimensions stay those of the operating point."""
         if self.seats is None:
             return self.system.radial_clearance
         return 0.5 * running_play(self.seats.at_operation(inner_speed=motion.inner_speed)).measure
@@ -217,8 +226,8 @@ class RollerDynamics(AbstractDynamics):
         """Speeds, films and forces of one state.
 
         **Arguments:**
-        - `guess`: of the load distribution, `Distribution.point` of a state nearby.
-        - `tolerance`: of the integration, which decides how exactly the loads are found.
+        - `guess`: initial guess of the load distribution, the `Distribution.point` of a similar state.
+        - `tolerance`: tolerance of the integration; it decides how exactly the loads are found.
         """
         system, motion = self.system, self.motion(time)
         (q, v, u), (x, y, q_c, v_x, v_y, v_c), _ = self.unscaled(state)
@@ -272,7 +281,7 @@ class RollerDynamics(AbstractDynamics):
         )
 
     def directions(self, azimuth: Float[Array, " roller"]) -> Float[Array, "freedom roller"]:
-        """Outward unit vectors at the rollers along the degrees of freedom of the ring."""
+        """Components of the outward unit vectors at the rollers along the degrees of freedom of the ring."""
         cosine, sine = cosine_and_sine(azimuth)
         along = {"radial": cosine, "lateral": sine}
         return jnp.stack([along[name] for name in self.system.freedoms])
@@ -285,7 +294,7 @@ class RollerDynamics(AbstractDynamics):
         azimuth: Float[Array, " roller"],
         orbit: Float[Array, " roller"],
     ) -> PocketState:
-        """Both walls of every pocket, see `cage_forces.pocket_state`."""
+        """Contacts with both walls of every pocket, see `cage_forces.pocket_state`."""
         assert self.pocket is not None
         assert self.pocket_clearance is not None
         viscosity = self.system.inlet.viscosity
@@ -294,13 +303,16 @@ class RollerDynamics(AbstractDynamics):
     # -- rates ----------------------------------------------------------------------------------------------------
 
     def rates(self, time: Scalar, state: ArrowPoint) -> ArrowPoint:
-        """d state / d time, 1/s; NaN where no load distribution is found."""
+        """Rates of the state, 1/s; NaN if no load distribution is found."""
         return self.nested_rates(time, state)[0]
 
     def nested_rates(
         self, time: Scalar, state: ArrowPoint, guess: ArrowPoint | None = None, tolerance: Scalar = FINE
     ) -> tuple[ArrowPoint, ArrowPoint]:
-        """`rates`, and the load distribution in the form of `RaceLoads.smoothed`, which changes smoothly over time."""
+        """Rates of the state, and the load distribution as `RaceLoads.smoothed`, which changes smoothly over time.
+
+        **Arguments:** `guess`: of the load distribution, in the same form; `tolerance`: of the integration.
+        """
         loads = self.race_loads(time, state)
         now = self.at(time, state, None if guess is None else loads.unsmoothed(guess), tolerance)
         motion, (_, v, _), cage = now.motion, *self.unscaled(state)[:2]

@@ -1,4 +1,4 @@
-"""Results of a transient run that only the cylindrical roller bearing has, labelled (see `motion.history`)."""
+"""Results of a transient run that only cylindrical roller bearings have (see `motion.history`)."""
 
 from typing import ClassVar
 
@@ -10,13 +10,14 @@ from ...solution import label
 from ..solution import PowerLoss, RollerResults
 
 ELEMENT_STATE = ("q", "v", "u")
-"""Components of a roller's state: position along the pitch circle, m, its speed and that of the spin, m/s."""
+"""Components of a roller's state: position along the pitch circle, m, and its rate, m/s, both in the frame of the run;
+surface speed of the spin, m/s."""
 CAGE_STATE = ("x", "y", "q", "v_x", "v_y", "v")
-"""Components of the cage's state: centre and angle times pitch radius, m, and their rates, m/s."""
+"""Components of the cage's state: centre (x, y) and angle times pitch radius (q), m, and their rates, m/s."""
 
 
 class RollerInstant(Instant):
-    """State and results of rollers and cage at one time."""
+    """State and results of the rollers and the cage at one instant."""
 
     element_state: ClassVar[tuple[str, ...]] = ELEMENT_STATE
     cage_state: ClassVar[tuple[str, ...]] = CAGE_STATE
@@ -35,7 +36,8 @@ class RollerInstant(Instant):
 
 class RollerEnergy(Energy):
     """Works and energies over the run, J (see `energy`). `drive` = `kinetic` + `dissipation` + `pocket_films` +
-    `lever_arm`, up to `error`; `load_on_ring` is balanced within the raceways, which are quasi-static."""
+    `lever_arm`, up to the relative `error`. `load_on_ring` is not part of this balance: the radial direction is
+    quasi-static and has a balance of its own."""
 
     lever_arm: Float[Array, ""] = eqx.field(
         metadata=label(

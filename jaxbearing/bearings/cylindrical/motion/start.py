@@ -34,9 +34,9 @@ NO_NETWORK = (
 
 
 class QuasiStatic(NamedTuple):
-    """Steady state as places and speeds.
+    """Steady state as positions and speeds of rollers and cage.
 
-    - `orbit`: orbital speed of rollers and cage, rad/s; `spin`: of each roller, rad/s.
+    - `orbit`: orbital speed of rollers and cage, rad/s; `spin`: spin of each roller, rad/s.
     - `centre`: centre of the cage along X and Y, m.
     - `position`: distance of each roller along the pitch circle from its place at equal spacing, m.
     - `status`, `residual`: how the solve ended.
@@ -51,8 +51,11 @@ class QuasiStatic(NamedTuple):
 
 
 def require_moving(scene: CylindricalRollerBearing) -> None:
-    """**Raises:** `ValueError` for a scene whose rollers nothing drives, with a thermal network, or whose rings
-    bend."""
+    """Checks that a scene can run in time.
+
+    **Raises:** `ValueError` for a scene without traction on the raceways, with a thermal network or with flexible
+    rings.
+    """
     if not scene.slips:
         raise ValueError(IMMOBILE)
     if scene.thermal is not None:
@@ -63,13 +66,13 @@ def require_moving(scene: CylindricalRollerBearing) -> None:
 def build_dynamics(
     scene: CylindricalRollerBearing, simulation: Simulation, reference_speed: Array | None = None
 ) -> RollerDynamics:
-    """Equations of motion, with everything prepared that does not depend on the state.
+    """Equations of motion; everything that does not depend on the state is computed here.
 
-    **Arguments:** `reference_speed`: speed of the frame in which positions are counted, at the operating point, rad/s;
+    **Arguments:** `reference_speed`: speed at the operating point of the frame in which positions are counted, rad/s;
     left out: orbital speed of rolling without slip.
 
-    **Raises:** `ValueError` for a scene without traction on the raceways, which nothing drives, and for an operating
-    point with given displacements.
+    **Raises:** `ValueError` for a scene that cannot run in time (`require_moving`) and for an operating point with
+    given displacements, an axial load or no radial load.
     """
     require_moving(scene)
     check_run(scene.operation)
@@ -113,7 +116,7 @@ def build_dynamics(
 
 
 def quasi_static(scene: CylindricalRollerBearing, options: NewtonOptions | None = None) -> QuasiStatic:
-    """Steady state of the operating point, without a cage that of rolling without slip; pure."""
+    """Steady state of the operating point; without a cage, rolling without slip. Pure."""
     n, zero = scene.geometry.n_rollers, jnp.zeros(())
     scene, _, _ = running_scene(scene)
     system = build_system(scene)
@@ -131,7 +134,7 @@ def quasi_static(scene: CylindricalRollerBearing, options: NewtonOptions | None 
     assert found.cage_force is not None
     orbit, inner = solved.orbit(result.point.globals[-1]), parts.guidance == "inner_ring"
     land, pull = solved.land_at(result.point, found), jnp.sum(found.cage_force, axis=1)
-    # the film of the lands passes the pull of the pockets on to the ring
+    # the film of the lands transmits the pocket forces to the ring
     toward = pull if inner else -pull
     mean_speed = 0.5 * ((motion.inner_speed if inner else motion.outer_speed) + orbit)
     centre = jnp.stack(
@@ -147,11 +150,11 @@ def quasi_static(scene: CylindricalRollerBearing, options: NewtonOptions | None 
 
 
 def begin(scene: CylindricalRollerBearing, simulation: Simulation, found: QuasiStatic) -> Start:
-    """Equations of motion, and the state in which the steady films of time 0 hold rollers and cage; pure.
+    """Equations of motion and the initial state of a run, which is the steady state at time 0; pure.
 
-    The speed at time 0 must not be 0, because the films that hold the rollers vanish there. The accelerations of this
-    state are small and not 0: the walls of the steady pockets are rigid, and rollers move in the pockets of an
-    eccentric cage. A rotating load is not part of the state.
+    The speed at time 0 must not be 0, because there are no films at rest to carry the rollers. The accelerations of
+    this state are small but not 0: the steady state has rigid pocket walls and leaves out that rollers move in the
+    pockets of an eccentric cage. It does not contain a rotating load either.
     """
     factor = simulation.speed.factor(jnp.zeros(()))
     dynamics = build_dynamics(scene, simulation, found.orbit / factor)
@@ -162,9 +165,10 @@ def begin(scene: CylindricalRollerBearing, simulation: Simulation, found: QuasiS
 
 
 def resume(scene: CylindricalRollerBearing, simulation: Simulation, last: LastState) -> Resumed:
-    """Equations of motion and state that an earlier run ended with; pure.
+    """Equations of motion and initial state of a run that continues an earlier one; pure.
 
-    Speeds and loads over time may differ from those of that run: positions and speeds in space stay as they were."""
+    Speeds and loads over time may differ from those of the earlier run. The positions and speeds of rollers and cage in
+    space continue unchanged."""
     dynamics = build_dynamics(scene, simulation, jnp.asarray(last.reference_speed))
     turned, turning, _ = dynamics.frame(jnp.asarray(last.time))
     pitch = dynamics.system.kinematics.pitch_radius

@@ -30,7 +30,7 @@ _LETTERS = 12.4
 
 
 def instants(first: float, last: float, at_most: int = PICTURES) -> np.ndarray:
-    """Evenly spaced times, or indices of instants, from `first` to `last`: one for each picture, `at_most` in all."""
+    """Evenly spaced times, or indices of instants, from `first` to `last`: one for each picture, at most `at_most`."""
     return np.linspace(first, last, min(PICTURES, at_most))
 
 

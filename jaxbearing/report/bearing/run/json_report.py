@@ -1,4 +1,4 @@
-"""A transient run of a bearing: its statistics, and the run as plain numbers and texts."""
+"""JSON report of a transient run of a bearing, and its statistics."""
 
 import math
 from typing import Any
@@ -25,7 +25,7 @@ from ...run_statistics import (
 
 
 def statistics(history: History) -> dict[str, Any]:
-    """Means and extremes over the run, SI."""
+    """Means and extremes of the results over the run, SI."""
     instants, elements = history.instants, history.instants.elements
     found: dict[str, Any] = {
         "inner_speed": _spread(instants.inner_speed),
@@ -36,7 +36,7 @@ def statistics(history: History) -> dict[str, Any]:
         | _stored(history),
     }
     for name in ("pressure", "sliding"):
-        # what the contacts of a family have
+        # not all families have both results
         values = by_side(elements, name).values()
         if values:
             found[f"{name}_max"] = float(max(np.abs(one).max() for one in values))
@@ -65,7 +65,7 @@ def statistics(history: History) -> dict[str, Any]:
 
 
 def _in_motion(history: History) -> dict[str, Any]:
-    """Statistics of what only transient runs have: variation of the speeds, sliding, skidding, lands, stresses."""
+    """Statistics that only transient runs have: speed variation, sliding energy, skidding, land load, cage stress."""
     found: dict[str, Any] = {}
     instants, variation, stress = history.instants, speed_variation(history), cage_stress(history)
     if variation is not None:
@@ -104,7 +104,8 @@ def _in_motion(history: History) -> dict[str, Any]:
 
 
 def _across(angle: np.ndarray, energy: np.ndarray) -> dict[str, Any]:
-    """Energy in each interval of angle across a groove, from the first to the last with contact, and the largest."""
+    """Sliding energy in each interval of angle across a groove, from the first to the last interval with contact; the
+    largest of these energies and its angle."""
     touched = np.flatnonzero(energy)
     part = slice(touched[0], touched[-1] + 1) if touched.size else slice(0)
     return {
@@ -116,18 +117,18 @@ def _across(angle: np.ndarray, energy: np.ndarray) -> dict[str, Any]:
 
 
 def _moved(instants: Instant) -> tuple[str, ...]:
-    """Displacements of the ring that the statistics show: the axial one where loads along the axis move it."""
+    """Names of the ring displacements in the statistics; the axial one only if an axial load can move the ring."""
     return ("axial", "radial") if hasattr(instants, "axial_load") else ("radial",)
 
 
 def _excursion(instants: Instant) -> float:
-    """Largest distance of an element along the pitch circle from the mean of all, beside equal spacing, m."""
+    """Largest departure of an element from equal spacing along the pitch circle, relative to the mean of all, m."""
     along = np.asarray(instants.state_elements)[:, 0]
     return float(np.abs(along - along.mean(axis=1, keepdims=True)).max())
 
 
 def by_side(elements: eqx.Module, name: str) -> dict[str, np.ndarray]:
-    """A result of the contacts on either raceway, as far as the elements of a family have it."""
+    """A result of the contacts on the inner and outer raceway; a raceway without this result is left out."""
     found = {side: getattr(elements, f"{name}_{side}", None) for side in ("inner", "outer")}
     return {side: np.asarray(values) for side, values in found.items() if values is not None}
 
@@ -151,7 +152,7 @@ def _spread(values: Array | np.ndarray) -> dict[str, float]:
 
 
 def _stored(history: History) -> dict[str, float]:
-    """Drive power beside the dissipation, as means over the run, W."""
+    """Mean powers over the run that the drive supplies in addition to the dissipation, W."""
     energy, time = history.energy, float(history.time[-1] - history.time[0])
     names = ("pocket_films", "lever_arm", "damping", "kinetic")
     works = {name: getattr(energy, name) for name in names if hasattr(energy, name)}
@@ -164,8 +165,8 @@ def _losses(history: History) -> dict[str, Array | np.ndarray]:
 
 
 def to_dict(history: History) -> dict[str, Any]:
-    """The run as plain numbers and texts in SI units, ready for `json.dumps`; what is not finite is `None`. A run that
-    did not begin has no time and no summary."""
+    """The run as numbers and texts in SI units, ready for `json.dumps`. Numbers that are not finite become `None`.
+    A run that did not begin has no time and no summary."""
     begun = np.size(history.time) > 0
     ends = (float(history.time[0]), float(history.time[-1])) if begun else (None, None)
     return {
