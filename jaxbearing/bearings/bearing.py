@@ -180,7 +180,7 @@ class AbstractBearing(AbstractScene):
 
     @abc.abstractmethod
     def range_checks(self) -> RangeChecks:
-        """The checks that only this family has of whether results lie in the range in which its models hold."""
+        """Range checks of this family, in addition to those of all bearings."""
 
     @abc.abstractmethod
     def rated_contacts(self, elements: Any, laminae: LaminaLoads | None, force: Array | None = None) -> RatedContacts:

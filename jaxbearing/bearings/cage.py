@@ -36,8 +36,8 @@ class AbstractCage(Checked, Generic[Geometry]):
     - `pocket_clearance`: clearance of a rolling element in its pocket, DIAMETRAL for balls and TOTAL circumferential
       for rollers, m, > 0.
     - `land_width`: width of ONE land, m.
-    - `inner_diameter`: inner diameter of the cage, m; if not given, it is assumed from the pitch and element diameters.
-    - `outer_diameter`: outer diameter of the cage, m; if not given, it is assumed from the pitch and element diameters.
+    - `inner_diameter`: inner diameter of the cage, assumed from the pitch and element diameters if not given, m.
+    - `outer_diameter`: outer diameter of the cage, assumed from the pitch and element diameters if not given, m.
     - `n_lands`: number of lands; 2 if not given.
     - `turbulence`: flow regime of the land films.
     """

@@ -72,7 +72,7 @@ class ElasticRing(eqx.Module):
     ) -> Float[Array, " mode"]:
         """Unbalanced generalised forces on the amplitudes, N.
 
-        **Arguments:** `floats`: True if neither elements nor supports need touch the ring, which is then anchored.
+        **Arguments:** `floats`: True if the ring may lose contact with all elements and supports; it is then anchored.
         """
         balance = self.ring.balance(LENGTH_UNIT * amplitudes, pressed)
         return balance + anchored(amplitudes, ANCHOR * LENGTH_UNIT) if floats else balance

@@ -1,4 +1,4 @@
-r"""Kinematic frequencies of a bearing: rotation of the cage, spin of the elements, passing of a point of a ring.
+r"""Kinematic frequencies of a bearing: rotation of the cage, spin of the elements, passage of elements past a point.
 
 Damage on a part excites vibration at these frequencies: damage on a ring each time a rolling element passes it, damage
 on an element each time it meets a ring, twice per turn.

@@ -279,7 +279,7 @@ def _to_ambient(scene: AbstractBearing, thermal: Thermal) -> dict[str, Scalar]:
 
 def _seat_to_ambient(scene: AbstractBearing, thermal: Thermal, node: str) -> Scalar:
     """Conductance from a node to the ambient through its seats, W/K, from the reference heat flow of ISO 15312, split
-    between the seats by their areas. The outer seat counts as 0 if the housing in air has a law of its own."""
+    between the seats by their areas. The outer seat counts as 0 if a housing in air is given, which has its own law."""
     geometry = scene.geometry
     area = radial_seat_area(geometry.bore, geometry.outside_diameter, geometry.width)
     whole = reference_conductance(area)

@@ -61,7 +61,8 @@ class AbstractOils(eqx.Module):
     """Oil of the other interactions; `None` if it is the oil of the raceways."""
 
     def oil_of(self, place: str) -> InletOil:
-        """Oil that enters an interaction other than the raceway contacts. **Arguments:** `place`: as in `oil_of`."""
+        """Oil that enters an interaction other than the raceway contacts. **Arguments:** `place`: field of
+        `OilElsewhere`."""
         return oil_of(self.inlet, self.elsewhere, place)
 
 

@@ -1,9 +1,9 @@
-"""Computes the running bearing from the scene as drawn. One pure function does this for all families.
+"""Computes the dimensions of the running bearing from the scene as drawn. One pure function does this for all families.
 
-Seats, temperatures and rotation make the raceways grow (`mounting`); a family says what that does to its dimensions
-(`AbstractBearing.grown`). No equation has to be solved iteratively. The model neglects temperature differences inside a
-part, shafts and housings that are longer than the rings, shoulders and ribs of the rings, seats that are not round, and
-the loss of interference under load. Shoulders and a longer shaft change the effect of a fit by about 5 %.
+Seats, temperatures and rotation make the raceways grow (`mounting`); each family computes its dimensions after this
+growth (`AbstractBearing.grown`). No equation has to be solved iteratively. The model neglects temperature differences
+inside a part, shafts and housings that are longer than the rings, shoulders and ribs of the rings, seats that are not
+round, and the loss of interference under load. Shoulders and a longer shaft change the effect of a fit by about 5 %.
 """
 
 import dataclasses
@@ -34,25 +34,25 @@ else:
 
 Bearing = TypeVar("Bearing", bound="AbstractBearing")
 HIGHEST_STRESS = 127e6
-"""Hoop stress at the inner ring's bore beyond which makers warn of bursting rings of through-hardened steel, Pa."""
+"""Hoop stress at the bore of the inner ring above which makers warn of fracture of through-hardened rings, Pa."""
 
 
 _COLD, _WARM, _RUNNING = (False, False), (True, False), (True, True)
-"""States of a mounted bearing: whether it has the temperatures of the scene, and whether it turns."""
+"""States of a mounted bearing: pairs of "has the temperatures of the scene" and "turns"."""
 
 
 class _Rings(NamedTuple):
-    """Growth of the rings (inner first) and of the rolling elements, hoop stress at the bore of the inner ring, and the
-    existing seats (shaft first), whose fields are arrays with an entry for each seat."""
+    """Growth of rings and rolling elements, hoop stress at the bore of the inner ring, and state of the seats. The
+    fields of `seats` are arrays with an entry for each existing seat, that on the shaft first."""
 
     growth: Growth
     hoop_stress: Float[Array, ""]
     seats: FitState | None
 
     def last(self, names: tuple[str, ...], name: str) -> FitState | None:
-        """The seat `name` in the last of several states; `None` if there is no such seat.
+        """Selects a seat in the last of several states of the bearing; `None` if there is no such seat.
 
-        **Arguments:** `names`: names of all existing seats, in the order of the arrays.
+        **Arguments:** `names`: names of all existing seats, in the order of the arrays; `name`: name of the seat.
         """
         return None if name not in names else jax.tree.map(lambda leaf: leaf[-1, names.index(name)], self.seats)
 
@@ -65,7 +65,7 @@ def mounting_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
         if temperatures is not None:
             yield "temperatures: they apply to a mounted bearing only; the scene needs a [fits] table"
         return
-    # fits that could not be read are a placeholder without this attribute; nothing is checked for them
+    # if the fits could not be read, a placeholder without this attribute replaces them, and nothing is checked
     geometry, check_room = scene.geometry, fits.check_room
     for name in ("bore", "outside_diameter"):
         if getattr(geometry, name) is None:
@@ -88,7 +88,9 @@ def mounting_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
 
 
 def check_walls(scene: AbstractBearing) -> None:
-    """**Raises:** `ValueError` where a ring has no wall between its seat and its raceway."""
+    """Checks that each ring has a wall between its seat and its raceway.
+
+    **Raises:** `ValueError` if it has none."""
     geometry = scene.geometry
     sizes = numbers_or_none(*(leaf for leaf in jax.tree.leaves(geometry)), geometry.bore, geometry.outside_diameter)
     if sizes is None:
@@ -145,13 +147,13 @@ def running_scene(scene: Bearing) -> tuple[Bearing, FitResult | None, dict[str, 
 
 
 def _impossible(play: Play) -> dict[str, FailureCause]:
-    """Causes that leave the running bearing without contacts, as a map from a message to the `FailureCause`, which says
-    whether it applies."""
+    """Causes that leave the running bearing without contacts: message -> `FailureCause`, which says whether it
+    applies."""
     return {"fits and temperatures leave the rolling elements no contact": FailureCause(~play.possible, jnp.zeros(0))}
 
 
 def running_play(scene: AbstractBearing) -> Play:
-    """The play of a scene with seats, mounted, warm and turning at its speeds."""
+    """Play of a bearing with fits when it is mounted, warm and turning at its speeds."""
     return scene.play(_rings(scene, *_RUNNING).growth)
 
 

@@ -1,4 +1,5 @@
-"""The operating point of a bearing: speeds, oil, and for each freedom of the inner ring a load or a displacement."""
+"""Operating point of a bearing: speeds, oil, and a load or a displacement for each degree of freedom of the inner
+ring."""
 
 import functools
 import operator
@@ -17,9 +18,10 @@ from ..numerics.safe import safe_norm
 
 
 class HeldDisplacement(Checked):
-    """Prescribed displacements of the inner ring, m; along a degree of freedom without one a load acts.
+    """Prescribed displacements of the inner ring, m. A load acts on each degree of freedom that is not prescribed.
 
-    They count from where `ring` of the solution counts. `radial` is along azimuth 0, `lateral` along 90 degrees.
+    They have the same zero as the displacements in `ring` of the solution. `radial` is along azimuth 0, `lateral` along
+    azimuth 90 degrees.
     """
 
     part: ClassVar[str] = "operation.displacement"
@@ -36,7 +38,7 @@ LOAD_FIELDS = {
     "tilt": "moment",
     "tilt_lateral": "moment_lateral",
 }
-"""Freedom of the inner ring -> the field that holds its load."""
+"""Degree of freedom of the inner ring -> field with its load."""
 HELD_FIELDS = {
     "axial": "displacement.axial",
     "radial": "displacement.radial",
@@ -44,11 +46,13 @@ HELD_FIELDS = {
     "tilt": "misalignment",
     "tilt_lateral": "misalignment_lateral",
 }
-"""Freedom of the inner ring -> the field that holds its given displacement."""
+"""Degree of freedom of the inner ring -> field with its prescribed displacement."""
 
 
 def _as_displacement(value: object) -> HeldDisplacement | None:
-    """**Raises:** `ValueError` for something that holds no displacements."""
+    """Converts a mapping to a `HeldDisplacement`, and returns a `HeldDisplacement` or `None` unchanged.
+
+    **Raises:** `ValueError` for unknown names and for any other value."""
     if isinstance(value, Mapping):
         unknown = set(value) - {"axial", "radial", "lateral"}
         if unknown:
@@ -68,26 +72,27 @@ SETS_FREE = {
     "tilt": "which sets the tilt free",
     "tilt_lateral": "which sets the tilt about the load line free",
 }
-"""Freedom of the inner ring -> what a load on it does, in words."""
+"""Degree of freedom of the inner ring -> effect of a load on it, in words."""
 
 
 class AbstractOperation(Checked):
-    """Operating point of a bearing: the batched part of a sweep.
+    """Operating point of a bearing: the part of a scene that a sweep varies.
 
-    Each of the ring's five degrees of freedom has a load or a given displacement, not both. A force that is not given
-    is 0, and the ring goes where it balances; a tilt without a moment is held at its misalignment, 0 where that is not
-    given.
+    Each of the five degrees of freedom of the inner ring has a load or a prescribed displacement, not both. A force
+    that is not given is 0, and the ring moves until it is in equilibrium. A tilt without a moment is held at its
+    misalignment, by default 0.
 
     **Arguments:**
     - `inner_speed`, `outer_speed`: absolute speeds of the rings, rad/s, counter-clockwise positive.
-    - `axial_load`, `radial_load`, `radial_load_lateral`: on the inner ring, along the axis, along azimuth 0 and along
-      azimuth 90 degrees, N.
-    - `moment`, `moment_lateral`: on the inner ring, N m (also 0): its tilt is free. A positive one moves azimuth 0, or
-      azimuth 90 degrees, along the axis.
-    - `misalignment`, `misalignment_lateral`: prescribed tilt of the inner ring, rad, of the same signs.
+    - `axial_load`, `radial_load`, `radial_load_lateral`: forces on the inner ring along the axis, along azimuth 0 and
+      along azimuth 90 degrees, N.
+    - `moment`, `moment_lateral`: moments on the inner ring, N m. A given moment, also 0, frees the tilt. A positive
+      moment moves the ring at azimuth 0, or at azimuth 90 degrees, in the positive axial direction.
+    - `misalignment`, `misalignment_lateral`: prescribed tilts of the inner ring, rad, with the signs of the moments.
     - `displacement`: prescribed displacements of the inner ring, instead of loads.
-    - `oil_temperature`: inlet temperature, K; every interaction uses it unless it computes its own.
-    - `oil_flow`: supplied to the bearing, m^3/s.
+    - `oil_temperature`: inlet temperature of the oil, K; it holds for all interactions unless a thermal network
+      computes their temperatures.
+    - `oil_flow`: volume flow of oil that is supplied to the bearing, m^3/s.
     """
 
     part: ClassVar[str] = "operation"
@@ -126,11 +131,11 @@ class AbstractOperation(Checked):
         return part
 
     def load(self, freedom: str) -> Scalar | None:
-        """The load on a degree of freedom of the inner ring, N or N m, where one is given."""
+        """Load on a degree of freedom of the inner ring, N or N m; `None` if none is given."""
         return self._field(LOAD_FIELDS[freedom])
 
     def held_at(self, freedom: str) -> Scalar | None:
-        """The prescribed displacement of a degree of freedom of the inner ring, m or rad, where there is one."""
+        """Prescribed displacement of a degree of freedom of the inner ring, m or rad; `None` if none is given."""
         return self._field(HELD_FIELDS[freedom])
 
     def _given(self, *freedoms: str) -> bool:
@@ -138,7 +143,7 @@ class AbstractOperation(Checked):
 
     @property
     def symmetric(self) -> bool:
-        """True if all rolling elements are alike: the ring moves along its axis alone."""
+        """True if all rolling elements are loaded alike: the ring moves only along its axis."""
         return not self._given("radial", "lateral", "tilt", "tilt_lateral")
 
     @property
@@ -148,22 +153,22 @@ class AbstractOperation(Checked):
 
     @property
     def skewed(self) -> bool:
-        """True if something acts across the load line: azimuths of both signs are not alike then."""
+        """True if a load or displacement acts across the load line, which is then no line of symmetry."""
         return self._given("lateral", "tilt_lateral")
 
     @property
     def displaced(self) -> bool:
-        """True if a displacement is given, and with it a load that is not known beforehand."""
+        """True if a displacement is prescribed, so that its load is a result."""
         return any(self.held_at(name) is not None for name in ("axial", "radial", "lateral"))
 
     @property
     def radial_size(self) -> Array:
-        """Size of the given load across the axis, N; 0 where none is given."""
+        """Magnitude of the given load perpendicular to the axis, N; 0 if none is given."""
         return self._size("radial", "lateral")
 
     @property
     def moment_size(self) -> Array:
-        """Size of the given moment about an axis across the bearing's, N m; 0 where none is given."""
+        """Magnitude of the given moment about an axis perpendicular to that of the bearing, N m; 0 if none is given."""
         return self._size("tilt", "tilt_lateral")
 
     def _size(self, *freedoms: str) -> Array:
@@ -171,7 +176,9 @@ class AbstractOperation(Checked):
         return safe_norm(given[0], given[1]) if len(given) == 2 else jnp.abs(given[0] if given else jnp.zeros(()))
 
     def check_rings_turn(self) -> None:
-        """**Raises:** `ValueError` where the rings turn alike and no film can form (where the numbers are known)."""
+        """Checks that the rings turn relative to each other, as far as the speeds are known.
+
+        **Raises:** `ValueError` if they do not, so that no film can form."""
         speeds = numbers_or_none(self.inner_speed, self.outer_speed)
         if speeds is not None:
             demand(
@@ -185,10 +192,10 @@ class AbstractOperation(Checked):
 
 
 class Operation(AbstractOperation):
-    """Operating point of a cylindrical roller bearing: the batched part of a sweep.
+    """Operating point of a cylindrical roller bearing: the part of a scene that a sweep varies.
 
-    It needs a radial load, along either azimuth, or a displacement of the ring across the axis. Moments and
-    misalignments need rollers that may tilt, which are dry or roll without sliding; an axial load or displacement needs
+    It needs a radial load, along either azimuth, or a displacement of the ring perpendicular to the axis. Moments and
+    misalignments need rollers that may tilt: these are dry or roll without sliding. An axial load or displacement needs
     flanges (`geometry.flange_stiffness`).
 
     **Arguments:** those of `AbstractOperation`; `radial_load` must be > 0.
@@ -214,10 +221,11 @@ class Operation(AbstractOperation):
 
     @property
     def displaced(self) -> bool:
-        """True if a displacement across the axis is given: along the axis nothing else depends on it."""
+        """True if a displacement perpendicular to the axis is prescribed. An axial one does not count, because nothing
+        else depends on it."""
         return any(self.held_at(name) is not None for name in ("radial", "lateral"))
 
     @property
     def axial_given(self) -> bool:
-        """True if something is given along the axis, a load or a displacement."""
+        """True if an axial load or an axial displacement is given."""
         return self._given("axial")

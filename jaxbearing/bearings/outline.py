@@ -1,6 +1,6 @@
-"""Shapes that a drawing shows of a bearing, in a section through its axis and one rolling element, mm.
+"""Shapes for the drawing of a bearing in a section through its axis and one rolling element, mm.
 
-The origin is the middle of the element; x points along the axis of the bearing, which lies below, and y outwards.
+The origin is the middle of the element; x points along the bearing axis, which lies below, and y radially outwards.
 """
 
 from typing import NamedTuple
@@ -8,24 +8,24 @@ from typing import NamedTuple
 Point = tuple[float, float]
 
 RING_THICKNESS = 0.45
-"""Thickness of a ring at its raceway, in diameters of the element: a scene does not have it."""
+"""Drawn thickness of a ring at its raceway over the element diameter; scenes do not give it."""
 RING_SIDE = 0.25
-"""Ring beside the rolling element, in its diameters."""
+"""Drawn length of a ring beside the rolling element over the element diameter."""
 
 
 class Outline(NamedTuple):
-    """Shapes of one rolling element and what it touches.
+    """Shapes of one rolling element and of the parts that it touches.
 
     **Arguments:**
-    - `diameter`: of the element.
+    - `diameter`: diameter of the element.
     - `rings`: corners of the rings in this section.
-    - `element`: corners of a roller; `None`: a ball.
-    - `line`: ends of the roller's axis, or of the line through both contacts of a ball.
-    - `contacts`: side -> where it is, and the direction of the element's force on the ring.
-    - `shoulder`: height of the rings' shoulders over the pitch circle, seen along the axis.
-    - `dimensions`: ends of the lines that stand for a dimension.
-    - `labels`: field of `geometry` -> the point that shows it.
-    - `own_directions`: whether the directions of the contacts are results, or dimensions of the bearing.
+    - `element`: corners of a roller; `None` for a ball.
+    - `line`: ends of the axis of a roller, or of the line through both contacts of a ball.
+    - `contacts`: name of a contact -> its position, and the direction of the force of the element on the ring.
+    - `shoulder`: distance of the shoulders of the rings from the pitch circle, seen along the axis.
+    - `dimensions`: ends of the dimension lines.
+    - `labels`: field of `geometry` -> point at which it is labelled.
+    - `own_directions`: True if the directions of the contacts are results, False if they are dimensions of the bearing.
     """
 
     diameter: float
@@ -40,10 +40,10 @@ class Outline(NamedTuple):
 
 
 def moved(place: Point, direction: Point, length: float) -> Point:
-    """The point at this distance from another one."""
+    """The point at a distance from `place` along a direction."""
     return place[0] + length * direction[0], place[1] + length * direction[1]
 
 
 def between(start: Point, end: Point, part: float) -> Point:
-    """The point at this part of the way."""
+    """The point at the fraction `part` of the way from `start` to `end`."""
     return start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])

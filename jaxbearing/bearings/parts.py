@@ -1,4 +1,4 @@
-"""Parts that bearing families share: the contact laws, materials, drag, checks of their sizes, azimuths."""
+"""Parts that bearing families share: contact laws, materials, drag, checks of dimensions, azimuths."""
 
 import abc
 import math
@@ -23,11 +23,11 @@ __all__ = ["AbstractScene", "ContactLaws", "Drag", "Materials", "number", "optio
 
 
 class AbstractGeometry(Checked):
-    """Base of the dimensions of all bearing families: what the parts that families share ask for.
+    """Base of the geometry classes of all families, with the dimensions that shared parts need.
 
-    A family states its own dimensions as fields. `first_element_angle` is the azimuth of the first rolling element, rad
-    (`None`: 0, and the load line is a line of symmetry); lengths are in m; `bore`, `outside_diameter` and `width` are
-    `None` where they are not known.
+    A family defines its own dimensions as fields, with lengths in m. `first_element_angle` is the azimuth of the first
+    rolling element, rad; `None` stands for 0, where the load line is a line of symmetry. `bore`, `outside_diameter` and
+    `width` are `None` if they are not known.
     """
 
     first_element_angle: eqx.AbstractVar[Scalar | None]
@@ -48,7 +48,7 @@ class AbstractGeometry(Checked):
 
 
 class AbstractMaterials(eqx.Module):
-    """Solids of a bearing. `rings` is the material of both rings, or of the outer one alone where `inner_ring` is
+    """Materials of a bearing. `rings` is the material of both rings, or of the outer ring alone if `inner_ring` is
     given."""
 
     rings: eqx.AbstractVar[Material]
@@ -66,21 +66,21 @@ class AbstractMaterials(eqx.Module):
 
     @property
     def named_rings(self) -> dict[str, Material]:
-        """The materials of the rings, by their fields."""
+        """Field name -> material, for the materials of the rings."""
         return {"rings": self.rings} | ({} if self.inner_ring is None else {"inner_ring": self.inner_ring})
 
     @property
     def race_modulus(self) -> Float[Array, ""] | Float[Array, "2 1"]:
-        """E' of the elements on the raceways, Pa: one number where both rings are of one material, else of shape
-        (2, 1), inner race first."""
+        """Reduced modulus E' of the contacts with the raceways, Pa: one number if both rings are of one material,
+        otherwise of shape (2, 1), inner race first."""
         if self.inner_ring is None:
             return reduced_modulus(self.rings, self.elements)
         return jnp.stack([reduced_modulus(ring, self.elements) for ring in self.of_rings])[:, None]
 
 
 class Materials(AbstractMaterials):
-    """Solids of a roller bearing: `rings`, `rollers` and, for the dynamics, `cage`; `inner_ring`: where it is of
-    another material than `rings`, which is that of the outer ring then."""
+    """Materials of a roller bearing: `rings`, `rollers` and, for transient runs, `cage`. If `inner_ring` is given,
+    `rings` is the material of the outer ring alone."""
 
     rings: Material
     rollers: Material
@@ -96,8 +96,8 @@ class DragSettings(Checked):
     """Oil drag on the orbiting rolling elements (windage and churning).
 
     **Arguments:**
-    - `coefficient`: drag coefficient of one rolling element in its row, >= 0; not given: that of an isolated element at
-      its Reynolds number.
+    - `coefficient`: drag coefficient of one rolling element in its row, >= 0; if not given, that of an isolated element
+      at its Reynolds number.
     - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1 = under-race supply.
     """
 
@@ -108,11 +108,11 @@ class DragSettings(Checked):
 
 
 class Drag(DragSettings):
-    """Oil drag on orbiting rollers, whose coefficient must be given.
+    """Oil drag on the orbiting rollers. Its coefficient must be given.
 
     **Arguments:**
-    - `coefficient`: drag coefficient Cd of one rolling element in its row, >= 0; the most influential free
-      number of a fast bearing's power loss.
+    - `coefficient`: drag coefficient Cd of one rolling element in its row, >= 0; the free number with the largest
+      influence on the power loss of a fast bearing.
     - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1 = under-race supply.
     """
 
@@ -120,11 +120,12 @@ class Drag(DragSettings):
 
 
 RUNNING_SIZES = frozenset({"diametral_clearance", "contact_angle", "first_element_angle", "flange_gap"})
-"""Fields of a geometry that seats, temperature and wear change: another value of another one is another bearing."""
+"""Fields of a geometry that seats, temperature and wear change. A new value of another field makes another bearing."""
 
 
 def names_another_bearing(path: str) -> bool:
-    """True for a dotted path whose new value makes another bearing: of its geometry or its materials."""
+    """True if a new value at this dotted path makes another bearing: the path of a material, or of a field of the
+    geometry outside `RUNNING_SIZES`."""
     names = path.split(".")
     return not {"geometry", "materials"}.isdisjoint(names) and names[-1] not in RUNNING_SIZES
 
@@ -136,12 +137,14 @@ def drag_density(
     through_flow_fraction: Scalar,
     temperature: Scalar,
 ) -> Float[Array, ""]:
-    """Density of the mixture of oil and air between the rings, which drags on the rolling elements, kg/m^3.
-    **Arguments:** `temperature`: of the oil there, K."""
+    """Density of the oil-air mixture between the rings, which drags on the rolling elements, kg/m^3.
+
+    **Arguments:** `pitch_diameter`: m; `through_flow_fraction`: see `DragSettings`; `temperature`: temperature of the
+    oil between the rings, K."""
     assert oil.density is not None
     fraction = saturated_oil_fraction(
         operation.oil_flow,
-        # one ring at rest: the speed of the other, as in Parker's tests; both turning: either stirs the oil
+        # with one ring at rest this is the speed of the other, as in Parker's tests; if both turn, both stir the oil
         safe_norm(operation.inner_speed, operation.outer_speed),
         pitch_diameter,
         through_flow_fraction,
@@ -151,9 +154,12 @@ def drag_density(
 
 
 def check_between(name: str, value: Scalar, low: Scalar, high: Scalar, below: str, above: str) -> None:
-    """**Arguments:** lengths, m, known or traced; `below`, `above`: what the limits are, in words.
+    """Checks that a length lies between two limits.
 
-    **Raises:** `ValueError` where a known dimension lies on a limit or beyond.
+    **Arguments:** `value`, `low`, `high`: length and its limits, m, known or traced; `below`, `above`: names of the
+    limits.
+
+    **Raises:** `ValueError` if the known length lies on a limit or beyond.
     """
     ends = f"{float(low):.6g} m ({below}) and {float(high):.6g} m ({above})" if known(low, high) is not None else ""
     demand(
@@ -164,9 +170,12 @@ def check_between(name: str, value: Scalar, low: Scalar, high: Scalar, below: st
 
 
 def check_row_fits(count: int, diameter: Any, pitch_diameter: Any, element: str = "roller") -> None:
-    """**Arguments:** lengths, m; one that a file has wrong is a stand-in, of which nothing is checked.
+    """Checks that the rolling elements fit on the pitch circle.
 
-    **Raises:** `ValueError` where the rolling elements do not fit on the pitch circle."""
+    **Arguments:** `diameter`, `pitch_diameter`: m; nothing is checked if a placeholder stands for a length that was
+    wrong in a file.
+
+    **Raises:** `ValueError` if they do not fit."""
     name = f"geometry.n_{element}s"
     if count < 1:
         raise ValueError(f"{name} must be >= 1, got {count}")
@@ -189,7 +198,7 @@ FIRST_ELEMENT = label("rad", "azimuth of the first rolling element")
 
 
 def azimuths(geometry: AbstractGeometry, count: int, alone: bool = False) -> Float[Array, " element"]:
-    """Azimuths of the rolling elements, rad; `alone`: of one that stands for all."""
+    """Azimuths of the rolling elements, rad. **Arguments:** `alone`: True for one element that represents all."""
     places = jnp.asarray(2.0 * np.pi * np.arange(1 if alone else count) / count)
     first = geometry.first_element_angle
     return places if first is None else places + first

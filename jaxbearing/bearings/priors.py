@@ -1,4 +1,4 @@
-"""Assumed distributions of inputs that nobody has measured."""
+"""Assumed distributions of inputs for which there are no measurements."""
 
 import math
 from typing import TYPE_CHECKING, Any
@@ -18,26 +18,27 @@ DRAG = {
 }
 r"""Rolling element -> assumed distribution of its drag coefficient in a row, with Parker's oil fraction.
 
-Only the product of drag coefficient and oil fraction can be told from a loss, so this is $\chi = XC_d/X_{Parker}$. An
-isolated ball has 0.42 to 0.5, an isolated roller 1.0 to 1.2; neighbours, rings, cage and a mixture that turns along
-lower it by a factor that nobody has measured. The heat of a 35-mm ball bearing at 28 000 to 72 000 rpm bounds it by
-0.66 if all of it were drag, and leaves 0.2 to 0.6 beside the rolling resistance. Median and spread are a judgement.
+A measured loss determines only the product of drag coefficient and oil fraction, so this is the distribution of
+$\chi = XC_d/X_{Parker}$. An isolated ball has 0.42 to 0.5, an isolated roller 1.0 to 1.2. Neighbours, rings, cage and
+a mixture that turns with the elements reduce it by a factor that has not been measured. The heat of a 35-mm ball
+bearing at 28 000 to 72 000 rpm gives an upper bound of 0.66 if all of it were drag, and 0.2 to 0.6 after subtraction of
+the rolling resistance. Median and spread are a judgement.
 """
 
 COEFFICIENT_FIELD = "oil.viscosity.pressure_coefficient"
-"""Dotted path of the factor in the pressure-viscosity coefficient of a standard oil."""
+"""Dotted path of the factor in the pressure-viscosity law of a standard oil."""
 SUPPLY_FIELD = "contact.supply.gap_over_central"
-"""Dotted path of the gap at the inlet over the central film."""
+"""Dotted path of the supply input "gap at the inlet over central film"."""
 LEVEL_FIELD = "contact.supply.level"
-"""Dotted path of the level, a word, that stands for this gap."""
+"""Dotted path of the supply level, a word that stands for such a gap."""
 SUPPLY_DEVIATION = math.log(3.0)
-"""Standard deviation of the logarithm of a gap that an assumed level stands for: a factor of 3 about a median of 100
-(jet, under the race), 10 (bath) or 1 (grease, oil and air), the three of `LEVELS`. It is a judgement."""
+"""Standard deviation of the logarithm of the gap for a supply level: a factor of 3 about the median, which `LEVELS`
+gives as 100 (jet, under the race), 10 (bath) or 1 (grease, oil and air). It is a judgement."""
 
 
 def drag_prior(scene: Any) -> Distribution | None:
-    """The assumed distribution of the drag coefficient of a bearing; `None` where the scene has no drag, a coefficient
-    of 0, or leaves the coefficient to the law of an isolated ball."""
+    """Assumed distribution of the drag coefficient of a bearing; `None` if the scene has no drag, a coefficient of 0,
+    or a coefficient by the law of an isolated ball."""
     drag = getattr(scene, "drag", None)
     coefficient = None if drag is None else drag.coefficient
     if coefficient is None or not scene.dissipates or float(coefficient) == 0.0:
@@ -46,21 +47,21 @@ def drag_prior(scene: Any) -> Distribution | None:
 
 
 def isolated(scene: Any) -> bool:
-    """True if the drag coefficient of a bearing is left to the law of an isolated ball."""
+    """True if the drag coefficient of a bearing follows from the law of an isolated ball."""
     drag = getattr(scene, "drag", None)
     return drag is not None and drag.coefficient is None and scene.dissipates
 
 
 def supply_prior(scene: "AbstractScene") -> Distribution | None:
-    """The assumed distribution of the gap at the inlets over the central film; `None` where the scene does not give its
-    supply as a `level`."""
+    """Assumed distribution of the gap at the inlet over the central film; `None` if the scene does not give its supply
+    as a `level`."""
     supply = getattr(getattr(scene, "contact", None), "supply", None)
     level = None if supply is None else supply.level
     return None if level is None else Distribution.lognormal(LEVELS[level], SUPPLY_DEVIATION)
 
 
 def meaning(scene: "AbstractScene", path: str) -> str:
-    """Says what a number of a law stands for, with its effect at the oil's inlet temperature; "" where its name does.
+    """Explains a number of a law and its effect at the inlet temperature of the oil; "" if its name is clear by itself.
 
     **Arguments:** `path`: dotted path of the number.
     """
@@ -75,6 +76,6 @@ def meaning(scene: "AbstractScene", path: str) -> str:
 
 
 def prior_in_words(one: Distribution) -> str:
-    """One of these distributions in words."""
+    """Description of an assumed distribution in words."""
     cut = "" if one.high is None else f", at most {one.high:g}"
     return f"assumed: lognormal, median {one.median:g}, log deviation {one.log_deviation:.3g}{cut}"

@@ -1,4 +1,4 @@
-"""Rollers cut into laminae along their length: the same part for cylindrical and tapered rollers."""
+"""Division of cylindrical and tapered rollers into laminae along their length."""
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -13,11 +13,11 @@ from .rating import LAMINAE
 
 
 class RollerProfile(eqx.Module):
-    """Laminae of the rollers, with or without a profile; without this part contacts are straight and integrated in
-    closed form.
+    """Laminae of the rollers, with or without a profile. Without this part the rollers are straight, and their contacts
+    are integrated in closed form.
 
     **Arguments:**
-    - `shape`: `None`: straight.
+    - `shape`: profile of the rollers; `None` for straight rollers.
     - `n_laminae`: number of laminae of a roller; structure.
     """
 
@@ -28,9 +28,10 @@ class RollerProfile(eqx.Module):
 def roller_line(
     profile: RollerProfile | None, modulus: Float[Array, ""] | Float[Array, "2 1"], length: Scalar
 ) -> AbstractTiltedLine:
-    """The contacts of a roller that may tilt with the raceways: in closed form without a profile, else in its laminae.
+    """Raceway contacts of a roller that may tilt: in closed form if `profile` is `None`, otherwise in laminae.
 
-    **Arguments:** E' of both raceways, or of the inner and the outer one, Pa; m.
+    **Arguments:** `modulus`: reduced modulus E' of both raceway contacts, or of the inner and the outer one, Pa;
+    `length`: length of the roller, m.
     """
     alike = alike_modulus(modulus)
     stiffness, ratio = palmgren_stiffness(length, alike), modulus / alike if jnp.ndim(modulus) else None
@@ -40,16 +41,17 @@ def roller_line(
 
 
 def own_laminae(profile: RollerProfile | None) -> int:
-    """Number of laminae into which the results cut a roller; without a profile only they do."""
+    """Number of laminae of a roller in the results. Without a profile only the results use laminae."""
     return LAMINAE if profile is None else profile.n_laminae
 
 
 def pressed_load(stiffness: Array, length: Array, pressed: Array, slope: Array) -> Array:
-    """About the loads of straight rollers between two races, N: a scale of the load that a held ring needs.
+    """Approximate loads of straight rollers between two races, N, from which the load scale of a held ring follows.
 
-    **Arguments:** K of contacts that are alike, N/m^(19/9), and length, m, of the rollers; by how much the races press
-    each together at its middle, m, and how that changes along it.
+    **Arguments:** `stiffness`: K of each of the two equal contacts of a roller, N/m^(19/9); `length`: length of the
+    rollers, m; `pressed`: sum of the deflections of both contacts at the middle of each roller, m; `slope`: change of
+    this sum along the roller.
     """
-    # both contacts of a roller, one behind the other
+    # the two contacts of a roller are in series, so that each has half of the deflection
     depth = 0.5 * jnp.maximum(pressed + 0.5 * length * jnp.abs(slope), 0.0)
     return stiffness * length * positive_power(depth, 10.0 / 9.0)

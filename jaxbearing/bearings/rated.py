@@ -1,4 +1,4 @@
-"""Facts that a bearing states for its life: sizes of its raceway contacts, and what they carry."""
+"""Sizes and loads of the raceway contacts, as inputs of the life calculation."""
 
 from typing import NamedTuple
 
@@ -16,18 +16,19 @@ class RatedContacts(NamedTuple):
     """Sizes and loads of the raceway contacts of one row.
 
     **Arguments:**
-    - `n_elements`, `diameter`, `pitch_diameter`: of the rolling elements; m.
-    - `contact_angle`: nominal one, for which ratings are made, rad.
-    - `rings`, `elements`: their materials; `inner_ring`: where it is of another material than `rings`.
-    - `inner`, `outer`: loads on the raceways, N, one an element; of line contacts in laminae one a lamina as well.
-    - `second`: loads on the second flanks of the inner and the outer raceway, N, one an element, of rings with two
-      groove arcs; `None` of rings with one.
-    - `conformities`: of point contacts, groove radius over ball diameter of the inner and the outer race.
-    - `length`: of line contacts, along which a roller carries, m.
-    - `profiled`: whether rollers have a profile, which spreads the load near their ends.
-    - `radial_load`, `axial_load`: sizes of the loads on the bearing, N, where the catalogue's formulas for equivalent
-      loads hold; a `None` radial load means that they do not. A `None` axial load is that of a bearing with purely
-      radial formulas.
+    - `n_elements`, `diameter`, `pitch_diameter`: number and diameter of the rolling elements, and pitch diameter, m.
+    - `contact_angle`: nominal contact angle, for which ratings are computed, rad.
+    - `rings`, `elements`: materials; `inner_ring`: material of the inner ring if it differs from `rings`.
+    - `inner`, `outer`: loads on the raceways, N, one per element; for line contacts in laminae one per element and
+      lamina.
+    - `second`: for rings with two groove arcs, loads on the second flanks of the inner and the outer raceway, N, one
+      per element; `None` for rings with one arc.
+    - `conformities`: for point contacts, groove radius over ball diameter of the inner and the outer race.
+    - `length`: for line contacts, loaded length of a roller, m.
+    - `profiled`: True if the rollers have a profile, which relieves their ends.
+    - `radial_load`, `axial_load`: magnitudes of the loads on the bearing, N, for the formulas of catalogues for
+      equivalent loads. A radial load of `None` means that these formulas do not apply, an axial load of `None` that
+      they contain the radial load only.
     """
 
     n_elements: int
@@ -50,12 +51,12 @@ class RatedContacts(NamedTuple):
 def sizes_of_loads(
     operation: AbstractOperation, force: Float[Array, " freedom"] | None = None
 ) -> tuple[Array, Array] | tuple[None, None]:
-    """Sizes of the radial and of the axial load on the inner ring, N, for the formulas of catalogues.
+    """Magnitudes of the radial and of the axial load on the inner ring, N, for the formulas of catalogues.
 
-    These formulas have no moment: where one is given that is not 0 the sizes are NaN. Both are `None` for a ring that
-    is held without a known force.
+    These formulas do not cover moments: if a moment other than 0 is given, the magnitudes are NaN. Both are `None` if a
+    displacement is prescribed and its force is not known.
 
-    **Arguments:** `force`: `Solution.force`; it is the load where a displacement is given instead of one.
+    **Arguments:** `force`: `Solution.force`, used for prescribed displacements.
     """
     held = {name for name in RING_FREEDOMS[:3] if operation.held_at(name) is not None}
     if held and force is None:
@@ -73,9 +74,9 @@ def sizes_of_loads(
 
 
 def is_misaligned(operation: AbstractOperation) -> bool:
-    """True if a tilt is given, at which rollers do not carry evenly along their length, as catalogues assume."""
+    """True if a tilt is prescribed. Rollers are then loaded unevenly, whereas catalogues assume a uniform load."""
     return any(operation.held_at(name) is not None for name in TILTS)
 
 
 _NO_MOMENT = 1e-100
-"""Size of two moments of 0, N m, of which the safe norm makes a little more."""
+"""Magnitude up to which a moment counts as 0, N m: the safe norm of two moments of 0 is slightly larger than 0."""

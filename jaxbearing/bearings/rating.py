@@ -1,4 +1,4 @@
-"""Inputs of the fatigue life of a bearing: the same for all kinds of bearings."""
+"""Inputs of the fatigue life, for all kinds of bearings."""
 
 import re
 from typing import Any, ClassVar, Literal
@@ -16,21 +16,21 @@ CLEANLINESS_CLASSES = (
     *(f"online_filter_{code}" for code in (13, 15, 17, 19)),
     *(f"grease_{word}" for word in ("high", "normal", "typical", "severe", "very_severe")),
 )
-"""Contamination classes of ISO 281: circulating oil by the code of its filter, and grease."""
+"""Contamination classes of ISO 281: circulating oil, by the code of its cleanliness, and grease."""
 _ISO_4406 = re.compile(r"(?:(?:\d{1,2}|[-\u2013*])\s*/)?\s*(\d{1,2})\s*/\s*(\d{1,2})")
 _FILTERS = {f"online_filter_{code}": (code, code - 3) for code in (13, 15, 17, 19)}
-"""Classes of circulating oil by the code numbers of ISO 4406 at 6 and 14 um."""
+"""Contamination class of circulating oil -> code numbers of ISO 4406 at 6 and 14 um."""
 ISO_4406 = "the ISO 4406 code of circulating oil, such as '-/17/14'"
-"""Further names of contamination classes in words."""
+"""Description of the codes that are accepted in place of a contamination class, for messages."""
 LAMINAE = 30
-"""Laminae of a roller in the reference life where a scene does not say."""
+"""Number of laminae of a roller in the reference life if a scene does not give it."""
 
 
 def cleanliness_named(given: object) -> Any:
-    """The contamination class of an ISO 4406 code of circulating oil, "-/17/14", "20/17/14" or "17/14".
+    """Contamination class for an ISO 4406 code of circulating oil such as "-/17/14", "20/17/14" or "17/14".
 
-    It is the cleanest one whose numbers at 6 and 14 um are both at least those of the code. Anything else is returned
-    as it is, also a code that is dirtier than all classes."""
+    It is the cleanest class whose numbers at 6 and 14 um are both at least those of the code. Any other value is
+    returned unchanged, also a code that is dirtier than all classes."""
     code = _ISO_4406.fullmatch(given.strip()) if isinstance(given, str) else None
     if code is None:
         return given
@@ -40,32 +40,36 @@ def cleanliness_named(given: object) -> Any:
 
 
 class Rating(Checked):
-    """Ratings and conditions for the life; what is not given is computed from the geometry, or not modelled.
+    """Load ratings and conditions for the life. Ratings that are not given are computed from the geometry; conditions
+    that are not given are computed from the scene or not modelled.
 
     **Arguments:**
-    - `dynamic_capacity`, `static_capacity`: C and C0, N; not given: from the geometry.
-    - `fatigue_load_limit`: C_u, N; not given: from C0.
-    - `grooves`: of ball bearings, for which conformities C and C0 are computed: "catalogue", 0.52 of both races, which
-      ratings of catalogues are made with, whatever the grooves; or "scene" (structure). ISO 281 gives no higher rating
-      to closer grooves, and a closer one of the inner race alone adds 9 %.
-    - `tilt`: of ball bearings, the motion of a tilted inner ring: "exact"; or "iso", the equations of ISO 16281, to
-      compare with software built on the standard: to first order, with half the pitch diameter as the lever of tilt
-      and moment, and stiffnesses of contacts at the nominal angle. Displacements and loads are then the standard's too
-      (structure).
-    - `reliability`: fraction of bearings that live longer, 0.90, 0.95, 0.96, 0.97, 0.98 or 0.99 (structure: another one
-      recompiles).
-    - `cleanliness`: name of a contamination class, or the ISO 4406 code of circulating oil, such as "-/17/14" or
-      "18/16/13", for which the cleanest class that is not cleaner than the code counts; with it, and with a viscosity
-      ratio, the life is modified (a_ISO).
-    - `contamination_factor`: the factor e_C itself (eta_c of makers), in the place of the class: 1 without particles,
+    - `dynamic_capacity`: basic dynamic load rating C, computed from the geometry if not given, N.
+    - `static_capacity`: basic static load rating C0, computed from the geometry if not given, N.
+    - `fatigue_load_limit`: fatigue load limit C_u, computed from C0 if not given, N.
+    - `grooves`: conformities with which C and C0 of a ball bearing are computed (structure): "catalogue", 0.52 for both
+      races as in catalogues, or "scene", those of the bearing. ISO 281 gives no higher rating to closer grooves; with
+      "scene" a closer groove of the inner race alone adds 9 %.
+    - `tilt`: motion of a tilted inner ring in a ball bearing (structure): "exact", or "iso", the equations of ISO
+      16281, for comparison with software based on the standard. These are linear in the tilt, use half the pitch
+      diameter as the lever of tilt and moment, and the contact stiffnesses at the nominal angle. With "iso" the
+      displacements and loads of the solution follow the standard too.
+    - `reliability`: fraction of bearings that reach the life, 0.90, 0.95, 0.96, 0.97, 0.98 or 0.99 (structure: another
+      one recompiles).
+    - `cleanliness`: name of a contamination class, or an ISO 4406 code of circulating oil such as "-/17/14" or
+      "18/16/13", which stands for the cleanest class that is not cleaner than the code. With a class and a viscosity
+      ratio the modified life (a_ISO) is computed.
+    - `contamination_factor`: contamination factor e_C (eta_c in catalogues), instead of the class: 1 without particles,
       0.8 to 0.6 clean, 0.3 to 0.1 contaminated.
-    - `viscosity_ratio`: the ratio kappa, > 0; not given: from the oil, its temperature and the speed, where the scene
-      has them.
-    - `roughness_rings`, `roughness_elements`: root mean square, m; with them and films: the lambda ratio.
-    - `n_laminae`: number of laminae of each roller in the reference life (structure); not given: those of the profile,
-      or 30.
-    - `edge_factor`: whether the load of laminae near the ends counts more, as the standard estimates where no pressure
-      is computed; not given: yes for straight rollers, no for rollers with a profile.
+    - `viscosity_ratio`: viscosity ratio kappa, > 0; if not given, it is computed from the oil, its temperature and the
+      speed, if the scene has them.
+    - `roughness_rings`: root mean square roughness of the raceways, m; together with `roughness_elements` and a film it
+      gives the lambda ratio.
+    - `roughness_elements`: root mean square roughness of the rolling elements, m.
+    - `n_laminae`: number of laminae of each roller in the reference life (structure); if not given, that of the
+      profile, or 30.
+    - `edge_factor`: whether loads of laminae near the ends count more, by the estimate of the standard for calculations
+      without pressures. If not given: yes for straight rollers, no for rollers with a profile.
     """
 
     part: ClassVar[str] = "rating"
@@ -101,7 +105,7 @@ class Rating(Checked):
 
     @property
     def says_cleanliness(self) -> bool:
-        """True if the life is to be modified: a class of contamination or its factor is given."""
+        """True if a contamination class or factor is given, so that the modified life can be computed."""
         return self.cleanliness is not None or self.contamination_factor is not None
 
     def groove_assumptions(self) -> tuple[str, ...]:
@@ -117,5 +121,6 @@ class Rating(Checked):
 
 
 def rated_laminae(rating: Rating | None, own: int = LAMINAE) -> int:
-    """Number of laminae of a roller in the reference life: as the rating says, else `own`, that of its contacts."""
+    """Number of laminae of a roller in the reference life: that of the rating, otherwise `own`, that of its
+    contacts."""
     return own if rating is None or rating.n_laminae is None else rating.n_laminae

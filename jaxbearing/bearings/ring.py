@@ -1,19 +1,19 @@
-"""The inner ring of a bearing: its five degrees of freedom (`freedoms`), its given loads and
-displacements, and its port.
+"""The inner ring of a bearing: its five degrees of freedom (in code: freedoms), its given loads and displacements, and
+its port.
 
-Each unknown freedom has a load, 0 if none is given. Each other freedom is *held* at a displacement, 0 if none is given;
-a ring is held if all of its degrees of freedom are. The *port* is the point of the ring
-at which loads and displacements are exchanged with a shaft. A *family* is a kind of bearing: ball, cylindrical roller,
-tapered roller. The *reference point* is the point whose displacements the results show: the port if a shaft holds the
-ring, otherwise the point at which the family writes its equations. The class `Port` contains the load that keeps the
-ring at a displacement, and the derivatives of that load. This load acts at the reference point, and it is equal and
-opposite to the force of the rolling elements on the ring.
+Each unknown degree of freedom has a load, 0 if none is given. Each other degree of freedom is *held* at a displacement,
+0 if none is given; a ring is held if all its degrees of freedom are held. The *port* is the point of the ring at which
+loads and displacements are exchanged with a shaft. A *family* is a kind of bearing: ball, cylindrical roller, tapered
+roller. The *reference point* is the point whose displacements the results show: the port if a shaft holds the ring,
+otherwise the point for which the family writes its equations. The class `Port` holds the load that keeps the ring at a
+displacement, and the derivatives of that load. This load acts at the reference point. It is equal and opposite to the
+force of the rolling elements on the ring.
 
 Frame and signs: $e_x$ points along the axis. Azimuth 0 is the load line (radial direction), and azimuth 90 degrees is
 the lateral direction; axis, radial and lateral direction form a right-handed frame. A positive `tilt` moves the ring
 along $+e_x$ at azimuth 0, a positive `tilt_lateral` at azimuth 90 degrees. Loads are conjugate to displacements: force
-times displacement, or moment times tilt, is the work on the ring. Inside the equations every freedom is a length: a
-tilt is multiplied by a reference length of the family, its lever, and a moment is divided by it.
+times displacement, or moment times tilt, is the work on the ring. Inside the equations every displacement is a length:
+a tilt is multiplied by a reference length of the family, the lever, and a moment is divided by it.
 """
 
 import dataclasses
@@ -47,7 +47,7 @@ much would change derivatives of barely loaded rollers by 6e-6 of their value.""
 
 
 class Port(NamedTuple):
-    """The load that keeps the inner ring at a displacement, with its derivatives. It acts at the reference point of the
+    """The load that keeps the inner ring at a displacement, and its derivatives. It acts at the reference point of the
     results (see the module), which is the port only if a shaft holds the ring.
 
     - `force`: loads on its five degrees of freedom that balance the forces of the rolling elements, N and N m.
@@ -106,23 +106,23 @@ class InnerRing(eqx.Module):
         return jnp.broadcast_to(held, (5, *shift.shape[1:])).at[self.places].set(LENGTH_UNIT * shift)
 
     def of_unknown(self, every: Float[Array, "5 ..."]) -> Float[Array, "freedom ..."]:
-        """Selects the rows of the unknown degrees of freedom from an array with a row for each of the five freedoms."""
+        """Selects the rows of the unknown degrees of freedom from an array with a row for each of the five."""
         return every if self.freedoms == RING_FREEDOMS else every[self.places]
 
     def of_each(self, value: Callable[[str], Scalar]) -> Float[Array, " freedom"]:
-        """Values of `value(name)` for the unknown freedoms."""
+        """Evaluates `value(name)` for each unknown degree of freedom."""
         numbers = [jnp.asarray(value(name), dtype=float) for name in self.freedoms]
         return jnp.stack(numbers) if numbers else jnp.zeros(0)
 
     def across(self) -> Float[Array, " freedom"]:
-        """Direction of the load perpendicular to the axis, as a unit vector with a component for each unknown freedom;
-        0 if there is no such load."""
+        """Unit vector of the load perpendicular to the axis, with a component for each unknown degree of freedom; 0 if
+        there is no such load."""
         load = jnp.where(np.asarray([name in ("radial", "lateral") for name in self.freedoms], bool), self.load, 0.0)
         square = jnp.sum(jnp.square(load))
         return load / jnp.sqrt(jnp.where(square > 0, square, 1.0))
 
     def displacement(self, globals_: Float[Array, " g"]) -> RingDisplacement:
-        """The displacement that results show, m and rad.
+        """Displacement of the ring for the results, m and rad.
 
         **Arguments:** `globals_`: the unknowns that belong to no single rolling element; those of the ring come first.
         """
@@ -138,13 +138,13 @@ class InnerRing(eqx.Module):
         return dataclasses.replace(self, load=load)
 
     def with_held_load(self, load: Float[Array, ""]) -> "InnerRing":
-        """The same ring with this estimate of the load that its given displacements cause, N. No derivative passes
-        through it."""
+        """The same ring with an estimate of the load that its given displacements cause, N. No derivatives pass through
+        this estimate."""
         return dataclasses.replace(self, held_load=jax.lax.stop_gradient(load))
 
     def size(self) -> Float[Array, ""]:
-        """Size of the load on the ring, N: the given loads, and the estimate `held_load` of what the given
-        displacements cause."""
+        """Magnitude of the load on the ring, N: that of the given loads plus the estimate `held_load` for the given
+        displacements."""
         if len(self.freedoms) == 1:
             size = jnp.abs(self.load[0])
         else:
@@ -204,7 +204,7 @@ def shift_matrix(distance: Array) -> Float[Array, "5 5"]:
 def held_ring(
     displacement: Float[Array, "5"], lever: Array, distance: Array, closure: Array, expansion: Array
 ) -> InnerRing:
-    """A ring that is held in all freedoms.
+    """A ring that is held in all degrees of freedom.
 
     **Arguments:** `displacement`: displacements of the port, m and rad. For the other arguments see `InnerRing`.
     """
@@ -214,10 +214,10 @@ def held_ring(
 
 
 def inner_ring(scene: AbstractBearing, lever: Array, freedoms: tuple[str, ...] | None = None) -> InnerRing:
-    """The ring of a scene, under the loads of its operating point. An unknown freedom without a load has the load 0.
-    Each other freedom is held at its given displacement, or at 0 without one.
+    """The ring of a scene, under the loads of its operating point. An unknown degree of freedom without a given load
+    has the load 0. Each other one is held at its given displacement, by default 0.
 
-    **Arguments:** `lever`: see `InnerRing`, m; `freedoms`: the unknown ones, by default those of the scene.
+    **Arguments:** `lever`: see `InnerRing`, m; `freedoms`: unknown degrees of freedom, by default those of the scene.
     """
     operation: AbstractOperation = scene.operation
     freedoms, lever = scene.unknown_freedoms if freedoms is None else freedoms, jnp.asarray(lever)

@@ -1,4 +1,4 @@
-"""Results of a bearing whose rings bend: their deformed shapes."""
+"""Deformed shapes of flexible rings, as results of a bearing."""
 
 import equinox as eqx
 from jaxtyping import Array, Float
@@ -7,7 +7,7 @@ from .._scene import label
 
 
 class AbstractRingDeflection(eqx.Module):
-    """Deformed shape of a flexible ring: deflection of its centroid circle, outwards."""
+    """Deformed shape of a flexible ring: outward deflection of its centroid circle."""
 
     azimuth: eqx.AbstractVar[Float[Array, " place"]]
     deflection: eqx.AbstractVar[Float[Array, " place"]]
@@ -18,7 +18,7 @@ class AbstractRingDeflection(eqx.Module):
 
 
 class RingDeflection(AbstractRingDeflection):
-    """Deformed shape of a flexible outer ring: deflection of its centroid circle, outwards."""
+    """Deformed shape of a flexible outer ring: outward deflection of its centroid circle."""
 
     azimuth: Float[Array, " ring_place"] = eqx.field(metadata=label("rad", "azimuth from the load line"))
     deflection: Float[Array, " ring_place"] = eqx.field(metadata=label("m", "outward deflection of the outer ring"))
@@ -32,8 +32,8 @@ class RingDeflection(AbstractRingDeflection):
 
 
 class InnerRingDeflection(AbstractRingDeflection):
-    """Deformed shape of a flexible inner ring against its seat on the shaft: deflection of its centroid circle,
-    outwards; the order 1 is a displacement against that seat."""
+    """Deformed shape of a flexible inner ring: outward deflection of its centroid circle relative to its seat on the
+    shaft. The order 1 is a displacement of the ring relative to this seat."""
 
     azimuth: Float[Array, " inner_ring_place"] = eqx.field(metadata=label("rad", "azimuth from the load line"))
     deflection: Float[Array, " inner_ring_place"] = eqx.field(

@@ -1,4 +1,4 @@
-"""Parts of a scene for rings that are not rigid or not round: flexible rings, and the roundness of raceways."""
+"""Parts of a scene for rings that are not rigid or not round: flexible rings and roundness of raceways."""
 
 import abc
 from collections.abc import Callable, Iterator
@@ -24,19 +24,20 @@ from ..numerics.structure import count, switch
 from .operation import AbstractOperation
 
 HARMONICS = 12
-"""Highest order of the deflection, where a scene does not say: 4e-4 to 4e-3 of the largest load are left out. A ring on
-two narrow supports needs 20."""
+"""Highest order of the deflection if a scene does not give it. Its error is 4e-4 to 4e-3 of the largest load. A ring on
+two narrow supports needs the order 20."""
 MOST_HARMONICS = 60
 """Highest order that a scene may ask for."""
 UNBALANCED = 1e-6
-"""Part of the loads on a free ring that need not balance each other, for rounded input."""
+"""Largest accepted resultant of the loads on a free ring over the load; it allows for rounded inputs."""
 
 Several = Float[Array | np.ndarray, "_"]
-"""Lists of one part may have different lengths; `_Lists` compares those that belong together."""
+"""List of numbers of a part. Lists of one part may differ in length; `_Lists` compares those that belong together."""
 
 
 def _values(given: Any) -> Any:
-    """A one-dimensional array of float64; what is not a number passes through for the type checker to judge."""
+    """Converts to a one-dimensional array of float64. Values that are not numbers are returned unchanged, so that the
+    type check refuses them."""
     if isinstance(given, list | tuple):
         traced = any(isinstance(value, jax.Array) for value in given)
         given = jnp.stack(given) if traced else np.asarray(given, dtype=np.float64)
@@ -45,18 +46,18 @@ def _values(given: Any) -> Any:
 
 
 def _several(unit: str, bound: str = "finite") -> Any:
-    """Field of a number or a list of numbers, each within the bound; `None` where a scene does not say."""
+    """Field that holds a number or a list of numbers, each within the bound; `None` if a scene does not give it."""
     said = {**label(unit, ""), "each": bound}
     return eqx.field(converter=lambda v: None if v is None else _values(v), metadata=said, default=None)
 
 
 class _Lists(Checked):
-    """A part with lists: the members of each group are given together and are of one length."""
+    """A part of a scene with lists. The lists of a group must be given together and have the same length."""
 
     groups: ClassVar[tuple[tuple[str, ...], ...]] = ()
-    """Names of fields that belong together; the first one says how many entries there are."""
+    """Groups of names of fields that belong together. Messages name the first field of a group."""
     bounds: ClassVar[dict[str, str]] = {}
-    """Bounds of the entries, by field."""
+    """Field name -> bound of its entries."""
 
     def __check_init__(self):
         super().__check_init__()
@@ -85,9 +86,10 @@ class AbstractBendingRing(_Lists):
     """A ring of rectangular section that bends in its plane.
 
     **Arguments:**
-    - `thickness`: radial height of the section, m, > 0, from the raceway on; of a ball bearing from the bottom of the
-      groove.
-    - `width`: along the axis, m, > 0; not given: the width of the bearing, otherwise the length of a roller.
+    - `thickness`: radial height of the section, measured from the raceway, in ball bearings from the bottom of the
+      groove, m, > 0.
+    - `width`: axial width of the section, m, > 0; if not given, the width of the bearing or else the length of a
+      roller.
     - `harmonics`: highest order of the deflection, 0 for a rigid ring (structure: another number recompiles).
     - `shear`: whether shear strain of the section is modelled.
     """
@@ -101,11 +103,11 @@ class AbstractBendingRing(_Lists):
     width: Scalar | None = optional_number(bound="> 0", unit="m")
 
     def centroid_radius(self, raceway_radius: Scalar) -> Scalar:
-        """Radius of the centroid circle, m. **Arguments:** `raceway_radius`: of the raceway, m."""
+        """Radius of the centroid circle, m. **Arguments:** `raceway_radius`: m."""
         return raceway_radius + 0.5 * self.sense * self.thickness
 
     def section(self, material: Material, raceway_radius: Scalar, width: Scalar | None) -> RingSection:
-        """The section for the equations. **Arguments:** `width` where the scene does not give it, m."""
+        """The section for the equations. **Arguments:** `width`: width if this part does not give it, m."""
         width = width if self.width is None else self.width
         assert width is not None
         poisson = material.poisson_ratio if self.shear else None
@@ -114,25 +116,29 @@ class AbstractBendingRing(_Lists):
 
     @abc.abstractmethod
     def bent_ring(self, material: Material, raceway_radius: Scalar, width: Scalar | None) -> BentRing:
-        """The ring for the equations. **Arguments:** `width` where the scene does not give it, m."""
+        """The ring for the equations. **Arguments:** `width`: width if this part does not give it, m."""
 
 
 class FlexibleRing(AbstractBendingRing):
-    """An outer ring that is flexible in its plane, with what surrounds it.
+    """An outer ring that is flexible in its plane, with its housing, its supports and its given loads.
 
-    Without a housing and supports nothing holds the ring: the loads from outside must then balance those of the rolling
-    elements, as on a planet gear, whose rim is the ring.
+    Without a housing and supports nothing holds the ring. The given loads must then balance the loads of the rolling
+    elements, as on a planet gear whose rim is the ring.
 
     **Arguments:** those of `AbstractBendingRing`, and
     - `shear`: whether shear strain of the section is modelled; it changes the largest load by less than 0.4 %.
-    - `housing_stiffness`: of a housing all around the ring, radial force per area of the seat's developed line (length
-      of circumference) and deflection, N/m^2, > 0; not given: nothing surrounds it. About 5e10 for a massive
-      steel housing, 1e9 to 1e10 for thin or light ones: the largest uncertainty of the model.
-    - `housing_shear_stiffness`: the same along the circumference, of a ring that is glued or tightly fitted, N/m^2.
-    - `support_angle`, `support_stiffness`, `support_gap`: places that the ring leans on, as in a cut housing: angles
-      from the load line, rad, stiffnesses, N/m, > 0, and outward deflections at which the ring touches, m.
-    - `load_angle`, `load_radial`, `load_tangential`, `load_radius`: forces on the ring from outside: angles, rad; N
-      outwards; N counter-clockwise; radii at which they act, m, > 0.
+    - `housing_stiffness`: stiffness of a housing all around the ring, as radial force per length of circumference and
+      deflection, N/m^2, > 0. If not given, nothing surrounds the ring. About 5e10 for a massive steel housing, 1e9 to
+      1e10 for thin or light housings: the largest uncertainty of the model.
+    - `housing_shear_stiffness`: stiffness of the housing in the circumferential direction, for a ring that is glued or
+      tightly fitted, N/m^2.
+    - `support_angle`: angles of discrete supports, as in a cut housing, from the load line, rad.
+    - `support_stiffness`: radial stiffnesses of the supports, N/m, > 0.
+    - `support_gap`: outward deflections of the ring at which it touches the supports, m.
+    - `load_angle`: angles of given forces on the ring, rad.
+    - `load_radial`: radial components of the given forces, positive outwards, N.
+    - `load_tangential`: tangential components of the given forces, positive counter-clockwise, N.
+    - `load_radius`: radii at which the given forces act, m, > 0.
     """
 
     part: ClassVar[str] = "outer_ring"
@@ -176,9 +182,9 @@ class FlexibleRing(AbstractBendingRing):
         return BentRing(section, orders, foundation, supports, loads)
 
     def unbalanced(self, load: Float[Array, "2"]) -> Float[Array, ""]:
-        """Force on a free ring that nothing balances, over the load: beyond `UNBALANCED` it has no equilibrium.
+        """Unbalanced force on a free ring over the load; above `UNBALANCED` the ring has no equilibrium.
 
-        **Arguments:** `load` on the inner ring along and across the load line, N, which the elements pass on.
+        **Arguments:** `load`: load on the inner ring along and across the load line, N, which the elements transmit.
         """
         assert self.load_angle is not None
         arrays = (jnp.asarray(getattr(self, name)) for name in self.groups[1])
@@ -189,18 +195,20 @@ class FlexibleRing(AbstractBendingRing):
 class FlexibleInnerRing(AbstractBendingRing):
     r"""An inner ring that is flexible in its plane, on a hollow or soft shaft.
 
-    Its section reaches from the bore to the raceway. The shaft is a bed of springs under the ring and the only thing
-    that holds it. The deflected shape stands still relative to the load, and the ring turns through it: this holds far
-    below the first natural frequency of the ring, $2.683\sqrt{EI/\rho AR^4}$.
+    Its section reaches from the bore to the raceway. The shaft is an elastic foundation under the ring and its only
+    support. The deflected shape is stationary relative to the load, and the ring turns through it. This holds far below
+    the first natural frequency of the ring, $2.683\sqrt{EI/\rho AR^4}$.
 
     Displacements of the inner ring (`operation.displacement`, `ring` of the results, the port on a shaft) are those of
-    the shaft's seat. The order 1 of the deflection is the displacement of the ring against that seat: the raceway is
-    displaced by the sum of both.
+    the shaft at the seat. The order 1 of the deflection is the displacement of the ring relative to the shaft: the
+    raceway is displaced by the sum of both.
 
     **Arguments:** those of `AbstractBendingRing`, and
-    - `shaft_stiffness`: of the shaft under the ring, radial force per length of the centroid circle and deflection,
-      N/m^2, > 0. About 1e11 for a solid shaft of steel (width 20 mm, radius 40 mm, order 2), less for a hollow one.
-    - `shaft_shear_stiffness`: the same along the circumference, of a ring that is shrunk or glued to the shaft, N/m^2.
+    - `shaft_stiffness`: stiffness of the shaft under the ring, as radial force per length of the centroid circle and
+      deflection, N/m^2, > 0. About 1e11 for a solid steel shaft (width 20 mm, radius 40 mm, order 2), less for a hollow
+      shaft.
+    - `shaft_shear_stiffness`: stiffness of the shaft in the circumferential direction, for a ring that is shrunk or
+      glued to the shaft, N/m^2.
     """
 
     part: ClassVar[str] = "inner_ring"
@@ -218,15 +226,17 @@ class FlexibleInnerRing(AbstractBendingRing):
 
 
 class AbstractRoundness(_Lists):
-    """Deviation of a raceway's radius from that of a round ring, which stands still relative to the load.
+    """Deviation of the radius of a raceway from a circle. The deviation is stationary relative to the load.
 
-    $p(\\psi) = \\sum_n p_n\\cos n(\\psi - \\varphi_n)$ plus a table, linear between its angles. A lobe of order 0
-    changes the clearance, one of order 1 is a displacement of the raceway.
+    It is $p(\\psi) = \\sum_n p_n\\cos n(\\psi - \\varphi_n)$ plus a table with linear interpolation. A lobe of order 0
+    changes the clearance, and a lobe of order 1 displaces the raceway.
 
     **Arguments:**
-    - `lobe_order`, `lobe_height`, `lobe_angle`: n, whole numbers >= 0; $p_n$, m; $\\varphi_n$, rad, where the lobe is
-      highest.
-    - `table_angle`, `table_deviation`: measured deviations at angles, rad and m.
+    - `lobe_order`: orders n of the lobes, whole numbers >= 0.
+    - `lobe_height`: heights $p_n$ of the lobes, m.
+    - `lobe_angle`: angles $\\varphi_n$ at which the lobes are highest, rad.
+    - `table_angle`: angles of the measured deviations, rad.
+    - `table_deviation`: measured deviations of the radius at these angles, m.
     """
 
     groups: ClassVar[tuple[tuple[str, ...], ...]] = (
@@ -254,7 +264,7 @@ class AbstractRoundness(_Lists):
             demand(rule, whole, lambda: f"{rule}, got {np.asarray(orders[0]).tolist()}")
 
     def deviation(self, azimuth: Float[Array, " place"]) -> Float[Array, " place"]:
-        """By how much the raceway's radius is larger at the azimuths, rad; m."""
+        """Deviation of the radius of the raceway, m, positive if it is larger. **Arguments:** `azimuth`: rad."""
         found = jnp.zeros_like(azimuth)
         if self.lobe_order is not None:
             order, height, angle = (jnp.asarray(getattr(self, name))[:, None] for name in self.groups[0])
@@ -279,7 +289,7 @@ class OuterRoundness(AbstractRoundness):
 
 @runtime_checkable
 class _Shaped(Protocol):
-    """A scene with rings that may bend or not be round."""
+    """Protocol of scenes with rings that may be flexible or not round."""
 
     @property
     def outer_ring(self) -> FlexibleRing | None: ...
@@ -295,7 +305,7 @@ class _Shaped(Protocol):
 
 
 def shaped_parts(scene: _Shaped) -> tuple[str, ...]:
-    """Names of the parts of a scene that make a ring not rigid or not round."""
+    """Names of the parts of a scene that make a ring flexible or a raceway not round."""
     parts = {
         "outer_ring": scene.outer_ring,
         "inner_ring": scene.inner_ring,
@@ -306,9 +316,9 @@ def shaped_parts(scene: _Shaped) -> tuple[str, ...]:
 
 
 def moving_problems(scene: _Shaped, round_races: bool) -> Iterator[str]:
-    """Refusals of the parts of a scene that its motion in time would not see.
+    """Yields a message for each part of a scene that a transient run does not support.
 
-    **Arguments:** `round_races`: whether moving elements run on round races.
+    **Arguments:** `round_races`: True if transient runs of this family have round raceways only.
     """
     for name in shaped_parts(scene):
         if round_races or name.endswith("_ring"):
@@ -318,10 +328,11 @@ def moving_problems(scene: _Shaped, round_races: bool) -> Iterator[str]:
 def bending_problems(
     scene: _Shaped, operation: AbstractOperation, inner_diameter: Callable[[], Values], width: Values | None
 ) -> Iterator[str | ValueError]:
-    """Refusals of flexible rings. The scene may be a stack of scenes, as those of a shaft are.
+    """Yields a message or an error for each impossible or missing input of flexible rings. The scene may be a stack of
+    scenes, as for the bearings of a shaft.
 
-    **Arguments:** `inner_diameter`: returns that of the inner raceway, m; `width`: of a ring for which the scene gives
-    none, m.
+    **Arguments:** `inner_diameter`: function that returns the diameter of the inner raceway, m; `width`: width of a
+    ring whose part does not give it, m.
     """
     for ring in (scene.outer_ring, scene.inner_ring):
         if ring is not None and ring.harmonics and ring.width is None and width is None:
@@ -342,7 +353,7 @@ def bending_problems(
 
 
 def _unheld_problems(ring: FlexibleRing | None, operation: AbstractOperation) -> Iterator[str | ValueError]:
-    """Refusals of an outer ring that nothing holds under loads that do not balance."""
+    """Yields a message or an error for an outer ring that nothing holds and whose loads do not balance."""
     load = operation.radial_load
     if ring is None or not ring.harmonics or ring.held:
         return
@@ -380,7 +391,7 @@ def said_of_bending(scene: _Shaped) -> list[str]:
 def out_of_round(
     inner: InnerRoundness | None, outer: OuterRoundness | None, azimuth: Float[Array, " element"]
 ) -> Float[Array, " element"] | None:
-    """By how much races that are not round come towards each rolling element, m; `None` if both are round."""
+    """Approach of the raceways to each rolling element by their roundness deviations, m; `None` if both are round."""
     if inner is None and outer is None:
         return None
     nothing = jnp.zeros_like(azimuth)

@@ -1,4 +1,4 @@
-"""Both rings of a bearing in its equations: degrees of freedom of the inner one, amplitudes of those that bend."""
+"""Both rings in the equations of a bearing: degrees of freedom of the inner ring, amplitudes of flexible rings."""
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -11,13 +11,13 @@ from .ring import ANCHOR, LENGTH_UNIT, InnerRing
 
 
 class AbstractBetweenRings(AbstractArrowSystem):
-    """Rolling elements between two rings. The globals are the unknown degrees of freedom of the inner ring, then the
-    amplitudes of the outer ring if it bends, then those of the inner ring if it bends, then what else a family has.
-    The degrees of freedom of a flexible inner ring are those of its seat on the shaft.
+    """Rolling elements between two rings. The globals are the unknown degrees of freedom of the inner ring, the
+    amplitudes of the outer ring and of the inner ring if they are flexible, and further unknowns of the family, in this
+    order. The degrees of freedom of a flexible inner ring are those of its seat on the shaft.
 
-    An element feels a flexible ring as one number, the opening of its contact (`local_inputs`): the last rows of
-    `shared`. In the second result of `element`, one row for each flexible ring comes after those of the degrees of
-    freedom: the radial force by which each element presses that ring away.
+    An element feels a flexible ring as one number, the opening of its contact (`local_inputs`); the openings are the
+    last rows of `shared`. The second result of `element` has, after the rows of the degrees of freedom, one row for
+    each flexible ring: the radial force with which each element presses the ring away.
     """
 
     ring: eqx.AbstractVar[InnerRing]
@@ -26,7 +26,7 @@ class AbstractBetweenRings(AbstractArrowSystem):
 
     @property
     def freedoms(self) -> tuple[str, ...]:
-        """Degrees of freedom of the ring that are unknown."""
+        """Unknown degrees of freedom of the inner ring."""
         return self.ring.freedoms
 
     @property
@@ -53,8 +53,8 @@ class AbstractBetweenRings(AbstractArrowSystem):
         return globals_[len(self.freedoms) : self.ring_unknowns]
 
     def local_inputs(self, globals_):
-        """With flexible rings, returns the globals without their amplitudes, and the opening of each element's contact
-        by each of these rings, m. Returns `None` if both rings are rigid."""
+        """If a ring is flexible, returns for each element the globals without amplitudes, and the opening of its
+        contact by each flexible ring, m. Returns `None` if both rings are rigid."""
         if not self.bent:
             return None
         others = jnp.concatenate([globals_[: len(self.freedoms)], globals_[self.ring_unknowns :]])
@@ -63,7 +63,7 @@ class AbstractBetweenRings(AbstractArrowSystem):
         return jnp.concatenate([copied, *(opening[None] for opening in openings)])
 
     def opened(self, shared: Float[Array, "p element"]) -> dict[str, Float[Array, " element"]]:
-        """Openings of the contacts by the flexible rings, m, by `outer` and `inner`."""
+        """Openings of the contacts by the flexible rings, m: "outer" or "inner" -> opening at each element."""
         each = self.bent.each
         return {"inner" if ring.inner else "outer": shared[k - len(each)] for k, ring in enumerate(each)}
 
@@ -78,18 +78,20 @@ class AbstractBetweenRings(AbstractArrowSystem):
     def on_both(
         self, on_ring: Float[Array, "freedom element"], outer: Float[Array, " element"], inner: Float[Array, " element"]
     ) -> Array:
-        """Contributions to the forces on both rings, N, from those on the degrees of freedom of the inner ring, and
-        the radial forces by which the elements press the outer and the inner ring away."""
+        """Joins the contributions of the elements to the forces on both rings, N.
+
+        **Arguments:** `on_ring`: forces on the degrees of freedom of the inner ring, N; `outer`, `inner`: radial forces
+        with which the elements press the outer and the inner ring away, N; those on rigid rings are left out."""
         rows = self.bent.pick(outer, inner)
         return jnp.concatenate([on_ring, *(row[None] for row in rows)]) if rows else on_ring
 
     def ring_balance(
         self, globals_: Float[Array, " g"], totals: Float[Array, " k"], floats: bool
     ) -> Float[Array, " row"]:
-        """Returns the forces that hold the unknown degrees of freedom of the inner ring against the elements less the
-        load on these, N, and the forces on the amplitudes of flexible rings.
+        """Unbalanced forces on the unknown degrees of freedom of the inner ring, N, and on the amplitudes of flexible
+        rings, N. On the inner ring this is the force that holds it against the elements, less its load.
 
-        **Arguments:** `floats`: whether a ring may stand where no element touches it: it is anchored then.
+        **Arguments:** `floats`: True if a ring may lose contact with all elements; it is then anchored.
         """
         balance = self.of_freedoms(totals) - self.ring.load
         if floats:
@@ -99,12 +101,14 @@ class AbstractBetweenRings(AbstractArrowSystem):
     def with_bending(
         self, balance: Float[Array, " freedom"], globals_: Float[Array, " g"], totals: Float[Array, " k"], floats: bool
     ) -> Float[Array, " row"]:
-        """The balance of the degrees of freedom, then that of the amplitudes, N. **Arguments:** as `ring_balance`."""
+        """Appends the balance of the amplitudes, N, to that of the degrees of freedom. **Arguments:** see
+        `ring_balance`."""
         if not self.bent:
             return balance
         pressed = totals[len(self.freedoms) : self.ring_unknowns]
         return jnp.concatenate([balance, self.bent.balance(self.amplitudes(globals_), pressed, floats)])
 
     def rings_under(self, factor: Float[Array, ""]) -> tuple[InnerRing, ElasticRing | None]:
-        """The inner and the outer ring under multiples of their loads; nothing else loads a flexible inner ring."""
+        """The inner and the outer ring with their given loads multiplied by a factor. The bending of an inner ring
+        needs no scaling, because it has no given loads of its own."""
         return self.ring.under(self.ring.load * factor), None if self.outer is None else self.outer.under(factor)

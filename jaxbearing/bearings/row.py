@@ -1,12 +1,13 @@
-r"""A bearing without friction whose ring is held: one convex energy, whose gradient is the force on the ring.
+r"""Model of a bearing without friction whose ring is held. The gradient of its convex energy is the force on the ring.
 
-Centrifugal forces are those of the unloaded bearing's contact angle, so that force and stiffness come of an energy.
-Shafts on bearings begin their search with it, and find the preload of bearings at rest, where it is exact.
+Centrifugal forces are evaluated at the contact angle of the unloaded bearing, so that force and stiffness derive from
+an energy. The solve of a shaft starts its search with this model, and uses it to find the preload of bearings at rest,
+for which it is exact.
 
-Flexible rings are in equilibrium too: the energy is the minimum over their amplitudes $a$ as well. Near the
-minimum one Newton step leads there: with the derivatives $r$ of the energy by the amplitudes, and its second
+Flexible rings are in equilibrium too: the energy is also the minimum over their amplitudes $a$. Near the minimum one
+Newton step leads there. With the derivatives $r$ of the energy with respect to the amplitudes, and its second
 derivatives $K$, the force is $F_q - K_{qa}K_{aa}^{-1}r$, the energy lower by $\frac12r^TK_{aa}^{-1}r$ and the
-stiffness $K_{qq} - K_{qa}K_{aa}^{-1}K_{aq}$. An error of the amplitudes therefore shows in its square only.
+stiffness $K_{qq} - K_{qa}K_{aa}^{-1}K_{aq}$. The effect of an error of the amplitudes is therefore of second order.
 """
 
 import abc
@@ -25,17 +26,17 @@ from .rings import AbstractBetweenRings
 from .solution import RING_FREEDOMS
 
 BENDING_TOLERANCE = 1e-8
-"""Scaled residual of the amplitudes of flexible rings at which the search for them ends; the force is then exact to
-round-off, see the module."""
+"""Scaled residual at which the search for the amplitudes of flexible rings ends. The force is then exact to round-off
+(see the module)."""
 BENDING_TRIALS = 80
-"""Most trials of that search."""
+"""Largest number of trials in the search for the amplitudes."""
 
 
 class RowState(NamedTuple):
-    """State of a row, to begin the next search with, in units of the family.
+    """State of a row in units of the family, from which the next search starts.
 
-    - `elements`: of the rolling elements.
-    - `amplitudes`: of flexible rings; `None` if both are rigid.
+    - `elements`: unknowns of the rolling elements.
+    - `amplitudes`: amplitudes of flexible rings; `None` if both rings are rigid.
     """
 
     elements: Float[Array, "m element"]
@@ -43,11 +44,11 @@ class RowState(NamedTuple):
 
 
 class HeldRow(NamedTuple):
-    """A row under a held ring at its port.
+    """A row whose ring is held at its port.
 
-    - `energy`: J, up to a constant.
-    - `force`, `stiffness`: as `ring.Port`; the stiffness is symmetric.
-    - `state`: of the rolling elements and of flexible rings.
+    - `energy`: energy, J, up to a constant.
+    - `force`, `stiffness`: see `ring.Port`; the stiffness is symmetric.
+    - `state`: state of the rolling elements and of flexible rings.
     """
 
     energy: Float[Array, ""]
@@ -57,28 +58,30 @@ class HeldRow(NamedTuple):
 
 
 class AbstractRow(eqx.Module):
-    """A row of rolling elements between two rings, at its speed."""
+    """A row of rolling elements between two rings that turn at given speeds."""
 
     @abc.abstractmethod
     def initial(self, displacement: Float[Array, "5"]) -> RowState:
-        """First guess of `hold`."""
+        """First guess of the state for `hold`."""
 
     @abc.abstractmethod
     def hold(self, displacement: Float[Array, "5"], state: RowState) -> HeldRow:
-        """The row with its ring held at a displacement of the port, closure included, m and rad; not differentiated.
+        """The row in equilibrium with its ring held. No derivatives pass through the result.
 
-        **Arguments:** `state`: of a displacement nearby, or `initial`.
+        **Arguments:** `displacement`: displacement of the port including the closure, m and rad; `state`: state at a
+        displacement nearby, or that of `initial`.
         """
 
     @abc.abstractmethod
     def force_at(self, displacement: Float[Array, "5"], state: RowState) -> Float[Array, "5"]:
-        """The force of `hold`, with its first derivatives by all numbers; `state`: the one that `hold` found there."""
+        """The force of `hold`, with first derivatives with respect to all numbers. **Arguments:** `state`: the state
+        that `hold` found at this displacement."""
 
 
 class AbstractRowSystem(AbstractBetweenRings, AbstractConvexArrow):
-    """Equations of a row of rollers that are the gradient of one potential.
+    """Equations of a row of rollers. They are the gradient of a potential.
 
-    Its globals are the degrees of freedom of the inner ring and the amplitudes of flexible rings, and nothing else.
+    The globals are the degrees of freedom of the inner ring and the amplitudes of flexible rings only.
     """
 
     @abc.abstractmethod
@@ -92,25 +95,25 @@ class AbstractRowSystem(AbstractBetweenRings, AbstractConvexArrow):
 
 
 def free_ring(lever: Array, distance: Array, expansion: Array | None) -> InnerRing:
-    """A ring with five unknown degrees of freedom and no load. **Arguments:** as `InnerRing`."""
+    """A ring with five unknown degrees of freedom and no load. **Arguments:** see `InnerRing`."""
     return InnerRing(jnp.zeros(5), jnp.zeros(5), jnp.asarray(lever), RING_FREEDOMS, expansion, distance)
 
 
 def initial_state(held: AbstractRowSystem) -> RowState:
-    """First guess of `settled_row`. **Arguments:** `held`: the equations with the ring held."""
+    """First guess of the state for `settled_row`. **Arguments:** `held`: equations with the ring held."""
     first = held.initial()
     return RowState(first.elements, first.globals if held.bent else None)
 
 
 def settled_row(held: AbstractRowSystem, full: AbstractRowSystem, state: RowState) -> HeldRow:
-    """A row of rollers in equilibrium under a held ring.
+    """A row of rollers in equilibrium with the ring held.
 
     **Arguments:**
-    - `held`: the equations with the ring held at the displacement.
-    - `full`: with all five degrees of freedom of the ring, which begin the globals.
-    - `state`: first guess.
+    - `held`: equations with the ring held at the displacement.
+    - `full`: equations with all five degrees of freedom of the ring as the first globals.
+    - `state`: first guess of the state.
     """
-    # the search with the ring held has fewer derivatives than one with the five degrees of freedom
+    # the search uses the equations with the ring held, which need fewer derivatives
     if state.amplitudes is None:
         state = RowState(settle(held, ArrowPoint(state.elements, jnp.zeros(0))).elements)
     else:
@@ -133,10 +136,11 @@ def settled_row(held: AbstractRowSystem, full: AbstractRowSystem, state: RowStat
 
 
 def settled_force(ring: InnerRing, full: AbstractRowSystem, state: RowState) -> Float[Array, "5"]:
-    """The force of `settled_row` with its first derivatives: one Newton step of the elements, and of the amplitudes of
-    flexible rings, which does not move them.
+    """The force of `settled_row` with its first derivatives, which follow from one Newton step of the elements and of
+    the amplitudes of flexible rings. The step leaves their values unchanged, as they are in equilibrium.
 
-    **Arguments:** `ring`: held at the displacement; `full`: as in `settled_row`; `state`: the one that it found.
+    **Arguments:** `ring`: ring held at the displacement; `full`: see `settled_row`; `state`: state that `settled_row`
+    found.
     """
     state = jax.lax.stop_gradient(state)
     globals_ = _coordinates(ring, state)
@@ -149,7 +153,7 @@ def settled_force(ring: InnerRing, full: AbstractRowSystem, state: RowState) -> 
 
 
 def _coordinates(ring: InnerRing, state: RowState) -> Float[Array, " g"]:
-    """The globals of the equations with all five degrees of freedom of a ring that is held."""
+    """Globals of the equations with five degrees of freedom at the displacements of a held ring."""
     at = ring.held / LENGTH_UNIT
     return at if state.amplitudes is None else jnp.concatenate([at, state.amplitudes])
 

@@ -1,4 +1,4 @@
-"""Factors of the oil supply on the raceways of a solved bearing, and a check of what a scene lacks for its supply."""
+"""Oil supply of the raceways of a solved bearing, and checks of the inputs that the supply needs."""
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
@@ -19,7 +19,7 @@ else:
     AbstractBearing = Any
 
 FLOODED = "fully flooded (assumed)"
-"""Supply of a scene with films and without a table [contact.supply]."""
+"""Supply of a scene with films but without a table [contact.supply], in words."""
 _Factor = Float[Array, ""] | None
 
 
@@ -28,8 +28,8 @@ def _optional(description: str) -> Any:
 
 
 class SupplyResult(eqx.Module):
-    """Supply of the raceways. The numbers are those of the most loaded contact of each race, `None` where contacts are
-    assumed to be flooded.
+    """Oil supply of the raceways. The numbers are those of the most loaded contact of each race; they are `None` if the
+    contacts are assumed to be flooded.
 
     `stated`: the supply in words.
     """
@@ -51,8 +51,10 @@ class SupplyResult(eqx.Module):
 def supply_result(
     scene: AbstractBearing, load: Float[Array, "contact element"], starved: Starvation | None
 ) -> SupplyResult | None:
-    """The supply of a scene; `None` for one without films. **Arguments:** `load`, N, and `starved`, of the raceways,
-    the inner one first; where there are more contacts than two, `scene.geometry.arcs.races` says which is where."""
+    """The oil supply of a scene; `None` without films.
+
+    **Arguments:** `load`: loads of the raceway contacts, N, inner raceway first; `starved`: effect of the supply on
+    these contacts. If an element has more than two contacts, `scene.geometry.arcs.races` gives the race of each row."""
     if scene.contact is None or scene.oil is None:
         return None
     supply = scene.contact.supply
@@ -71,7 +73,7 @@ def supply_result(
 
 
 def _of_races(races: tuple[int, ...], load: Float[Array, " contact"], values: Float[Array, " contact"]) -> list[Array]:
-    """Values of the more loaded contact of each race."""
+    """Values of the most loaded contact of each race, inner race first."""
     found = []
     for race in (0, 1):
         rows = np.flatnonzero(np.asarray(races) == race)
@@ -80,7 +82,7 @@ def _of_races(races: tuple[int, ...], load: Float[Array, " contact"], values: Fl
 
 
 def supply_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
-    """Yields a sentence for everything that a scene lacks for its supply."""
+    """Yields an error for each input that the oil supply of a scene needs and lacks."""
     supply, flow = None if scene.contact is None else scene.contact.supply, scene.operation.oil_flow
     if supply is not None and supply.from_flow is not None and numbers_or_none(flow) is not None:
         said = "operation.oil_flow: contact.supply.from_flow needs a volume flow > 0"

@@ -5,7 +5,7 @@ The node temperatures set the temperature of the oil in each contact and, if the
 its parts and with them its clearance. Each solve starts from its own first guess, so its success does not depend on
 earlier trials. Its losses and the conductances of its contacts enter the heat balances of the nodes. Derivatives follow
 from the implicit function theorem at the temperatures found. The stiffness of the ring is that at constant
-temperatures: a load that changes quickly meets a bearing whose temperatures have not changed yet.
+temperatures, because temperatures cannot follow a load that changes quickly.
 """
 
 import dataclasses
@@ -37,8 +37,8 @@ else:
 
 Bearing = TypeVar("Bearing", bound="AbstractBearing")
 MOST_BROYDEN = {"when_needed": 15, "never": 60}
-"""Largest number of solves in Broyden's iteration. After them Newton's iteration begins; without an exact Jacobian
-(`never`), time steps begin instead."""
+"""Largest number of solves in Broyden's iteration. After these Newton's iteration follows, or time steps if an exact
+Jacobian is not allowed (`never`)."""
 
 
 def thermal_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
@@ -139,7 +139,7 @@ def heat_at(
 
 
 def solve_warm(scene: AbstractBearing, solve: Callable[[AbstractBearing], Solution]) -> Solution:
-    """The solution at the temperatures at which the heat balance of every node closes.
+    """The solution at the temperatures at which every node is in heat balance.
 
     **Arguments:** `solve`: function that solves a scene that has neither a thermal network nor fits.
     """
@@ -230,7 +230,7 @@ def heat_paths(network: Network, temperatures: Float[Array, " node"], losses: No
 
 
 def thermal_notes(scene: AbstractBearing) -> tuple[str, ...]:
-    """Notes for the user: what the network assumes, and what a steady state does not say."""
+    """Notes for the user on the assumptions of the network and the limits of a steady state."""
     return about("thermal", START_NOTE), *network_notes(scene)
 
 
@@ -241,12 +241,12 @@ NO_FLOW = Information(
 
 
 def without_flow(scene: AbstractBearing) -> Bool[Array, ""]:
-    """True if no oil brings its inlet temperature into the network."""
+    """True if no oil flow enters the network, so that the inlet temperature has no effect."""
     return ~jnp.asarray(has_flow(scene)) | (jnp.asarray(scene.operation.oil_flow) == 0.0)
 
 
 def network_notes(scene: AbstractBearing) -> tuple[str, ...]:
-    """Notes for the user: what the network assumes."""
+    """Notes for the user on the assumptions of the network."""
     thermal = thermal_of(scene)
     said: list[str] = []
     outside = [f"{node}_ambient" for node in OUTSIDE[thermal.nodes]]

@@ -29,7 +29,7 @@ def line_hysteresis(contact: LineContact, load: Values, mean_speed: Values, loss
 def point_hysteresis(contact: PointContact, load: Values, roll: Values, loss: Values) -> Float[Array, "..."]:
     r"""Moment $\frac{3}{16}\alpha_vQa$ that resists the roll of a point contact, N m, with the sign of the roll.
 
-    The semi-axis of the ellipse along rolling is a.
+    a is the semi-axis of the ellipse along rolling.
 
     **Limits:** 0 without load and without roll; the change of sign is smoothed over a rolling speed of 1e-6 m/s.
     **Validity:** as `line_hysteresis`.

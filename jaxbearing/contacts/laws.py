@@ -66,8 +66,8 @@ class ContactLaws(Checked):
       the published check values were computed with 1 mm/s.
     - `rolling`: rolling resistance; `None`: no rolling resistance.
     - `rolling_heating`: how inlet heating lowers the rolling resistance, by a factor (`"aihara"`) or by the viscosity
-      at the temperature that corresponds to the reduction by `thermal` (`"film_temperature"`); by default as the
-      rolling law chooses if `thermal` is given, otherwise not at all.
+      at the temperature that corresponds to the thermal reduction of the film (`"film_temperature"`). The default is
+      the choice of the rolling law if `thermal` is given, otherwise no reduction.
     - `entrainment_smoothing`: speed that smooths the absolute value of the mean surface speed, m/s; it sets the film
       that remains at rest.
     - `supply`: oil supply; `None`: fully flooded.

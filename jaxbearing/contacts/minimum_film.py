@@ -16,7 +16,7 @@ contacts (table 18) it is 0.750 and 0.746. Dowson and Higginson's minimum film a
 
 
 def of_minimum(law: AbstractLineFilm | AbstractPointFilm) -> bool:
-    """True if a law gives the minimum film thickness, False if it gives the central one."""
+    """True if a law gives the minimum film thickness."""
     law = law.film if isinstance(law, MartinBlend | RigidBlend) else law
     return isinstance(law, DowsonHigginson | PanHamrockMinimum | HamrockDowsonMinimum)
 
@@ -52,8 +52,7 @@ def minimum_over_central(
 ) -> Float[Array, "..."]:
     """Ratio of the minimum to the central film thickness.
 
-    It is `LINE_SHARE` for line contacts. For point contacts it is the ratio of Hamrock and Dowson's two films, at most
-    1.
+    For line contacts it is `LINE_SHARE`, for point contacts the ratio of Hamrock and Dowson's two films, at most 1.
 
     **Arguments:** `contact`; `load`, N; `entrainment_speed`, m/s; `viscosity`, Pa s, and `pressure_viscosity`, 1/Pa, of
     the oil in the inlet.

@@ -1,8 +1,8 @@
-r"""Mixed friction: the asperities carry a part of the load of a contact and rub, the film carries the rest and is sheared.
+r"""Mixed friction: the asperities carry a part of a contact's load and rub; the film carries the rest and is sheared.
 
-$F = (1 - \varphi)F_{film} + \varphi Q\mu_bv/\sqrt{v^2 + v_s^2}$ with the load share $\varphi(\Lambda)$ of the asperities
-(`load_share`) and the film ratio $\Lambda = h/\sigma$. Boundary force and boundary power use the same sliding speed v,
-that at the centre of the contact. Rolling resistance arises in the inlet and is not reduced.
+$F = (1 - \varphi)F_{film} + \varphi Q\mu_bv/\sqrt{v^2 + v_s^2}$ with the asperities' load share $\varphi(\Lambda)$ of
+`load_share` and the film ratio $\Lambda = h/\sigma$. Force and power are computed with the same sliding speed v at the
+centre of the contact. Rolling resistance arises in the inlet and is not reduced.
 """
 
 from typing import ClassVar, Literal, NamedTuple
@@ -67,8 +67,9 @@ class MixedFriction(Checked):
     With a thick film it is the force of the film alone. Without sliding the boundary force is 0, with the slope
     $\varphi Q\mu_b/v_s$.
     **Validity:** the boundary force follows from the sliding at the centre of the contact. The boundary moment against
-    spin ($3\pi/16\,\mu_b\varphi Qa$ for a circle) is neglected, and spin does not lower the force along rolling. $\mu_b$
-    does not change with the speed. The smoothing makes the force 0.5 % too small at $10v_s$ and 0.005 % at $100v_s$.
+    spin ($3\pi/16\,\mu_b\varphi Qa$ for a circle) is neglected, and spin does not lower the force along rolling.
+    $\mu_b$ does not change with the speed. The smoothing makes the force 0.5 % too small at $10v_s$ and 0.005 % at
+    $100v_s$.
     **Reference:** load-sharing concept of Johnson, Greenwood and Poon (1972), Wear 19, 91.
 
     **Arguments:**
@@ -100,7 +101,7 @@ class MixedFriction(Checked):
     ) -> Asperities:
         """Film ratio and load share.
 
-        **Arguments:** `law`: film law; `load`, N, > 0; `film`: film thickness from this law, with inlet heating, m, > 0.
+        **Arguments:** `law`: film law; `load`, N, > 0; `film`: thickness from this law, with inlet heating, m, > 0.
         """
         ratio = film / self.roughness
         if self.film == "minimum":
@@ -138,7 +139,7 @@ class MixedFriction(Checked):
         )
 
     def _boundary(self, load: Values, share: Values, sliding: Sliding) -> tuple[Array, Array]:
-        """Components of the boundary force along and across rolling, N. The force acts along the sliding at the centre."""
+        """Boundary force along and across rolling, N. It acts in the direction of the sliding at the centre."""
         if sliding.transverse is None:
             along = self.boundary_force(load, share, sliding.rolling)
             return along, jnp.zeros_like(along)
@@ -170,7 +171,10 @@ class MixedFriction(Checked):
 
 
 def require_traction(part: str, mixed: MixedFriction | None, traction: object) -> None:
-    """Check that mixed friction comes with a traction law, without which contacts do not slide. **Raises:** `ValueError`."""
+    """Check of a scene: without a traction law contacts do not slide.
+
+    **Raises:** `ValueError` for mixed friction without a traction law.
+    """
     if mixed is not None and traction is None:
         raise ValueError(f"{part}.mixed: mixed friction is of contacts that slide, and needs {part}.traction")
 
@@ -183,18 +187,20 @@ def flash_temperature(
     sliding_speed: Values,
     heating: FilmHeating | None = None,
 ) -> Float[Array, "..."]:
-    r"""Flash temperature: largest temperature rise of the rubbing surfaces, K, $1.11155\,P/(\ell\sqrt{2a}\,\epsilon(\sqrt{u_1} + \sqrt{u_2}))$.
+    r"""Flash temperature: largest temperature rise of the rubbing surfaces, K.
+
+    $\Delta T = 1.11155\,P/(\ell\sqrt{2a}\,\epsilon(\sqrt{u_1} + \sqrt{u_2}))$.
 
     The friction power P has Hertz's distribution, and both bodies have the same effusivity
     $\epsilon = \sqrt{k\rho c}$. A point contact is represented by its middle strip, $\ell = 4c/3$.
 
     The flash temperature is a result and changes no force: the boundary friction coefficient does not depend on
-    temperature. It would add to the surface temperature of a heated film (`FilmHeating`), but no scene has both.
-    Bearings have asperities, and their films have the temperature of the inlet; two-disk machines have heated films
-    and no asperities.
+    temperature. It would be part of the surface temperature of a heated film (`FilmHeating`), but no scene has both:
+    only bearings have asperities, and their films have the temperature of the inlet; only two-disk machines have heated
+    films.
 
-    **Limits:** the speeds count as $\sqrt{u^2 + u_\epsilon^2}$, $u_\epsilon$ = 1e-6 m/s: the rise is finite if a surface
-    is at rest, but far too high.
+    **Limits:** the speeds count as $\sqrt{u^2 + u_\epsilon^2}$, $u_\epsilon$ = 1e-6 m/s: the rise is finite where a
+    surface is at rest, but far too high.
     **Validity:** Peclet numbers $ua/(2\kappa)$ above 5.
     **Reference:** Carslaw and Jaeger, *Conduction of Heat in Solids*, ch. 10; the constant is from our quadrature.
 

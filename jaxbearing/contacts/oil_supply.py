@@ -16,27 +16,29 @@ from .line import LineContact
 from .point import PointContact
 
 LEVELS = {"jet": 100.0, "under_race": 100.0, "bath": 10.0, "grease": 1.0, "oil_air": 1.0}
-"""Level of the supply -> median of the gap at the inlet meniscus over the central film; one standard deviation of its
-logarithm is ln 3 (a judgement from few tests)."""
+"""Kind of lubrication -> median of the ratio of the gap at the inlet meniscus to the flooded central film. The standard
+deviation of the logarithm of this ratio is ln 3 (a judgement from few tests)."""
 GIVEN = ("meniscus_gap", "meniscus_distance", "layer", "from_flow", "gap_over_central", "level")
-"""Fields of which a supply gives exactly one."""
+"""Fields of `Supply` of which exactly one must be given."""
 SEPARATION_SHARE = 0.01
-"""Part of the missing film that still places a rolling element between the rings. A film that never exceeds the oil
-there is cannot fill the clearance of an unloaded element; the flooded one grows without bound and does."""
+"""Fraction of the difference between flooded and starved film that is added to the starved film in the equations for
+the position of a rolling element. A starved film is limited by the oil supply and cannot fill the clearance of an
+unloaded element; the flooded film grows without bound and can."""
 LARGEST_LOG = 600.0
-"""ln of the largest gap over the central film that is reported: it overflows under thick layers."""
+"""Upper limit of the logarithm of gap over central film in the results: with thick layers the ratio would overflow."""
 
 
 class Starvation(NamedTuple):
-    """The effect of the supply on a contact.
+    """Effect of the oil supply on a contact.
 
-    - `flooded`, `film`: with all oil and with this, m.
-    - `separation`: film in the equations that place a rolling element between the rings, m: the film and a hundredth of
-      what it lacks of the flooded one.
-    - `film_factor`, of the film, and `rolling_factor`, of the rolling resistance.
+    - `flooded`, `film`: thickness of the flooded film and of the film with this supply, m.
+    - `separation`: film thickness in the equations for the position of a rolling element between the rings, m: `film`
+      plus a hundredth of its difference to `flooded`.
+    - `film_factor`, `rolling_factor`: factors of the film thickness and of the rolling resistance.
     - `gap_over_central`: gap at the inlet meniscus over the flooded central film.
-    - `residual`: of the nested solve for the gap, in units of its logarithm.
-    - `reach`: half-width over the meniscus distance, where that is given: the contact has no inlet from 1 on.
+    - `residual`: residual of the nested solve for the gap, in units of its logarithm.
+    - `reach`: half-width over the meniscus distance; from 1 on the contact has no inlet. `None` if the distance is not
+      given.
     """
 
     flooded: Float[Array, "*batch"]
@@ -50,7 +52,7 @@ class Starvation(NamedTuple):
 
 
 def given_by(field: str) -> str:
-    """The supply in words, by the field that gives it."""
+    """Text that says which field of `Supply` gives the oil."""
     return f"given by contact.supply.{field}"
 
 
@@ -59,31 +61,32 @@ def _optional(bound: str, unit: str) -> Any:
 
 
 class Supply(Checked):
-    r"""Oil supply of the raceway contacts; a scene without one has fully flooded contacts.
+    r"""Oil supply of the raceway contacts; without it all contacts are fully flooded.
 
-    Exactly one of the first six arguments says how much oil there is. The film is $\varphi_f\varphi_Th_{iso}$, the
-    rolling resistance $\varphi_r$ times the flooded one; `contacts.supply` has the factors. The thermal factor
-    $\varphi_T$ is that of the flooded film.
+    Exactly one of the first six arguments must be given; it says how much oil there is. The film is
+    $\varphi_f\varphi_Th_{iso}$, and the rolling resistance is $\varphi_r$ times that of the flooded contact; for the
+    factors see `contacts.supply`. The thermal factor $\varphi_T$ is that of the flooded film.
 
-    **Limits:** the flooded contact at a thick layer (1e-12 at 1 m) and at a wide gap (1e-7 of the film and 2e-3 of the
-    resistance at 1 m: the far inlet counts).
-    **Validity:** the factors are fitted to line contacts with S from 0.3 to 540; the supply itself is known to a factor
-    of 3 at best. The rib of a tapered bearing and the cage stay flooded.
+    **Limits:** the flooded contact at a thick layer (at 1 m within 1e-12) and at a wide gap (at 1 m within 1e-7 of the
+    film and 2e-3 of the resistance, which depends on the far inlet too).
+    **Validity:** the factors are fitted to line contacts with S, the gap over the flooded minimum film, from 0.3 to
+    540. The supply itself is known to a factor of 3 at best. The rib of a tapered bearing and the cage stay flooded.
 
     **Arguments:**
-    - `meniscus_gap`: gap between the surfaces where the inlet fills with oil, h_m, m.
-    - `meniscus_distance`: distance of that place from the centre of the contact, x_m, m; a contact whose half-width
-      reaches it has no inlet.
-    - `layer`: sum of the oil layers that both surfaces bring far upstream, h_l, m; the film is never thicker.
-    - `from_flow`: part of the oil flow of the operating point that is caught by the track, which gives the layer;
+    - `meniscus_gap`: gap between the surfaces at the inlet meniscus, where the oil begins to fill the gap, h_m, m.
+    - `meniscus_distance`: distance of the inlet meniscus from the centre of the contact, x_m, m. A contact whose
+      half-width reaches the meniscus has no inlet.
+    - `layer`: sum of the oil layers on both surfaces far upstream of the contact, h_l, m. The film is never thicker.
+    - `from_flow`: fraction of the oil flow of the operating point that reaches the track and forms the layer there;
       known to a factor of 10.
-    - `gap_over_central`: the gap over the flooded central film, S_c, the same in every contact.
-    - `level`: assumed S_c by the kind of lubrication: jet and under_race 100, bath 10, grease and oil_air 1; one
-      standard deviation is a factor of 3 (structure). Grease counts as its base oil with a supply.
-    - `film_law`: of the film at a meniscus distance, gap (from the gap there) or hamrock_dowson (structure).
-    - `rolling_law`: of the resistance, full_solutions (own fit) or biboulet_houpert, their eq. (44) (structure).
-    - `gap_exponent`: g of the film factor of a gap.
-    - `layer_exponent`: gamma of the film factor of a layer; not given: 8 of lines, 3 of ellipses.
+    - `gap_over_central`: gap at the inlet meniscus over the flooded central film, S_c, the same in every contact.
+    - `level`: kind of lubrication, which gives an assumed S_c: jet and under_race 100, bath 10, grease and oil_air 1;
+      one standard deviation is a factor of 3 (structure). Grease is modelled as a supply of its base oil.
+    - `film_law`: law of the film factor at a meniscus distance, gap (from the gap there) or hamrock_dowson (structure).
+    - `rolling_law`: law of the factor of the rolling resistance, full_solutions (our fit) or biboulet_houpert, their
+      eq. (44) (structure).
+    - `gap_exponent`: exponent g in the film factor of a gap.
+    - `layer_exponent`: exponent gamma in the film factor of a layer; not given: 8 for lines, 3 for ellipses.
     """
 
     part: ClassVar[str] = "contact.supply"
@@ -114,7 +117,7 @@ class Supply(Checked):
 
     @property
     def stated(self) -> str:
-        """The supply in words, without its number."""
+        """Text that says how the supply is given, without the number."""
         given = next(name for name in GIVEN if getattr(self, name) is not None)
         if given == "level" and self.level is not None:
             gap = f"inlet gap {LEVELS[self.level]:g} times the central film"
@@ -124,10 +127,11 @@ class Supply(Checked):
     def starvation(
         self, contact: LineContact | PointContact, load: Values, log_flooded: Values, speed: Values, inlet: InletOil
     ) -> Starvation:
-        """The contact with this supply.
+        """Effect of this supply on a contact.
 
-        **Arguments:** `load`, N, >= 0; `log_flooded`, ln of the flooded central film, m, thermal factor included;
-        `speed`, mean of both surfaces, m/s, > 0; `inlet`, with its `flow` where the layer comes from it.
+        **Arguments:** `load`, N, >= 0; `log_flooded`: ln of the flooded central film, m, thermal factor included;
+        `speed`: mean speed of both surfaces, m/s, > 0; `inlet`: oil at the inlet, with its `flow` if `from_flow` is
+        given.
         """
         log_factor, log_gap, residual = self._factor_and_gap(contact, load, jnp.asarray(log_flooded), speed, inlet)
         flooded, factor = jnp.exp(log_flooded), jnp.exp(log_factor)
@@ -148,7 +152,7 @@ class Supply(Checked):
     def _factor_and_gap(
         self, contact: LineContact | PointContact, load: Values, log_flooded: Array, speed: Values, inlet: InletOil
     ) -> tuple[Array, Array, Array]:
-        """ln of the film factor, ln of the gap over the flooded film, residual of the search for it."""
+        """Logarithms of the film factor and of the gap over the flooded film; residual of the search for the gap."""
         exact, power = jnp.zeros_like(log_flooded), self.gap_exponent
         if self.layer is not None or self.from_flow is not None:
             layer = self._layer(contact, load, speed, inlet) - log_flooded
@@ -165,14 +169,14 @@ class Supply(Checked):
         return supply.log_film_factor_of_gap(gap, power), gap, exact
 
     def _ratio(self) -> Scalar:
-        """The gap over the flooded film, where it is given as such."""
+        """Gap over the flooded film from `gap_over_central` or `level`, of which one must be given."""
         if self.gap_over_central is not None:
             return self.gap_over_central
         assert self.level is not None
         return LEVELS[self.level]
 
     def _layer(self, contact: LineContact | PointContact, load: Values, speed: Values, inlet: InletOil) -> Array:
-        """ln of the layer, m."""
+        """Logarithm of the layer in m, from `layer` or `from_flow`."""
         if self.layer is not None:
             return jnp.log(self.layer + supply.LAYER_FLOOR)
         assert inlet.flow is not None
@@ -183,7 +187,7 @@ class Supply(Checked):
     def _at_distance(
         self, contact: LineContact | PointContact, load: Values, log_flooded: Array
     ) -> tuple[Array, Array, Array]:
-        """Returns what `_factor_and_gap` does, at a given distance of the meniscus."""
+        """Results of `_factor_and_gap` for a given `meniscus_distance`."""
         assert self.meniscus_distance is not None
         half_width = _half_width(contact, load)
         radius = contact.reduced_radius if isinstance(contact, LineContact) else contact.reduced_radius_rolling
@@ -197,5 +201,5 @@ class Supply(Checked):
 
 
 def _half_width(contact: LineContact | PointContact, load: Values) -> Array:
-    """Half length of the contact along rolling, m."""
+    """Half-width of the contact along rolling, m."""
     return contact.half_width(load) if isinstance(contact, LineContact) else contact.semi_axis_rolling(load)

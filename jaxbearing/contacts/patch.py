@@ -1,4 +1,4 @@
-"""The loaded area of a contact, cut into strips along the rolling direction."""
+"""Area of a Hertz contact, cut into strips along the rolling direction."""
 
 from typing import NamedTuple
 
@@ -16,10 +16,13 @@ from .point import PointContact
 
 
 class Strips(NamedTuple):
-    """Quadrature strips. The pressure of strip y is that of a line contact, $p_s\\sqrt{1 - x^2/a_s^2}$; the last axis
-    is the strip.
+    """Quadrature strips along rolling; the last axis runs over the strips.
 
-    `scale` is $p_s/p_0 = a_s/a$, `offset` is y, m, `width` the weight dy, m.
+    In the strip at the distance y from the middle the pressure is that of a line contact, $p_s\\sqrt{1 - x^2/a_s^2}$.
+
+    - `scale`: $p_s/p_0 = a_s/a$.
+    - `offset`: y, m.
+    - `width`: width dy of the strip, which is its weight in integrals over y, m.
     """
 
     scale: Float[Array, "*#batch strip"]
@@ -34,7 +37,7 @@ class ContactPatch(eqx.Module):
     - `pressure`: Hertz (peak) pressure, Pa, > 0.
     - `half_width`: semi-axis a along rolling, m, > 0.
     - `half_length`: transverse semi-axis c of the ellipse, or half the length of the line contact, m, > 0.
-    - `line`: whether it is a line contact.
+    - `line`: True for a line contact, False for an ellipse.
     """
 
     pressure: Values
@@ -58,17 +61,17 @@ class ContactPatch(eqx.Module):
 
     @property
     def area(self) -> Float[Array, "..."]:
-        """m^2."""
+        """Area of the contact, m^2."""
         return jnp.asarray((4.0 if self.line else jnp.pi) * self.half_width * self.half_length)
 
     def strips(self, count: int, symmetric: bool, middle: bool = False) -> Strips:
-        """Gauss-Legendre strips in the angle phi of y = c sin(phi), in which pressure and half-width are smooth; in y
-        for a line contact.
+        """Gauss-Legendre strips. In an ellipse the variable is the angle phi of y = c sin(phi), in which pressure and
+        half-width are smooth; in a line contact it is y.
 
         **Arguments:**
-        - `count`: strips over the whole width.
-        - `symmetric`: what is integrated is even in y: only one half is looked at (of a line contact: one strip).
-        - `middle`: whether the first strip of such a half is the one at y = 0, with the weight 0 where `count` is even.
+        - `count`: number of strips over the whole contact.
+        - `symmetric`: True if the integrands are even in y. Then only one half gets strips; a line contact gets one.
+        - `middle`: True to make y = 0 the first strip of this half. If `count` is even, this strip has the weight 0.
         """
         half_length = jnp.asarray(self.half_length, dtype=float)[..., None]
         if self.line and symmetric:
@@ -92,7 +95,7 @@ class ContactPatch(eqx.Module):
 
 
 def contact_patch(contact: LineContact | PointContact, load: Values) -> ContactPatch:
-    """The Hertz patch of a contact. **Arguments:** `load`, N, >= 0."""
+    """Hertz contact area and pressure of a contact. **Arguments:** `load`, N, >= 0."""
     if isinstance(contact, LineContact):
         return ContactPatch(contact.hertz_pressure(load), contact.half_width(load), 0.5 * contact.length, line=True)
     ellipse = contact.ellipse(load)

@@ -13,22 +13,22 @@ from ..numerics.compiling import compiled_by_hand
 from ..numerics.safe import positive_power, smooth_abs
 
 LOAD_WIDTH = 1e-3
-"""Smoothing of |load| in size and pressure, N: the relative error of the load is 5e-7 at 1 N."""
+"""Smoothing of |load| in semi-axes and pressure, N: the relative error of the load is 5e-7 at 1 N."""
 AGM_PASSES = 7
 NEWTON_STEPS = 4
 
 
 class PointContact(eqx.Module):
-    r"""Two curved elastic bodies pressed together at a point; principal planes along and across rolling.
+    r"""Two curved elastic bodies pressed together at a point, with principal planes along and across rolling.
 
-    The semi-axes a along and c across the rolling direction are in the ratio k = c/a that solves
-    $R_y/R_x = k^2B(m)/D(m)$, $m = 1 - 1/k^2$ (B, D the complete elliptic integrals $\int\cos^2$, $\int\sin^2$ over
-    $\sqrt{1 - m\sin^2}$), $\sqrt{ac} = [6k^{1/2}E(m)QR/(\pi E')]^{1/3}$, $1/R = 1/R_x + 1/R_y$, and
-    $p_0 = 3Q/(2\pi ac)$; for $R_y < R_x$ the planes change places.
+    The semi-axes are a along and c across rolling. Their ratio k = c/a solves $R_y/R_x = k^2B(m)/D(m)$,
+    $m = 1 - 1/k^2$, with the complete elliptic integrals B and D of $\cos^2/\sqrt{1 - m\sin^2}$ and
+    $\sin^2/\sqrt{1 - m\sin^2}$. Their size follows from $\sqrt{ac} = [6k^{1/2}E(m)QR/(\pi E')]^{1/3}$,
+    $1/R = 1/R_x + 1/R_y$, and the pressure is $p_0 = 3Q/(2\pi ac)$. For $R_y < R_x$ the two planes are exchanged.
 
-    **Limits:** k = 1 with $dk/d(R_y/R_x) = 2/3$ at $R_x = R_y$. At load 0 size and pressure are those of 1 mN, with
-    gradient 0; a negative load counts as |Q|.
-    **Validity:** half-space, elastic, frictionless. Round-off in k for radius ratios from 1e-6 to 1e6.
+    **Limits:** k = 1 with $dk/d(R_y/R_x) = 2/3$ at $R_x = R_y$. At load 0 semi-axes and pressure are those of 1 mN,
+    with gradient 0; a negative load counts as |Q|.
+    **Validity:** elastic half-spaces without friction. k is exact to round-off for radius ratios from 1e-6 to 1e6.
     **Reference:** Hertz (1881); Johnson, *Contact Mechanics*, ch. 4.
     """
 
@@ -45,25 +45,28 @@ class PointContact(eqx.Module):
             require_numbers("> 0", **{name: getattr(self, name)})
 
     def shaped(self) -> "PointContact":
-        """The same contact that knows the shape of its ellipse, a root, which laws ask for again and again. Not to be
-        changed: `eqx.tree_at` would leave it the shape of the old radii; a `dataclasses.replace` forgets the shape."""
+        """The same contact with the shape of its ellipse stored.
+
+        The shape takes a root search, and the laws need it many times. Do not change the radii of the result with
+        `eqx.tree_at`: the stored shape would remain that of the old radii. `dataclasses.replace` removes the shape.
+        """
         return eqx.tree_at(lambda c: c.shape, self, self._shape(), is_leaf=lambda leaf: leaf is None)
 
     def ellipticity(self) -> Float[Array, "..."]:
-        """k = c/a, semi-axis across over semi-axis along rolling."""
+        """Ellipticity k = c/a, semi-axis across rolling over semi-axis along rolling."""
         return jnp.exp(self._shape().log_ellipticity)
 
     def log_second_kind(self) -> Float[Array, "..."]:
-        """ln of the complete elliptic integral E(m) of the ellipse, m = 1 - (shorter over longer semi-axis)^2."""
+        """Logarithm of the complete elliptic integral E(m), m = 1 - (shorter over longer semi-axis)^2."""
         shape = self._shape()
         return jnp.log(shape.size) - 0.5 * jnp.abs(shape.log_ellipticity)
 
     def semi_axis_rolling(self, load: Values) -> Float[Array, "..."]:
-        """a, m. **Arguments:** `load`, N, >= 0."""
+        """Semi-axis a along rolling, m. **Arguments:** `load`, N, >= 0."""
         return self.ellipse(load).rolling
 
     def semi_axis_transverse(self, load: Values) -> Float[Array, "..."]:
-        """c, m. **Arguments:** `load`, N, >= 0."""
+        """Semi-axis c across rolling, m. **Arguments:** `load`, N, >= 0."""
         return self.ellipse(load).transverse
 
     def hertz_pressure(self, load: Values) -> Float[Array, "..."]:
@@ -86,19 +89,23 @@ class PointContact(eqx.Module):
         return jnp.square(self._compliance(self._shape())) * (jnp.pi / 1.5 * jnp.asarray(pressure)) ** 3
 
     def stiffness_constant(self) -> Float[Array, "..."]:
-        r"""$K = Q/\delta^{3/2}$, N/m^(3/2), $\pi kE'\sqrt{2ER/(9K_1^3)}$ with the complete integrals E and $K_1$."""
+        r"""Stiffness constant $K = Q/\delta^{3/2}$, N/m^(3/2).
+
+        $K = \pi kE'\sqrt{2ER/(9K_1^3)}$ with the complete elliptic integrals E and $K_1$ of second and first kind; k is
+        the longer semi-axis over the shorter one.
+        """
         log_k = jnp.abs(log_ellipticity(self._log_radius_ratio()))
         integrals = _elliptic(log_k)
         root = jnp.sqrt(2.0 / 9.0 * _second_kind(integrals, log_k) / (self._curvature() * integrals.k))
         return jnp.pi * jnp.exp(log_k) * self.reduced_modulus * root / integrals.k
 
     def load_at_approach(self, approach: Values) -> Float[Array, "..."]:
-        """Load of bodies that are this much nearer than where they first touch, N, 0 where they are apart.
-        **Arguments:** `approach`, m."""
+        """Load at an approach of the bodies, N; 0 if they do not touch. **Arguments:** `approach`: from first contact,
+        m."""
         return self.stiffness_constant() * positive_power(approach, 1.5)
 
     def approach(self, load: Values) -> Float[Array, "..."]:
-        """Approach of the bodies from where they first touch, m; its slope grows without bound towards 0.
+        """Approach of the bodies from first contact, m; its slope grows without bound as the load goes to 0.
         **Arguments:** `load`, N, >= 0."""
         return (jnp.asarray(load) / self.stiffness_constant()) ** (2.0 / 3.0)
 
@@ -109,16 +116,16 @@ class PointContact(eqx.Module):
         return hertz_shape(self._log_radius_ratio()) if self.shape is None else self.shape
 
     def _curvature(self) -> Array:
-        """1/R, 1/m."""
+        """Sum 1/R of the curvatures, 1/m."""
         return jnp.asarray(1.0 / self.reduced_radius_rolling + 1.0 / self.reduced_radius_transverse)
 
     def _compliance(self, shape: "HertzShape") -> Array:
-        """sqrt(a c)^3 over the load, m^3/N."""
+        """Ratio of sqrt(a c)^3 to the load, m^3/N."""
         return 6.0 / jnp.pi * shape.size / (self._curvature() * self.reduced_modulus)
 
 
 class Ellipse(NamedTuple):
-    """Loaded ellipse: semi-axes along and across rolling, m, and peak pressure, Pa."""
+    """Contact ellipse: semi-axes along and across rolling, m, and peak pressure, Pa."""
 
     rolling: Float[Array, "..."]
     transverse: Float[Array, "..."]
@@ -133,15 +140,19 @@ PointContact.__init__.__doc__ = """**Arguments:**
 
 
 class HertzShape(NamedTuple):
-    """Part of the ellipse that depends on the radii alone: ln(c/a), and $\\sqrt{k}\\,E(m)$ with k = c/a or a/c,
-    whichever is larger."""
+    """Quantities of the ellipse that depend on the radii only.
+
+    - `log_ellipticity`: ln(c/a).
+    - `size`: $\\sqrt{k}\\,E(m)$ with k = c/a or a/c, whichever is larger.
+    """
 
     log_ellipticity: Float[Array, "..."]
     size: Float[Array, "..."]
 
 
 class _Elliptic(NamedTuple):
-    """K, B, D = int sin^2/sqrt(1 - m sin^2), B = K - D, and dD/dm; m = 1 - exp(-2 log_k), log_k >= 0."""
+    """Complete elliptic integrals K, B = K - D and D = int sin^2/sqrt(1 - m sin^2), and the slope dD/dm, at
+    m = 1 - exp(-2 log_k), log_k >= 0."""
 
     k: Array
     b: Array
@@ -150,8 +161,8 @@ class _Elliptic(NamedTuple):
 
 
 def _elliptic(log_k: Array) -> _Elliptic:
-    """Complete elliptic integrals by the arithmetic-geometric mean. They are regular at m = 0, where K - E and
-    E - (1 - m) K would cancel."""
+    """Complete elliptic integrals by the arithmetic-geometric mean. They are exact near m = 0 too, where the
+    differences K - E and E - (1 - m) K would lose digits by cancellation."""
     m = -jnp.expm1(-2.0 * log_k)
     arithmetic, geometric = jnp.ones_like(log_k), jnp.exp(-log_k)
     excess = term = jnp.zeros_like(log_k)  # D/K = 1/2 + m excess
@@ -166,17 +177,17 @@ def _elliptic(log_k: Array) -> _Elliptic:
 
 
 def _second_kind(integrals: _Elliptic, log_k: Array) -> Array:
-    """E = B + (1 - m) D."""
+    """Complete elliptic integral of the second kind, E = B + (1 - m) D."""
     return integrals.b + integrals.d * jnp.exp(-2.0 * log_k)
 
 
 def _log_ratio(integrals: _Elliptic, log_k: Array) -> Array:
-    """ln(Ry/Rx) = 2 ln k + ln B - ln D, for ln k >= 0."""
+    """Logarithm of Ry/Rx, 2 ln k + ln B - ln D, for ln k >= 0."""
     return 2.0 * log_k + jnp.log(integrals.b) - jnp.log(integrals.d)
 
 
 def _log_ratio_slope(integrals: _Elliptic, log_k: Array) -> Array:
-    """Slope of `_log_ratio` in ln k."""
+    """Derivative of `_log_ratio` with respect to ln k."""
     first_slope = 0.5 * jnp.exp(2.0 * log_k) * integrals.b  # dK/dm
     bracket = (first_slope - integrals.d_slope) / integrals.b - integrals.d_slope / integrals.d
     return 2.0 + 2.0 * jnp.exp(-2.0 * log_k) * bracket
@@ -185,9 +196,9 @@ def _log_ratio_slope(integrals: _Elliptic, log_k: Array) -> Array:
 @jax.custom_jvp
 @compiled_by_hand
 def log_ellipticity(log_ratio: Array) -> Array:
-    """ln(c/a) of the Hertz ellipse from ln(Ry/Rx): odd, slope 2/3 at 0.
+    """Logarithm of c/a of the Hertz ellipse as a function of ln(Ry/Rx): odd, with slope 2/3 at 0.
 
-    Four Newton steps from Hamrock and Brewe's approximation end at round-off for |ln(Ry/Rx)| up to 14.
+    Four Newton steps from Hamrock and Brewe's approximation give it to round-off for |ln(Ry/Rx)| up to 14.
     """
     size = jnp.abs(log_ratio)
     log_k = -jnp.expm1(-size) * jnp.log(1.0339) + 0.636 * size
@@ -196,7 +207,7 @@ def log_ellipticity(log_ratio: Array) -> Array:
         integrals = _elliptic(log_k)
         return log_k - (_log_ratio(integrals, log_k) - size) / _log_ratio_slope(integrals, log_k)
 
-    # a loop, not four copies: they would be half of what a ball bearing takes to compile
+    # a loop: four copies of the step would take half of the time to compile a ball bearing
     return jnp.sign(log_ratio) * jax.lax.fori_loop(0, NEWTON_STEPS, newton, log_k)
 
 
@@ -209,13 +220,14 @@ def _log_ellipticity_jvp(primals, tangents):
 
 @jax.custom_jvp
 def _size(log_k: Array) -> Array:
-    """sqrt(k) E(m) for ln k >= 0; its slope in closed form: autodiff of the integrals would be most of a derivative."""
+    """Size sqrt(k) E(m) for ln k >= 0. Its derivative is given in closed form, because automatic differentiation of the
+    integrals would take most of the time of a derivative."""
     return jnp.exp(0.5 * log_k) * _second_kind(_elliptic(log_k), log_k)
 
 
 @_size.defjvp
 def _size_jvp(primals, tangents):
-    """dE/dm = -D/2."""
+    """Derivative of `_size`, with dE/dm = -D/2."""
     (log_k,), (log_k_dot,) = primals, tangents
     size = _size(log_k)
     return size, (0.5 * size - jnp.exp(-1.5 * log_k) * _elliptic(log_k).d) * log_k_dot
@@ -223,7 +235,7 @@ def _size_jvp(primals, tangents):
 
 @compiled_by_hand
 def hertz_shape(log_ratio: Array) -> HertzShape:
-    """The shape of the ellipse from ln(Ry/Rx)."""
+    """Shape of the ellipse as a function of ln(Ry/Rx)."""
     log_k = log_ellipticity(log_ratio)
-    # even and smooth at 0, where the slope of |x| would hide the second derivative
+    # even and smooth at 0; with `jnp.abs`, whose derivative at 0 is 0, the second derivative would be lost
     return HertzShape(log_k, _size(jnp.where(log_k < 0, -log_k, log_k)))

@@ -14,9 +14,10 @@ from .line import LOAD_FLOOR, log_entrainment_sum, log_material_number
 from .point import PointContact
 
 POINT_LOAD_FLOOR = 1e-6
-"""Smallest load number M: the film of an unloaded contact (then 4e13 R U^(1/2)) is limited by geometry, not by this."""
+"""Smallest load number M. The film of an unloaded contact is then finite (4e13 R U^(1/2)); the clearance limits it, not
+the formula."""
 RADIUS_RATIO_FLOOR = 1e-4
-"""Smallest Rx/Ry: there the contact is a line."""
+"""Smallest ratio Rx/Ry in the film formula; such a contact is practically a line contact."""
 
 
 class AbstractPointFilm(Checked):
@@ -68,11 +69,14 @@ class NijenbanningVennerMoes(AbstractPointFilm):
     $H_{EP} = 1.48C^{-7/20}\lambda^{-1/24}M^{-1/12}L^{3/4}$, $H_{00} = 1.80/\lambda$,
     $s = \frac32[1 + \exp(-1.2H_{EI}/H_{EP})]$.
 
-    **Limits:** each regime's film where it dominates; the isoviscous film at $\alpha$ = 0 (floored at 1e-25 1/Pa).
-    **Validity:** $\lambda\le1$, rolling along the minor axis; for $\lambda$ > 1 it extrapolates: use
-    `ChittendenCentral`. Below 1e-4 $\lambda$ counts as 1e-4. M is floored as $\sqrt{M^2 + 10^{-12}}$, the speed
-    levels off at 1e-6 m/s. About 10 % from Hamrock and Dowson in the elastic-piezoviscous regime.
-    **Reference:** Nijenbanning, Venner and Moes (1994), Wear 176, 217; constants as recalled, checked by their limits.
+    **Limits:** the film of each regime where this regime dominates; the isoviscous film at $\alpha$ = 0 (1e-25 1/Pa is
+    added to $\alpha$).
+    **Validity:** $\lambda\le1$, rolling along the minor axis of the ellipse. For $\lambda$ > 1, where the formula
+    extrapolates, use `ChittendenCentral`. A $\lambda$ below 1e-4 counts as 1e-4. M is floored as
+    $\sqrt{M^2 + 10^{-12}}$, and $u_1+u_2$ levels off at 1e-6 m/s. In the elastic-piezoviscous regime the film differs
+    from that of Hamrock and Dowson by about 10 %.
+    **Reference:** Nijenbanning, Venner and Moes (1994), Wear 176, 217; the constants are from memory, checked by their
+    limits.
     """
 
     piezoviscous_only: ClassVar[bool] = False
@@ -121,7 +125,7 @@ class NijenbanningVennerMoes(AbstractPointFilm):
     def _groups(
         contact: PointContact, load: Values, entrainment_speed: Values, viscosity: Values, pressure_viscosity: Values
     ) -> tuple[Array, Array, Array]:
-        """ln U, M and ln L."""
+        """Groups of Moes: ln U, M and ln L."""
         radius, modulus = contact.reduced_radius_rolling, contact.reduced_modulus
         stiffness = modulus * radius
         log_u = log_entrainment_sum(entrainment_speed) + jnp.log(viscosity) - jnp.log(stiffness)
@@ -130,7 +134,7 @@ class NijenbanningVennerMoes(AbstractPointFilm):
 
 
 def _log_rigid_isoviscous(log_ratio: Array, log_m: Array) -> Array:
-    """ln H_RI of `NijenbanningVennerMoes`, from the logarithms of Rx/Ry and M."""
+    """Logarithm of H_RI in `NijenbanningVennerMoes`, from the logarithms of Rx/Ry and M."""
     side_flow = jnp.log1p(0.796 * jnp.exp(14.0 / 15.0 * log_ratio))
     return jnp.log(145.0) - 15.0 / 7.0 * side_flow - log_ratio - 2.0 * log_m
 
@@ -141,10 +145,11 @@ class HamrockDowsonCentral(AbstractPointFilm):
     $h_c/R_x = 2.69\,U^{0.67}G^{0.53}W^{-0.067}(1 - 0.61e^{-0.73k})$, $U = \mu u/(E'R_x)$ with u the *mean* speed,
     $G = \alpha E'$, $W = Q/(E'R_x^2)$, $k = 1.03(R_y/R_x)^{0.64}$.
 
-    **Validity:** the elastic-piezoviscous regime only; fitted for k >= 1, below it extrapolates; without the film of
-    light loads (see `RigidBlend`). The load levels off at 1e-9 N, the speed at 0.5e-6 m/s, alpha at 1e-25 1/Pa.
+    **Validity:** the elastic-piezoviscous regime only: at light load the film is far too thin (see `RigidBlend`).
+    Fitted for k >= 1; for smaller k the formula extrapolates. The load levels off at 1e-9 N, the speed at 0.5e-6 m/s
+    and alpha at 1e-25 1/Pa.
     **Reference:** Hamrock and Dowson (1977), ASME J. Lubr. Technol. 99, 264; source eqs. (59)-(60), whose factor
-    1.691 belongs to the sum speed.
+    1.691 belongs to the sum of the speeds.
     """
 
     piezoviscous_only: ClassVar[bool] = True
@@ -170,7 +175,7 @@ class HamrockDowsonMinimum(AbstractPointFilm):
 
     **Validity:** as `HamrockDowsonCentral`.
     **Reference:** Hamrock and Dowson (1977), ASME J. Lubr. Technol. 99, 264; source eqs. (58) and (60), whose factor
-    2.266 belongs to the sum speed.
+    2.266 belongs to the sum of the speeds.
     """
 
     piezoviscous_only: ClassVar[bool] = True
@@ -190,15 +195,15 @@ class HamrockDowsonMinimum(AbstractPointFilm):
 
 
 class ChittendenCentral(AbstractPointFilm):
-    r"""Central film of an elastohydrodynamic point contact that rolls along either axis of its ellipse.
+    r"""Central film of an elastohydrodynamic point contact that rolls along the minor or the major axis of its ellipse.
 
     $h_c/R_x = 4.31\,U^{0.68}G^{0.49}W^{-0.073}[1 - \exp(-1.23(R_y/R_x)^{2/3})]$, groups as in `HamrockDowsonCentral`.
 
-    **Limits:** within 5 % of Hamrock and Dowson's film of a circle.
-    **Validity:** the elastic-piezoviscous regime only, with the floors of `HamrockDowsonCentral`; fitted for rolling
-    along the minor axis as well as along the major one (R_y < R_x), there down to about R_y/R_x = 0.1.
-    **Reference:** Chittenden, Dowson, Dunn and Taylor (1985), Proc. R. Soc. A 397, 245; constants as recalled, checked
-    by that limit.
+    **Limits:** for a circular contact within 5 % of Hamrock and Dowson's film.
+    **Validity:** the elastic-piezoviscous regime only, with the floors of `HamrockDowsonCentral`. Fitted for rolling
+    along the minor axis and, down to about R_y/R_x = 0.1, along the major axis (R_y < R_x).
+    **Reference:** Chittenden, Dowson, Dunn and Taylor (1985), Proc. R. Soc. A 397, 245; the constants are from memory,
+    checked by this limit.
     """
 
     piezoviscous_only: ClassVar[bool] = True
@@ -224,13 +229,13 @@ class RigidBlend(AbstractPointFilm):
     $h_{RI} = R_xU^{1/2}H_{RI}$, $H_{RI} = 145(1 + 0.796\lambda^{14/15})^{-15/7}\lambda^{-1}M^{-2}$, groups as in
     `NijenbanningVennerMoes`; n = 3 by default.
 
-    **Limits:** the wrapped film at high load: higher than that by $r^n/n$, r the ratio of the two films; for Hamrock
-    and Dowson's, L = 10 and a circle this is 4e-10 at M = 100, 4e-7 at M = 30 and 3e-4 at M = 10. $h_{RI}$ as Q -> 0:
-    the film then grows as $Q^{-2}$, so a ball in any clearance carries a small positive load and has a place of its
-    own, where the wrapped law, with $Q^{-0.067}$, has no film that fills the clearance.
-    **Validity:** an interpolation; at equal films the sum is 26 % above either (n = 3). The plateau of a
-    rigid-piezoviscous contact between the two is left out; `NijenbanningVennerMoes` has it. M is floored as there. Do
-    not wrap that law, which contains $h_{RI}$ already.
+    **Limits:** at high load the given film, plus the fraction $r^n/n$ of it with $r = h_{RI}/h_{film}$; with Hamrock
+    and Dowson's film of a circular contact and L = 10 this is 4e-10 at M = 100, 4e-7 at M = 30 and 3e-4 at M = 10. As
+    Q -> 0 the film is $h_{RI}$. It grows as $Q^{-2}$ and fills any clearance, so that an unloaded ball carries a small
+    positive load and has a definite position; the given film grows as $Q^{-0.067}$ only and does not fill a clearance.
+    **Validity:** an interpolation; where both films are equal, the sum is 26 % above them (n = 3). The plateau of a
+    rigid-piezoviscous contact between them is missing; `NijenbanningVennerMoes` has it. M is floored as there. Do not
+    use the blend with that law, which contains $h_{RI}$ already.
     **Reference:** Nijenbanning, Venner and Moes (1994), Wear 176, 217, for $h_{RI}$; the blend is ours.
     """
 
@@ -266,7 +271,7 @@ RigidBlend.__init__.__doc__ = """**Arguments:**
 
 
 def _fitted_ellipticity(contact: PointContact) -> Array:
-    """Hamrock and Dowson's k, part of their fit: not the exact one of `PointContact`."""
+    """Ellipticity k in the formulas of Hamrock and Dowson: their approximation, not the exact k of `PointContact`."""
     ratio = jnp.log(contact.reduced_radius_transverse) - jnp.log(contact.reduced_radius_rolling)
     return 1.03 * jnp.exp(0.64 * ratio)
 
@@ -274,7 +279,7 @@ def _fitted_ellipticity(contact: PointContact) -> Array:
 def _log_groups(
     contact: PointContact, load: Values, entrainment_speed: Values, viscosity: Values, pressure_viscosity: Values
 ) -> tuple[Array, Array, Array]:
-    """ln of U with the mean speed, G and W."""
+    """Logarithms of U with the mean speed, G and W, as in `HamrockDowsonCentral`."""
     stiffness = contact.reduced_modulus * contact.reduced_radius_rolling
     log_speed = log_entrainment_sum(entrainment_speed) - LOG_2 + jnp.log(viscosity) - jnp.log(stiffness)
     log_material = log_material_number(pressure_viscosity, contact.reduced_modulus)

@@ -14,7 +14,7 @@ from ..numerics.precision import as_float
 
 
 class AbstractProfile(Checked):
-    """Radial drop of a roller's surface along its length; a straight roller has none."""
+    """Radial drop of a roller's surface along its length; a straight roller has no profile."""
 
     part: ClassVar[str] = "profile"
 

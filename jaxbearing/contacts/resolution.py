@@ -20,7 +20,7 @@ The last column is the time of one evaluation in a batch in us, with Ree-Eyring,
 - The processor takes four strips at a time, and by symmetry only half of the strips are computed: multiples of 8 are
   fastest.
 - With spin the stress nearly jumps where the shear rate changes sign, and the strips, not the steps, limit the
-  accuracy: such contacts have presets of their own.
+  accuracy: contacts with spin have presets of their own.
 
 Measured with spin (`tests/benchmarks/accuracy.py`): 40 random ellipses of 0.7 to 2.2 GPa, c/a up to 12, the sliding
 along rolling changing sign inside or near the contact. 95 % of the errors are below the first number, all below the
@@ -54,7 +54,7 @@ class Resolution:
     """Steps and strips of the traction integral.
 
     **Arguments:**
-    - `steps`: number of steps of the march along each strip, >= 1; even with `extrapolate`.
+    - `steps`: number of steps of the march along each strip, >= 1; an even number with `extrapolate`.
     - `strips`: number of Gauss points across the whole contact, >= 1; without spin half of them are computed, in a line
       contact one.
     - `extrapolate`: whether the march is repeated with half the steps to remove the leading error, of second order in

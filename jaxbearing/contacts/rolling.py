@@ -75,8 +75,8 @@ class RigidRollingResistance(AbstractRollingResistance):
     **Limits:** linear in the speed at a given film.
     **Validity:** isoviscous oil, h the minimum film: then exact for rigid cylinders and within 4 % of own full
     solutions for elastic ones. A piezoviscous oil has a thicker film and, at that film, 30 to 55 % more resistance
-    than this law gives. It is no upper bound; that is $4.16\sqrt{\mu u\ell Q}$, the same law at the film of rigid
-    cylinders under the same load.
+    than this law gives. The law is no upper bound; $4.16\sqrt{\mu u\ell Q}$, its value at the film of rigid cylinders
+    under the same load, is one.
     **Reference:** Martin (1916), Engineering 102, 119.
     """
 

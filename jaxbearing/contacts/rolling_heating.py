@@ -17,7 +17,7 @@ HEATINGS = (AIHARA, FILM_TEMPERATURE)
 
 
 def aihara_factor(mean_speed: Values, inlet: InletOil) -> Float[Array, "..."]:
-    r"""$\phi_P = 1/(1 + 0.29L^{0.78})$, $L = -(\partial\mu/\partial T)u^2/k$ of the oil at the inlet temperature.
+    r"""Aihara's factor $\phi_P = 1/(1 + 0.29L^{0.78})$, $L = -(\partial\mu/\partial T)u^2/k$ at the inlet temperature.
 
     **Limits:** 1 at rest; the power is linear below L = 1e-9.
     **Validity:** within 0.025 of own inlet calculations at L = 0.1 to 7 (Hertz gap, heat of the parabolic flow

@@ -104,7 +104,7 @@ def layer_of_flow(capture: Values, oil_flow: Values, width: Values, speed: Value
 
 
 def hertz_gap(half_width: Values, radius: Values, distance: Values) -> Float[Array, "..."]:
-    r"""Gap of a dry Hertzian line contact beside it, m: $\frac{a^2}{2R}[X\sqrt{X^2-1} - \text{arccosh}X]$, $X = x/a$.
+    r"""Gap beside a dry Hertzian line contact, m: $\frac{a^2}{2R}[X\sqrt{X^2-1} - \text{arccosh}X]$, $X = x/a$.
 
     **Validity:** line contacts, and wide ellipses in the plane of rolling; a circular contact has an 18 % wider gap at
     X = 1.5. At X <= 1, inside the contact, X - 1 is continued smoothly as $10^{-3}e^{1000(X-1)}$.

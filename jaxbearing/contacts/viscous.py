@@ -22,7 +22,7 @@ SMALLEST_RATE = 1e-100
 class AbstractViscousFunction(Checked):
     r"""Viscous function $q = F(s)$, odd and increasing with F'(0) = 1.
 
-    s is the stress over the oil's characteristic stress, q the shear rate times viscosity over that stress.
+    Here s is the stress over the oil's characteristic stress, q the shear rate times viscosity over that stress.
     """
 
     part: ClassVar[str] = "contact.traction"
@@ -67,7 +67,7 @@ class AbstractLimitingFunction(AbstractViscousFunction):
 
 
 class ReeEyring(AbstractViscousFunction):
-    r"""$F(s) = \sinh s$; the characteristic stress is the Eyring stress.
+    r"""Ree and Eyring's $F(s) = \sinh s$; the characteristic stress is the Eyring stress.
 
     **Limits:** $s\approx\ln 2q$ at large q; no limiting stress.
     **Reference:** Ree and Eyring (1955), J. Appl. Phys. 26, 793; source eqs. (66)-(67).
@@ -89,7 +89,7 @@ class ReeEyring(AbstractViscousFunction):
 
 
 class BairWiner(AbstractLimitingFunction):
-    r"""$F(s) = -\ln(1 - s)$ for s >= 0, odd; the characteristic stress is the limiting stress.
+    r"""Bair and Winer's $F(s) = -\ln(1 - s)$ for s >= 0, odd; the characteristic stress is the limiting stress.
 
     **Limits:** s < 1; at s = 0 only the first derivative is continuous.
     **Reference:** Bair and Winer (1979), ASME J. Lubr. Technol. 101, 258; the source prints a garbled factor.
@@ -117,7 +117,7 @@ class BairWiner(AbstractLimitingFunction):
 
 
 class GecimWiner(AbstractLimitingFunction):
-    r"""$F(s) = \mathrm{artanh}\,s$; the characteristic stress is the limiting stress.
+    r"""Gecim and Winer's $F(s) = \mathrm{artanh}\,s$; the characteristic stress is the limiting stress.
 
     **Limits:** s < 1.
     **Reference:** Gecim and Winer (1980), ASME J. Lubr. Technol. 102, 213.
@@ -146,7 +146,9 @@ class GecimWiner(AbstractLimitingFunction):
 
 
 class ElsharkawyHamrock(AbstractLimitingFunction):
-    r"""$F(s) = s(1 - s^n)^{-1/n}$ for s >= 0, odd; the characteristic stress is the limiting stress.
+    r"""Elsharkawy and Hamrock's $F(s) = s(1 - s^n)^{-1/n}$ for s >= 0, odd.
+
+    The characteristic stress is the limiting stress.
 
     **Limits:** s < 1; $n\to\infty$ is Newton's law up to the limiting stress.
     **Reference:** Elsharkawy and Hamrock (1991), ASME J. Tribology 113, 645; the source prints the exponent 1/n

@@ -1,4 +1,4 @@
-"""Rigid lubricant films: cage land, cage pocket, roller ends and flanges, oil drag."""
+"""Lubricant films outside the raceway contacts (cage land, cage pocket, roller ends and flanges), and oil drag."""
 
 from .ball_pocket import BallPocket as BallPocket
 from .ball_pocket import BallPocketFilm as BallPocketFilm

@@ -1,4 +1,4 @@
-"""Ball between the walls of its round cage pocket: rigid balance of two films."""
+"""Ball between the walls of its round cage pocket: balance of two rigid films."""
 
 from typing import NamedTuple
 
@@ -10,18 +10,18 @@ from ..numerics.safe import safe_norm, smooth_abs
 from ..numerics.structure import choice
 
 SPIN_FLOOR = 1.0
-"""Spin that keeps a film on a ball at rest, rad/s: raises the load by 1.4e-8 at 6000 rad/s."""
+"""Smoothing of |spin|, rad/s: keeps a film on a ball at rest and raises the load by 1.4e-8 at 6000 rad/s."""
 CUT_FILMS = 20.0
-"""The friction integral reaches to this many central films, or to the clearance where that is more."""
+"""Gap, over the central film, up to which the friction is integrated; up to the clearance if that is larger."""
 SUPERPOSITIONS = ("root_of_squares", "sum")
-"""Rule by which the entrainments along and across the axis of a pocket give one load: exact, or as in the source."""
+"""Rules that add the loads of entrainment along and across the pocket's axis: exact, and as in the source."""
 
 
 class BallPocketFilm(NamedTuple):
     """Films (m), loads (N) and friction forces (N) on the front and the rear side of the pocket.
 
-    `friction` opposes the component of the spin about the bearing axis (positive for a positive spin there): on the
-    ball it acts inward in front and outward behind. `transverse` opposes the component about the radial axis.
+    `friction` opposes the ball's spin about the bearing axis and has its sign: if positive, it acts on the ball inward
+    in front and outward behind. `transverse` opposes the spin about the radial axis.
     """
 
     film_front: Batch
@@ -43,19 +43,19 @@ class BallPocketFilm(NamedTuple):
 
 
 class BallPocket(Checked):
-    r"""A ball floating in a cylindrical pocket whose axis is radial, two elliptical rigid isoviscous films.
+    r"""A ball floating in a cylindrical pocket with a radial axis, between two elliptical rigid isoviscous films.
 
     On each side $W = \sqrt{W_1^2 + W_2^2}$ with $W_i(h) = 6\sqrt2\,\pi\mu u_iR_i\sqrt{R_j/h}/(3 + 2R_i/R_j)$. $W_1$ is
-    the load of the entrainment along the pocket's axis ($R_1 = R_b$), $W_2$ that of the one across it ($R_2 = R_c =
+    the load by entrainment along the pocket's axis ($R_1 = R_b$), $W_2$ that by entrainment across it ($R_2 = R_c =
     R_bR_p/(R_p - R_b)$). The root of the squares is exact: the pressures $(c_1x + c_2y)/h^2$ of both add up, and the
-    film breaks along the one line where their sum is zero. With `superposition="sum"`, as in the source, each film
-    breaks along its own line, and the load is up to 41 % larger. Friction
-    $\mu uA$ with $A = 2\pi\sqrt{R_bR_c}\ln(h_{cut}/h)$, $h_{cut} = \max(20h, J_p)$; $H_1 + H_2 = J_p$.
+    film ruptures along the line where their sum is zero. With `superposition="sum"`, as in the source, each pressure
+    ends at its own line, and the load is up to 41 % larger. The friction is $\mu uA$ with
+    $A = 2\pi\sqrt{R_bR_c}\ln(h_{cut}/h)$, $h_{cut} = \max(20h, J_p)$. Both films fill the clearance, $H_1 + H_2 = J_p$.
 
     **Limits:** a film remains on a ball at rest (`SPIN_FLOOR`); its friction vanishes with the spin.
     **Validity:** rigid, isoviscous, half Sommerfeld films; light loads. The source superposes a long and a short
-    bearing of lengths it does not give; these are the classical forms in their place.
-    **Reference:** Kapitza (1955), Zh. Tekh. Fiz. 25, 747; source, Table 1. `CompliantBallPocketFace` has squeeze too.
+    bearing without giving their lengths; here the classical point-contact solutions replace them.
+    **Reference:** Kapitza (1955), Zh. Tekh. Fiz. 25, 747; source, Table 1. `CompliantBallPocketFace` adds squeeze.
 
     **Arguments:**
     - `clearance`: J_p, DIAMETRAL: pocket diameter minus ball diameter, m, > 0.
@@ -68,15 +68,15 @@ class BallPocket(Checked):
     superposition: str = choice("superposition", SUPERPOSITIONS, "root_of_squares")
 
     def balance(self, net_load: Values, axial_spin: Values, radial_spin: Values, viscosity: Values) -> BallPocketFilm:
-        r"""Films that carry a given net load, in closed form: both loads go as $h^{-1/2}$.
+        r"""Films that carry a given net load, in closed form.
 
-        With $H_1 = J_p\sin^2\theta$, $H_2 = J_p\cos^2\theta$, $k = P\sqrt{J_p}/B$, $W = B/\sqrt h$:
-        $\cos\theta - \sin\theta = d = k/(1 + \sqrt{1 + k^2})$.
+        With the load $W = B/\sqrt h$ of each film, $H_1 = J_p\sin^2\theta$, $H_2 = J_p\cos^2\theta$ and
+        $k = P\sqrt{J_p}/B$: $\cos\theta - \sin\theta = d = k/(1 + \sqrt{1 + k^2})$.
 
         **Arguments:**
-        - `net_load`: P = front load minus rear load, N, any sign.
-        - `axial_spin`, `radial_spin`: components of the spin relative to the orbit, rad/s: against the orbit's sense
-          about the bearing axis, and outward.
+        - `net_load`: P = front load minus rear load, N, of either sign.
+        - `axial_spin`, `radial_spin`: spin of the ball in the orbiting frame, rad/s: about the bearing axis, positive
+          against the orbit; about the radial axis, positive outward.
         - `viscosity`, Pa s.
         """
         shape = 2.0 * self.ball_radius + self.clearance
@@ -92,8 +92,8 @@ class BallPocket(Checked):
         root = jnp.sqrt(1.0 + jnp.square(k))
         d = k / (1.0 + root)
         rest = 2.0 / (1.0 + root)  # 1 - d^2
-        # cos + sin = sqrt(1 + rest): the smaller of the two from their product, so that nothing cancels; where, not
-        # abs: at k = 0 the films do depend on k
+        # cos + sin = sqrt(1 + rest): the smaller of the two from their product, so that nothing cancels; `where` and
+        # not `abs`, whose slope is 0 at k = 0, where the films depend on k
         both, forward = jnp.sqrt(1.0 + rest), k >= 0
         signed = jnp.where(forward, d, -d)
         wide, tight = 0.5 * (both + signed), rest / (both + signed)

@@ -1,4 +1,4 @@
-"""Ball at one wall of its round pocket: rolling and squeeze together, rigid and compliant."""
+"""Ball at one wall of its round pocket: a film with rolling and squeeze, between rigid or compliant bodies."""
 
 from typing import NamedTuple
 
@@ -15,12 +15,12 @@ from .ball_pocket import CUT_FILMS
 LOG_LOAD_RANGE = (-80.0, 35.0)
 """Bracket of ln(load/N)."""
 LOAD_STEP = 1e-5
-"""Last step of ln(load), whose cube is left as its error."""
+"""Largest last step in the search for ln(load), which leaves an error of about its cube."""
 
 
 class BallPocketFace(NamedTuple):
-    """One wall: load (N), film (m), friction on the ball along and across the pocket's axis (N, signed as the surface
-    speeds), residual of the gap equation relative to the film."""
+    """Results of one wall: load (N), film (m), friction along and across the pocket's axis (N, with the signs of the
+    surface speeds), residual of the gap equation relative to the film."""
 
     load: Batch
     film: Batch
@@ -30,34 +30,35 @@ class BallPocketFace(NamedTuple):
 
 
 class CompliantBallPocketFace(Checked):
-    r"""Film between a ball and one wall of its round pocket, which gives way: any rigid gap, also negative.
+    r"""Film between a ball and one compliant wall of its round pocket, for any rigid gap, also negative.
 
     For a gap $h + x^2/2R_1 + y^2/2R_2$ Reynolds' equation with entrainment and squeeze has the exact solution
-    $p = (C + c_1x + c_2y)/(h + x^2/2R_1 + y^2/2R_2)^2$. Half Sommerfeld, $\max(p, 0)$, it carries
+    $p = (C + c_1x + c_2y)/(h + x^2/2R_1 + y^2/2R_2)^2$. With half Sommerfeld cavitation, $\max(p, 0)$, it carries
 
     $$W = \frac{\pi\sqrt{R_1R_2}}{h}\left[C + \sqrt{C^2 + X^2}\right],\quad C = \frac{-6\mu\dot h}{1/R_1 + 1/R_2},\quad
     X^2 = h\sum_i 2R_i\left[\frac{6\mu u_i}{3 + 2R_i/R_j}\right]^2,$$
 
     axis 1 along the pocket's axis with $R_1 = R_b$, axis 2 across it with $R_2 = R_c = R_bR_p/(R_p - R_b)$. The wall
-    yields by Hertz' $(W/K)^{2/3}$, and W follows from $h(W) - (W/K)^{2/3} = H$, the rigid gap. The ratio of C to X
-    takes $h_s = (H + \sqrt{H^2 + 4h_{min}^2})/2$ for the film, so that $h = (A/W)^2$ with a known A:
+    deflects by Hertz' $(W/K)^{2/3}$, and W follows from $h(W) - (W/K)^{2/3} = H$, the rigid gap. In the ratio of C to X
+    the film is replaced by $h_s = (H + \sqrt{H^2 + 4h_{min}^2})/2$, so that $h = (A/W)^2$ with A independent of W:
     $A = \pi\sqrt{R_1R_2}X_0e^{\mathrm{asinh}\,s}$, $X_0 = X/\sqrt h$, $s = C/(X_0\sqrt{h_s})$.
-    The entrainment along the axis is $\sqrt{u_1^2 + u_{min}^2}$.
+    In the load, the speed along the axis is $\sqrt{u_1^2 + u_{min}^2}$.
 
-    Friction $\mu u_iA_h$, $A_h = 2\pi\sqrt{R_1R_2}\ln\max(20, J_p/h)$.
+    The friction is $\mu u_iA_h$, $A_h = 2\pi\sqrt{R_1R_2}\ln\max(20, J_p/h)$.
 
-    **Limits:** no squeeze: `BallPocket`; no entrainment: $12\pi\mu v\sqrt{R_1R_2}/[h(1/R_1 + 1/R_2)]$;
+    **Limits:** no squeeze: `BallPocket`; no entrainment: $12\pi\mu v\sqrt{R_1R_2}/[h(1/R_1 + 1/R_2)]$, $v = -\dot h$;
     separation: the load falls as 1/speed and stays positive; deep overlap: Hertz.
-    **Validity:** isoviscous. Films of some nanometres at 100 N have no meaning; the flattening decides there.
-    **Reference:** Kapitza (1955), Zh. Tekh. Fiz. 25, 747, for rolling alone; the solution with both is checked against
-    Reynolds' equation and by quadrature (`tests/gaps/test_ball_pocket_face.py`).
+    **Validity:** isoviscous. Film thicknesses of a few nanometres (at 100 N) have no physical meaning; the load is
+    then that of the elastic flattening.
+    **Reference:** Kapitza (1955), Zh. Tekh. Fiz. 25, 747, for rolling alone; the solution with squeeze is checked
+    against Reynolds' equation and by quadrature (`tests/gaps/test_ball_pocket_face.py`).
 
     **Arguments:**
     - `clearance`: J_p, DIAMETRAL: pocket diameter minus ball diameter, m, > 0.
     - `ball_radius`: R_b, m, > 0.
-    - `stiffness`: K of Hertz' law between ball and wall, radii R_b and R_c, N/m^1.5, > 0.
-    - `minimum_speed`: u_min, m/s, > 0.
-    - `minimum_film`: h_min of the ratio of squeeze to entrainment, m, > 0.
+    - `stiffness`: K of Hertz' law between ball and wall (radii R_b and R_c), N/m^1.5, > 0.
+    - `minimum_speed`: u_min, floor of the speed along the axis, m/s, > 0.
+    - `minimum_film`: h_min, floor of the film in the ratio of squeeze to entrainment, m, > 0.
     """
 
     clearance: Scalar = bounded("> 0")
@@ -68,7 +69,7 @@ class CompliantBallPocketFace(Checked):
 
     @property
     def conforming_radius(self) -> Scalar:
-        """R_c of the gap across the pocket's axis, m."""
+        """Reduced radius R_c across the pocket's axis, m."""
         return self.ball_radius * (2.0 * self.ball_radius + self.clearance) / self.clearance
 
     def elastic_energy(self, load: Values) -> Batch:
@@ -78,14 +79,14 @@ class CompliantBallPocketFace(Checked):
     def rigid_load(
         self, film: Values, film_rate: Values, speed_along: Values, speed_across: Values, viscosity: Values
     ) -> Batch:
-        """W of a rigid wall, N, without a least entrainment.
+        """Load W of a rigid wall, N; `minimum_speed` does not count here.
 
         **Arguments:** `film`, h, m, > 0; `film_rate`, dh/dt, m/s; `speed_along`, `speed_across`, of the ball's surface
         at the wall, m/s; `viscosity`, Pa s.
         """
         rolling = jnp.sqrt(film) * self._entrainment(speed_along, speed_across, viscosity)
         squeeze = self._squeeze(film_rate, viscosity)
-        # where it separates the sum cancels: use the conjugate
+        # on separation the sum cancels: use the conjugate
         length = safe_norm(squeeze, rolling)
         apart = squeeze < 0
         both = jnp.square(rolling) / (length - jnp.where(apart, squeeze, 0.0))
@@ -93,12 +94,12 @@ class CompliantBallPocketFace(Checked):
         return jnp.pi * mean_radius / film * jnp.where(apart, both, squeeze + length)
 
     def _squeeze(self, film_rate: Values, viscosity: Values) -> Batch:
-        """C, N/m."""
+        """Squeeze term C, N."""
         radii = 1.0 / self.ball_radius + 1.0 / self.conforming_radius
         return -6.0 * viscosity * jnp.asarray(film_rate) / radii
 
     def _entrainment(self, speed_along: Values, speed_across: Values, viscosity: Values) -> Batch:
-        """X over the root of the film, N/m^1.5."""
+        """Entrainment term X over the root of the film, N/m^0.5."""
         radius, across = self.ball_radius, self.conforming_radius
         first = speed_along * jnp.sqrt(radius) / (3.0 + 2.0 * radius / across)
         second = speed_across * jnp.sqrt(across) / (3.0 + 2.0 * across / radius)
@@ -129,8 +130,8 @@ class CompliantBallPocketFace(Checked):
 
 
 class Entering(NamedTuple):
-    """The ways in which a film carries its load: `squeeze`, C, N/m; `rolling`, X over the root of the film, N/m^1.5;
-    `mean_radius`, root of R_1 R_2, m."""
+    """Terms of the load of a film, see `CompliantBallPocketFace`: `squeeze`, C, N; `rolling`, X over the root of the
+    film, N/m^0.5; `mean_radius`, root of R_1 R_2, m."""
 
     squeeze: Batch
     rolling: Batch
@@ -140,9 +141,9 @@ class Entering(NamedTuple):
 def yielding_film(
     gap: Values, entering: Entering, stiffness: Scalar, minimum_film: Scalar
 ) -> tuple[Array, Array, Array]:
-    """Load, N, film, m, and residual relative to the film, of a wall that yields, see `CompliantBallPocketFace`.
+    """Load, N, film, m, and residual relative to the film at a compliant wall, see `CompliantBallPocketFace`.
 
-    **Arguments:** `gap`, H, m, any sign; `stiffness`, N/m^1.5; `minimum_film`, m.
+    **Arguments:** `gap`, H, m, of either sign; `entering`, terms of the load; `stiffness`, N/m^1.5; `minimum_film`, m.
     """
     gap = jnp.asarray(gap)
     root = jnp.sqrt(jnp.square(gap) + 4.0 * jnp.square(minimum_film))
@@ -169,13 +170,13 @@ def yielding_film(
 
 
 def _balance(log_load: Array, args: tuple[Array, Array, Array]) -> Array:
-    """H + flattening - film: increasing in ln W."""
+    """Residual of the gap equation, H + flattening - film, m: increasing in ln W."""
     gap, log_rigid, log_stiffness = args
     return gap + jnp.exp(2.0 / 3.0 * (log_load - log_stiffness)) - jnp.exp(2.0 * (log_rigid - log_load))
 
 
 def _expansion(log_load: Array, args: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
-    """The balance, its slope and its curvature over ln W."""
+    """Value of `_balance` and its first and second derivative with respect to ln W."""
     gap, log_rigid, log_stiffness = args
     flat = jnp.exp(2.0 / 3.0 * (log_load - log_stiffness))
     film = jnp.exp(2.0 * (log_rigid - log_load))

@@ -12,12 +12,12 @@ from ..numerics.safe import softplus_floor
 from ..numerics.structure import count
 
 FILM_FLOOR = 0.5e-6
-"""Least end film, m."""
+"""Smallest film at a roller end, m."""
 FILM_FLOOR_WIDTH = 0.05e-6
-"""Smoothing of that floor, m: 7 % at the floor, below 1e-12 above 2 um."""
+"""Smoothing width of `FILM_FLOOR`, m: raises the film by 7 % at the floor, by less than 1e-12 above 2 um."""
 LENS_EDGE = 1e-13
-"""Radius ratio within which a rail edge counts as the edge of the roller circle (the exact limit:
-nothing lies beyond); without it the angle of a tangent race would have an infinite slope."""
+"""Distance from the edge of the roller circle, over the roller radius, within which a rail edge counts as lying on it
+(where the lens ends); without it the angle of a tangent race would have an infinite slope."""
 NODES = 40
 
 
@@ -35,12 +35,12 @@ class EndForces(NamedTuple):
 
 
 def _lens(start: Values, stop: Values, pitch_radius: Values, roller_radius: Values):
-    r"""Nodes on the part of [start, stop] inside the roller circle: r, phi, sin(phi), weights dr.
+    r"""Quadrature over the part of [start, stop] inside the roller circle: r, phi, sin(phi), weights dr.
 
-    phi(r) is the half angle of the roller circle seen from the bearing centre. With
+    phi(r) is half of the angle, seen from the bearing centre, that the roller circle covers at the radius r. With
     $r = R_m + R_R\sin\theta$ the square root at the circle's edge becomes the smooth $\cos\theta$:
-    $\sin(\phi/2) = R_R\cos\theta/(2\sqrt{rR_m})$, so a 40-point rule is exact to round-off and a
-    rail that misses the circle has an interval of length 0. dr < 0 if stop < start.
+    $\sin(\phi/2) = R_R\cos\theta/(2\sqrt{rR_m})$, so that 40 points are exact to round-off. A rail that misses the
+    circle has an interval of length 0. dr < 0 if stop < start.
     """
 
     def angle(radius):
@@ -60,12 +60,12 @@ def _lens(start: Values, stop: Values, pitch_radius: Values, roller_radius: Valu
 
 
 def end_film(film: Values) -> Batch:
-    """Smooth max(film, 0.5 um): an end gap may close, the shear stress may not diverge."""
+    """Smooth max(film, 0.5 um): keeps the shear stress finite where an end gap closes."""
     return softplus_floor(film, FILM_FLOOR, FILM_FLOOR_WIDTH)
 
 
 class FlangeCoefficients(eqx.Module):
-    r"""The flange integrals with the viscosity in them; forces are linear in the two speeds.
+    r"""Flange integrals including the viscosity; the forces are linear in both speeds.
 
     `first` = n int (mu/h) 2 r phi dr; `second` = n int (mu/h) 2 r^2 sin(phi) dr;
     `third` = n int (mu/h) 2 r^3 phi dr.
@@ -95,24 +95,24 @@ class FlangeCoefficients(eqx.Module):
 
 
 class Flange(Checked):
-    r"""Roller ends against the flanges of one ring; works for either ring.
+    r"""Roller ends against the flanges of one ring, inner or outer.
 
-    Integrals over the lens between the roller circle and the flange annulus from `race_radius` to
-    `rim_radius` (rim > race on the inner ring, rim < race on the outer), film
-    $h = h_0 + |r - R_{race}|\tan\theta_f$. With $\phi(r)$ the half angle of the roller circle:
+    The integrals cover the lens in which the roller circle overlaps the flange annulus from `race_radius` to
+    `rim_radius` (rim > race on the inner ring, rim < race on the outer). The film is
+    $h = h_0 + |r - R_{race}|\tan\theta_f$. With $\phi(r)$ the half angle of the roller circle (see `_lens`):
 
     $F_t = n\int\frac{\mu r}{h}[-2(w-\Omega)r\sin\phi + 2wR_m\phi]\,dr$,
     $M = -n\int\frac{\mu r}{h}[2\phi((w-\Omega)r^2 + wR_m^2) - 2\sin\phi(2w-\Omega)R_mr]\,dr$,
     $M_{ring} = n\int\frac{\mu r}{h}[2\phi(w-\Omega)r^2 - 2wR_mr\sin\phi]\,dr$.
 
     **Limits:** the film is floored at 0.5 um (`end_film`); no overlap: no force, finite gradients.
-    **Validity:** laminar plane Couette flow, no normal load, corner chamfers ignored.
+    **Validity:** laminar plane Couette flow, no normal load, no corner chamfers.
     **Reference:** classical Couette shear; the source names it in Table 3 row 6, without a formula.
 
     **Arguments:**
     - `race_radius`, `rim_radius`: of raceway and rim of the flange about the bearing axis, m, > 0.
     - `pitch_radius`, `roller_radius`: of the circle of roller centres, and of a roller, m, > 0.
-    - `side_clearance`: film at the race, AXIAL, on ONE side: half of the total axial guiding clearance (decision), m.
+    - `side_clearance`: h_0, film at the race, AXIAL, ONE side: half of the total axial guiding clearance (decision), m.
     - `angle`: flange opening angle, rad.
     - `n_sides`: number of roller ends that touch flanges of this ring; structure.
     """
@@ -126,7 +126,7 @@ class Flange(Checked):
     n_sides: int = count("n_sides", 2, least=1)
 
     def coefficients(self, viscosity: Values) -> FlangeCoefficients:
-        """Integrals at a viscosity (Pa s), to be evaluated at many speeds."""
+        """Integrals at a viscosity, Pa s, for evaluation at many speeds."""
         r, phi, sin_phi, dr = _lens(self.race_radius, self.rim_radius, self.pitch_radius, self.roller_radius)
         outwards = jnp.where(self.rim_radius >= jnp.asarray(self.race_radius), 1.0, -1.0)
         height = outwards * (r - self.race_radius)
@@ -141,7 +141,7 @@ class Flange(Checked):
 
 
 class PocketEdgeCoefficients(eqx.Module):
-    """Pocket-edge integrals: n mu/j times int rho^2 dA (`polar`) and int (y - R_m) dA (`first`).
+    """Pocket-edge integrals: n mu/j times int rho^2 dA (`polar`) and times int (y - R_m) dA (`first`).
 
     **Arguments:**
     - `polar`: N m s.
@@ -164,9 +164,9 @@ class PocketEdgeCoefficients(eqx.Module):
 class PocketEdge(Checked):
     r"""Roller ends against the side rails of the cage, at rest in the orbiting frame.
 
-    $M = -n\mu w/j\int\rho^2dA$, $F_t = -n\mu w/j\int(y-R_m)dA$ over the lens of the roller circle and
-    the rail annulus from `inner_radius` to `outer_radius`; rho is the distance from the roller
-    centre, y the coordinate along the line from bearing to roller centre.
+    $M = -n\mu w/j\int\rho^2dA$, $F_t = -n\mu w/j\int(y-R_m)dA$ over the lens in which the roller circle overlaps the
+    rail annulus from `inner_radius` to `outer_radius`; rho is the distance from the roller centre, y the coordinate
+    from the bearing centre towards the roller centre.
 
     **Limits:** rails that miss the roller: no force; film floored at 0.5 um (`end_film`).
     **Validity:** laminar plane Couette flow, no normal load.
@@ -175,7 +175,7 @@ class PocketEdge(Checked):
     **Arguments:**
     - `inner_radius`, `outer_radius`: of the rails about the bearing axis, m, > 0.
     - `pitch_radius`, `roller_radius`: of the circle of roller centres, and of a roller, m, > 0.
-    - `side_clearance`: film j, AXIAL, on ONE side: half of the total axial pocket clearance, m.
+    - `side_clearance`: j, AXIAL film on ONE side: half of the total axial pocket clearance, m.
     - `n_sides`: number of roller ends beside rails; structure.
     """
 
@@ -190,7 +190,7 @@ class PocketEdge(Checked):
         r_m = self.pitch_radius
         r, phi, sin_phi, dr = _lens(self.inner_radius, self.outer_radius, r_m, self.roller_radius)
         area = jnp.sum(2.0 * r * phi * dr)
-        # grouped by differences: r^2 + R_m^2 - 2 r R_m cos cancels over a small roller
+        # written with differences, since r^2 + R_m^2 - 2 r R_m cos cancels for a small roller
         polar = jnp.sum(r * (2.0 * phi * jnp.square(r - r_m) + 4.0 * r * r_m * (phi - sin_phi)) * dr)
         first = jnp.sum(2.0 * r * ((r - r_m) * phi - r * (phi - sin_phi)) * dr)
         return area, polar, first
@@ -200,7 +200,7 @@ class PocketEdge(Checked):
         return self._integrals()[0]
 
     def coefficients(self, viscosity: Values) -> PocketEdgeCoefficients:
-        """Integrals at a viscosity (Pa s), to be evaluated at many speeds."""
+        """Integrals at a viscosity, Pa s, for evaluation at many speeds."""
         _, polar, first = self._integrals()
         scale = self.n_sides * jnp.asarray(viscosity) / end_film(self.side_clearance)
         return PocketEdgeCoefficients(polar=scale * polar, first=scale * first)

@@ -1,4 +1,4 @@
-"""Long journal bearing, half Sommerfeld: the ball in its cage pocket."""
+"""Long journal bearing with half Sommerfeld cavitation, for a ball in its cage pocket."""
 
 import jax.numpy as jnp
 
@@ -8,7 +8,7 @@ from .journal import saturated_eccentricity
 
 
 class LongJournal(Checked):
-    r"""Long journal film with pressure on the fixed arc 0..pi (half Sommerfeld), isoviscous, rigid.
+    r"""Film of a long journal bearing with pressure on the fixed arc 0 to pi (half Sommerfeld), isoviscous and rigid.
 
     Signs as in `ShortJournal`; $k = 1-\epsilon^2$, $K = \mu R^3L/c^2$,
     $\bar\omega = (\omega_j+\omega_b)/2 - \dot\phi$:
@@ -16,9 +16,9 @@ class LongJournal(Checked):
     $F_r = -K[24\epsilon^2\bar\omega/((2+\epsilon^2)k) + 12\dot\epsilon(\pi/2 - 8/(\pi(2+\epsilon^2)))k^{-3/2}]$,
     $F_t = K[12\pi\epsilon\bar\omega/((2+\epsilon^2)\sqrt k) + 24\epsilon\dot\epsilon/((2+\epsilon^2)k)]$.
 
-    **Limits:** concentric and steady: no force; eps -> 1: smoothly saturated at 0.995 (finite).
-    **Validity:** width of several radii; the squeeze part holds negative pressure and is meant for
-    small approach speeds only, so steady use takes the wedge part alone (rate 0).
+    **Limits:** concentric and steady: no force; eps -> 1: finite, eps saturates smoothly at 0.995.
+    **Validity:** width of several radii. The squeeze part includes negative pressure and holds for small approach
+    speeds only; steady calculations use the wedge part alone (rate 0).
     **Reference:** Sommerfeld (1904); Pinkus and Sternlicht (1961), *Theory of Hydrodynamic
     Lubrication*; the source names the contact in Table 3 without a formula.
 
@@ -41,10 +41,10 @@ class LongJournal(Checked):
         whirl_speed: Values,
         viscosity: Values,
     ) -> tuple[Batch, Batch]:
-        """(F_r, F_t) on the journal along e_r and e_t, N.
+        """Forces (F_r, F_t) on the journal along e_r and e_t, N.
 
-        **Arguments:** `eccentricity_rate` d eps/dt, 1/s; speeds, rad/s, `whirl_speed` that of the
-        line of centres; `viscosity`, Pa s.
+        **Arguments:** `eccentricity_rate`, d eps/dt, 1/s; `journal_speed`, `bush_speed`, and `whirl_speed` of the line
+        of centres, rad/s; `viscosity`, Pa s.
         """
         eps = saturated_eccentricity(eccentricity_ratio)
         one = 1.0 - jnp.square(eps)
@@ -61,9 +61,9 @@ class LongJournal(Checked):
     def friction_torque(
         self, eccentricity_ratio: Values, journal_speed: Values, bush_speed: Values, viscosity: Values
     ) -> Batch:
-        r"""$4\pi\mu(\omega_j-\omega_b)R^3L(1+2\epsilon^2)/(c(2+\epsilon^2)\sqrt k)$, N m (both arcs wet).
+        r"""Shear torque $4\pi\mu(\omega_j-\omega_b)R^3L(1+2\epsilon^2)/(c(2+\epsilon^2)\sqrt k)$, N m, both arcs wet.
 
-        Concentric it is Petroff's $2\pi\mu\,\Delta\omega R^3L/c$.
+        In a concentric gap it is Petroff's $2\pi\mu\,\Delta\omega R^3L/c$.
         """
         eps2 = jnp.square(saturated_eccentricity(eccentricity_ratio))
         scale = 4.0 * jnp.pi * viscosity * (self.radius**3 * self.width / self.clearance)
@@ -77,7 +77,7 @@ class LongJournal(Checked):
         bush_speed: Values,
         viscosity: Values,
     ) -> tuple[Batch, Batch]:
-        r"""(on the journal, on the bush), N m: $\mp T_c - \epsilon cF_t/2$ as in `ShortJournal.torques`."""
+        r"""Torques on the journal and on the bush, N m, $\mp T_c - \epsilon cF_t/2$ as in `ShortJournal.torques`."""
         shear = self.friction_torque(eccentricity_ratio, journal_speed, bush_speed, viscosity)
         couple = 0.5 * eccentricity_ratio * self.clearance * tangential_force
         return -shear - couple, shear - couple

@@ -12,11 +12,11 @@ from ..numerics.safe import smooth_abs
 from ..numerics.series import horner
 
 MARTIN_LOAD = 4.894968493913369
-"""Gw at s = 0: W = 4.895 mu u R L/h (Martin's 4.9; 2.45 if written with u1 + u2)."""
+"""Load factor Gw at s = 0: W = 4.895 mu u R L/h (Martin's 4.9; 2.45 with u1 + u2 in place of the mean speed u)."""
 MARTIN_SHEAR = 2.01435066101268
-"""Gs at s = 0."""
+"""Shear factor Gs at s = 0."""
 MARTIN_ROLLING = 6.506905317803327
-"""Gr at s = 0."""
+"""Rolling factor Gr at s = 0."""
 SPEED_WIDTH = 1e-9
 """Smoothing of the entrainment speed at rest, m/s: relative error 5e-13 at 1 mm/s."""
 _EXIT_START = (
@@ -24,8 +24,10 @@ _EXIT_START = (
     *(1.354473076, 0.682223562, -1.286782901, -0.6947424993, 1.131742606, 0.6585831024, -0.874813446),
     *(-0.478793966, 0.5172988587, 0.2392884099, -0.1930806543, -0.07298827808, 0.03282697006, 0.01025568186),
 )
-"""T/sqrt(1 + s^2) as a polynomial in s/(1 + sqrt(1 + s^2)): Chebyshev interpolation over all s, pure squeeze (1, -3/8)
-included, right to 3e-8; one Newton step squares that."""
+"""Coefficients of T/sqrt(1 + s^2) as a polynomial in s/(1 + sqrt(1 + s^2)).
+
+They come from Chebyshev interpolation over all s, with the limits 1 and -3/8 of pure squeeze; one Newton step squares
+the error of 3e-8."""
 _SERIES_BELOW = 0.8
 _SERIES = range(1, 14)
 _I2_SERIES = tuple((-1) ** (k + 1) * 4.0**k / (2 * math.factorial(2 * k + 1)) for k in _SERIES)
@@ -34,7 +36,7 @@ _ARCTAN_SERIES = tuple((-1) ** k / (2 * k + 1) for k in range(12))
 
 
 class MartinFactors(NamedTuple):
-    """Load, Couette shear and rolling factors of a line film (Gw, Gs, Gr)."""
+    """Factors of load, Couette shear and rolling of a line film (Gw, Gs, Gr)."""
 
     load: Batch
     shear: Batch
@@ -42,8 +44,11 @@ class MartinFactors(NamedTuple):
 
 
 def _angle(sin: Values, cos: Values) -> Batch:
-    """Angle between 0 and pi: it, or its supplement, is halved three times, and the rest is a series (error < 1e-16).
-    On a CPU XLA leaves the arctangent of doubles to scalar code, which takes seven times as long."""
+    """Angle between 0 and pi from its sine and cosine (error < 1e-16).
+
+    The angle, or its supplement, is halved three times, and the arctangent of that is a series. The arctangent of jnp
+    takes seven times as long on a CPU, where XLA calls scalar code for doubles.
+    """
     tangent = sin / (1.0 + jnp.abs(cos))
     for _ in range(2):
         tangent = tangent / (1.0 + jnp.sqrt(1.0 + tangent * tangent))
@@ -53,10 +58,10 @@ def _angle(sin: Values, cos: Values) -> Batch:
 
 
 def _moments(exit_position: Values) -> tuple[Batch, Batch, Batch, Batch]:
-    r"""beta, sin(beta), I2, I4 with $\beta = \pi/2 + \arctan T$, $I_n = \int_0^\beta \sin^n$.
+    r"""Values of beta, sin(beta), I2, I4 with $\beta = \pi/2 + \arctan T$, $I_n = \int_0^\beta \sin^n$.
 
-    Counting the angle from the inlet end keeps the far-separating case (T -> -inf, beta -> 0)
-    free of cancellation; below beta = 0.8 the integrals are their Taylor series (error < 1e-16).
+    With the angle counted from the inlet, fast separation (T -> -inf, beta -> 0) is free of cancellation; below
+    beta = 0.8 the integrals are computed by their Taylor series (error < 1e-16).
     """
     sin = 1.0 / jnp.sqrt(1.0 + exit_position * exit_position)
     cos = -exit_position * sin
@@ -70,7 +75,7 @@ def _moments(exit_position: Values) -> tuple[Batch, Batch, Batch, Batch]:
 
 
 class _Exit(NamedTuple):
-    """Exit position T of a film, and `_moments` there."""
+    """Exit position T of a film and the `_moments` at it."""
 
     position: Batch
     angle: Batch
@@ -80,11 +85,11 @@ class _Exit(NamedTuple):
 
 
 def _excess_and_slope(exit_: _Exit) -> tuple[Batch, Batch]:
-    r"""T + s(T) and ds/dT < 0.
+    r"""Sum T + s(T), and the slope ds/dT < 0.
 
-    The printed quotient is $s = (I_2-(1+T^2)I_4)/D$, $D = TI_4 + \sin^4\beta/4$; with
-    $I_4 = \tfrac34I_2 - \tfrac14\cos\beta\sin^3\beta$ it is $I_2/(4D) - T$, which does not cancel.
-    With dI2/dT = sin^4, dD/dT = I4 the slope is $-I_4(2T+s)/D$.
+    The printed quotient is $s = (I_2-(1+T^2)I_4)/D$, $D = TI_4 + \sin^4\beta/4$. With
+    $I_4 = \tfrac34I_2 - \tfrac14\cos\beta\sin^3\beta$ it is $s = I_2/(4D) - T$, which does not cancel. With
+    dI2/dT = sin^4 and dD/dT = I4 the slope is $-I_4(2T+s)/D$.
     """
     t, _, sin, i2, i4 = exit_
     denominator = t * i4 + 0.25 * sin**4
@@ -93,7 +98,7 @@ def _excess_and_slope(exit_: _Exit) -> tuple[Batch, Batch]:
 
 
 def _moved(exit_: _Exit, way: Values) -> _Exit:
-    """First-order effect of a small change of T."""
+    """First-order change of T and the moments by a small change `way` of T."""
     t, _, sin, _, _ = exit_
     square = sin * sin
     return _Exit(way, square * way, -t * sin * square * way, square**2 * way, square**3 * way)
@@ -101,8 +106,11 @@ def _moved(exit_: _Exit, way: Values) -> _Exit:
 
 @jax.custom_jvp
 def _exit(s):
-    """Newton's step from a polynomial, and its first-order effect on the moments, the dear part, which are computed
-    once: it leaves a relative error of 4e-13 in the factors."""
+    """Exit position and moments at s, by one Newton step from the polynomial `_EXIT_START`.
+
+    The moments are expensive: they are computed once, at the start, and corrected to first order. The relative error of
+    the factors is 4e-13.
+    """
     root = jnp.sqrt(1.0 + s * s)
     t = root * horner(_EXIT_START, s / (1.0 + root))
     start = _Exit(t, *_moments(t))
@@ -117,9 +125,9 @@ def _exit_jvp(primals, tangents):
 
 
 def martin_exit(s: Values) -> Batch:
-    r"""Exit position T (in $\sqrt{2Rh_0}$) of a line film with squeeze number s, p = dp/dx = 0 there.
+    r"""Exit position T, in units of $\sqrt{2Rh_0}$, of a line film with squeeze number s; there p = dp/dx = 0.
 
-    Inverse of the explicit, decreasing $s(T) = -(I_2-(1+T^2)I_4)/(J_3-TI_4)$ by Newton, with the
+    The inverse of the explicit, decreasing $s(T) = -(I_2-(1+T^2)I_4)/(J_3-TI_4)$ by Newton's method, with the
     derivative 1/s'(T), for |s| < 1e60.
 
     **Limits:** 0.4751 at s = 0; -s as s -> -inf (pure squeeze); -3s/8 as s -> +inf.
@@ -131,7 +139,7 @@ def martin_exit(s: Values) -> Batch:
 
 
 def _factors(speed: Values, squeeze: Values) -> MartinFactors:
-    """u Gw, Gs and u Gr at u and $\\dot h\\sqrt{2R/h_0}$, m/s: finite as u -> 0, where Gw is not."""
+    """Products u Gw and u Gr, and Gs, from u and $\\dot h\\sqrt{2R/h_0}$, m/s: finite as u -> 0, where Gw is not."""
     speed, squeeze = jnp.asarray(speed), jnp.asarray(squeeze)
     found = _exit(squeeze / speed)
     t, beta, sin, i2, _ = found
@@ -145,7 +153,7 @@ def _factors(speed: Values, squeeze: Values) -> MartinFactors:
 
 
 def martin_factors(s: Values) -> MartinFactors:
-    r"""Load, shear and rolling factors at the squeeze number $s = (\dot h/u)\sqrt{2R/h_0}$, |s| < 1e60.
+    r"""Factors of load, shear and rolling at the squeeze number $s = (\dot h/u)\sqrt{2R/h_0}$, |s| < 1e60.
 
     With $\beta = \pi/2+\arctan T$ (see `martin_exit`): $G_s = \beta$, $G_w = 6(\sin^2\beta - sI_2)$,
     $G_r = 12[\beta - I_2/\sin^2\beta - s(\sin^2\beta/2 + TI_2)]$.
@@ -167,7 +175,7 @@ def martin_load(
 ) -> Batch:
     r"""Normal load $W = \mu uRL/h_0\,G_w(s)$, N, >= 0.
 
-    **Limits:** as u -> 0 that of pure squeeze, $3\sqrt2\pi\mu L(R/h_0)^{3/2}(-\dot h)$ on approach, 0 on separation.
+    **Limits:** u -> 0: pure squeeze, $3\sqrt2\pi\mu L(R/h_0)^{3/2}(-\dot h)$ on approach, 0 on separation.
 
     **Arguments:** `viscosity`, Pa s; `entrainment_speed` u = |u1 + u2|/2 relative to the contact,
     m/s; `radius`, equivalent, m; `length`, m; `film`, minimum film h0, m, > 0; `squeeze_rate`,
@@ -188,7 +196,10 @@ def martin_shear(
     film: Values,
     squeeze_rate: Values,
 ) -> Batch:
-    r"""Couette force $F_s = \mu(u_1-u_2)L\sqrt{2R/h_0}\,G_s(s)$, N, signed as u1 - u2. Arguments of `martin_load`."""
+    r"""Couette force $F_s = \mu(u_1-u_2)L\sqrt{2R/h_0}\,G_s(s)$, N, with the sign of u1 - u2.
+
+    **Arguments:** `sliding_speed`, u1 - u2, m/s; others as in `martin_load`.
+    """
     require_numbers("> 0", viscosity=viscosity, radius=radius, length=length, film=film)
     require_numbers(
         "finite", sliding_speed=sliding_speed, entrainment_speed=entrainment_speed, squeeze_rate=squeeze_rate
@@ -200,10 +211,10 @@ def martin_shear(
 def martin_rolling(
     viscosity: Values, entrainment_speed: Values, radius: Values, length: Values, film: Values, squeeze_rate: Values
 ) -> Batch:
-    r"""Pressure-flow (rolling) force $P = \mu uL\sqrt{2R/h_0}\,G_r(s)$, N: the integral of h dp/dx. 0 in pure squeeze.
+    r"""Pressure-flow (rolling) force $P = \mu uL\sqrt{2R/h_0}\,G_r(s)$, N: the integral of h dp/dx, 0 in pure squeeze.
 
-    With u1 > u2 >= 0, entrainment along body 1: shear on body 1 is -(Fs + P/2), on body 2 Fs - P/2;
-    pressure adds +P R/R_k along the motion on body k of radius R_k. Arguments of `martin_load`.
+    With u1 > u2 >= 0 the shear force on body 1, along its motion, is -(Fs + P/2), and on body 2 Fs - P/2; the pressure
+    adds +P R/R_k along the motion on body k, of radius R_k. **Arguments:** as in `martin_load`.
     """
     require_numbers("> 0", viscosity=viscosity, radius=radius, length=length, film=film)
     require_numbers("finite", entrainment_speed=entrainment_speed, squeeze_rate=squeeze_rate)

@@ -1,4 +1,4 @@
-"""Two like balls that meet: film between them, or contact."""
+"""Ball-to-ball contact: two equal balls that meet, with a film between them or in contact."""
 
 from typing import NamedTuple
 
@@ -10,11 +10,11 @@ from ..numerics.safe import safe_norm
 from .ball_pocket_face import Entering, yielding_film
 
 SHARPNESS = 8.0
-"""n of the friction: how sharply it ends at a gap of R_b; a gap of R_b/10 has that of n = oo to 1e-9."""
+"""Exponent n of the friction: how sharply it ends at a gap of R_b; at R_b/10 it is that of n -> oo to 1e-9."""
 
 
 class MetBalls(NamedTuple):
-    """Load, N, film, m, friction over the sliding speed, N s/m, residual of the gap equation relative to the film."""
+    """Load, N, film, m, friction force over sliding speed, N s/m, and residual of the gap equation over the film."""
 
     load: Batch
     film: Batch
@@ -23,24 +23,23 @@ class MetBalls(NamedTuple):
 
 
 class MeetingBalls(Checked):
-    r"""Film between two like balls that meet, or contact between them: any rigid gap, also negative.
+    r"""Film or contact between two equal balls that meet, for any rigid gap, also negative.
 
-    The load is that of `CompliantBallPocketFace` with $R_1 = R_2 = R_b/2$. Balls that turn alike have surfaces that
-    move against each other where they meet: they slide by twice that speed and carry no oil in, so that only squeeze
+    The load is that of `CompliantBallPocketFace` with $R_1 = R_2 = R_b/2$. Where two balls of equal spin meet, their
+    surfaces move in opposite directions: they slide at twice the surface speed and entrain no oil, so that only squeeze
     and elastic contact keep them apart. The friction is $\mu uA$, $A = \frac{\pi R_b}{n}\ln(1 + (R_b/h)^n)$ with
-    n = 8: that of a parabolic gap, $\pi R_b\ln(R_b/h)$, which oil fills up to the width $R_b$.
+    n = 8: that of a parabolic gap filled with oil up to the gap R_b, $\pi R_b\ln(R_b/h)$.
 
-    **Limits:** in deep overlap Hertz; the friction ends where the gap is as wide as R_b: a film does not reach from one
-    ball to another that is far away, whose lever, half the distance of the centres, would make much of it.
-    **Validity:** isoviscous, half Sommerfeld. The friction of a contact that touches is that of its film.
-    **Reference:** as `CompliantBallPocketFace`; the friction is that of a parabolic gap, cut where it is as wide as
-    R_b.
+    **Limits:** Hertz in deep overlap. The friction ends where the gap reaches R_b: no film spans the gap between
+    distant balls, whose large lever, half the distance of the centres, would exaggerate its moment.
+    **Validity:** isoviscous, half Sommerfeld. In contact, too, the friction is that of the film.
+    **Reference:** as `CompliantBallPocketFace`; friction of a parabolic gap, cut off at the gap R_b.
 
     **Arguments:**
     - `ball_radius`: R_b, m, > 0.
     - `stiffness`: of the Hertz contact of two balls, N/m^1.5, > 0.
-    - `minimum_speed`: added to the entraining speed in squares, m/s, > 0.
-    - `minimum_film`: of the ratio of squeeze to entrainment, m, > 0.
+    - `minimum_speed`: floor of the entraining speed (root of the sum of squares), m/s, > 0.
+    - `minimum_film`: floor of the film in the ratio of squeeze to entrainment, m, > 0.
     """
 
     ball_radius: Scalar = bounded("> 0")
@@ -55,7 +54,7 @@ class MeetingBalls(Checked):
     def contact(self, gap: Values, gap_rate: Values, entraining: Values, viscosity: Values) -> MetBalls:
         """Load, film and friction at a rigid gap.
 
-        **Arguments:** `gap`, m, any sign; `gap_rate`, m/s; `entraining`: sum of both surface speeds, m/s;
+        **Arguments:** `gap`, m, of either sign; `gap_rate`, m/s; `entraining`: sum of both surface speeds, m/s;
         `viscosity`, Pa s.
         """
         radius = 0.5 * jnp.asarray(self.ball_radius)

@@ -1,4 +1,4 @@
-"""Roller between the walls of its cage pocket: rigid balance of two films, compliant single face."""
+"""Roller between the walls of its cage pocket: balance of two rigid films, and the film at one compliant wall."""
 
 from typing import NamedTuple
 
@@ -15,11 +15,11 @@ from ..numerics.structure import switch
 from .martin import MARTIN_LOAD, MARTIN_ROLLING, MARTIN_SHEAR, martin_factors
 
 SPIN_FLOOR = 1.0
-"""Spin that keeps a film on a roller at rest, rad/s: raises the load speed by 1.4e-8 at 6000 rad/s."""
+"""Smoothing of |spin|, rad/s: keeps a film on a roller at rest and raises the load speed by 1.4e-8 at 6000 rad/s."""
 LOG_LOAD_RANGE = (-80.0, 35.0)
-"""Bracket of ln(load/N) in the compliant face."""
+"""Bracket of ln(load/N) at a compliant wall."""
 LOAD_STEP = 1e-5
-"""Last step of ln(load), whose cube is left as its error."""
+"""Largest last step in the search for ln(load), which leaves an error of about its cube."""
 
 
 class PocketFilm(NamedTuple):
@@ -34,18 +34,18 @@ class PocketFilm(NamedTuple):
 
 
 class Pocket(Checked):
-    r"""A roller floating between two flat parallel walls, rigid Martin films, no squeeze.
+    r"""A roller floating between two flat parallel walls, with rigid Martin films and without squeeze.
 
-    Front is the wall ahead of the roller in the sense of orbit. Loads are >= 0 and
-    $H_1 + H_2 = J_p$, $Q = k/H$ on each wall, $k = 2.447\,\mu URL$ (entrainment U/2).
+    The front wall is ahead of the roller in the sense of orbit. The films fill the clearance, $H_1 + H_2 = J_p$, and
+    the load on each wall is $Q = k/H \ge 0$, $k = 2.447\,\mu URL$ (entrainment U/2).
 
-    The load speed is $U = R_R\sqrt{s^2 + 1}$ (s the spin in rad/s; see `SPIN_FLOOR`), so a film
-    remains at rest; the friction uses the plain $R_R s$, so it vanishes at rest and its power is >= 0.
-    The friction is the Couette force only; `rolling=True` adds half the pressure-flow force P/2,
-    the share that acts on the roller's moment.
+    In the load the surface speed is $U = R_R\sqrt{s^2 + 1}$ (s the spin in rad/s; see `SPIN_FLOOR`), so that a film
+    remains at rest; in the friction it is $R_R s$, so that friction vanishes at rest and its power is >= 0.
+    The friction is the Couette force only; `rolling=True` adds half of the pressure-flow force, P/2, the part that has
+    a moment on the roller.
 
-    **Validity:** rigid, isoviscous, no side leakage (`side_leakage_factor`), light loads: at shocks
-    use `CompliantPocketFace`.
+    **Validity:** rigid, isoviscous, no side leakage (`side_leakage_factor`), light loads; for shocks use
+    `CompliantPocketFace`.
     **Reference:** Martin (1916); Dowson, Markho and Jones (1976); source, Table 3 row 2.
 
     **Arguments:**
@@ -61,24 +61,23 @@ class Pocket(Checked):
     rolling: bool = switch("rolling", False)
 
     def balance(self, net_load: Values, spin_speed: Values, viscosity: Values) -> PocketFilm:
-        r"""Films that carry a given net load, closed form.
+        r"""Films that carry a given net load, in closed form.
 
-        $H_1 = 2kJ_p/(PJ_p + 2k + \sqrt{(PJ_p)^2 + 4k^2})$; evaluated for the tighter wall, the other
-        film is $J_p$ minus it, so nothing cancels at any |P|.
+        $H_1 = 2kJ_p/(PJ_p + 2k + \sqrt{(PJ_p)^2 + 4k^2})$ is evaluated for the thinner film; the other one is $J_p$
+        minus it, so that nothing cancels at any |P|.
 
         **Arguments:**
-        - `net_load`: P = front load minus rear load, N, any sign (the roller pushes the front wall
-          when the cage holds it back).
-        - `spin_speed`: spin relative to the cage, rad/s, counted positive in the sense that an
-          orbiting roller has (against the orbit). The friction forces have its sign and are the
-          counter-moment R_R (front + rear) on the roller.
+        - `net_load`: P = front load minus rear load, N, of either sign (the roller pushes on the front wall when the
+          cage holds it back).
+        - `spin_speed`: spin relative to the cage, rad/s, positive in the sense in which an orbiting roller spins
+          (against the orbit). The friction forces have its sign; their moment R_R (front + rear) opposes the spin.
         - `viscosity`, Pa s.
         """
         spin_speed = jnp.asarray(spin_speed)
         load_speed = self.roller_radius * jnp.sqrt(jnp.square(spin_speed) + SPIN_FLOOR**2)
         k = 0.5 * MARTIN_LOAD * viscosity * load_speed * (self.roller_radius * self.length)
         forward = jnp.asarray(net_load) >= 0
-        # where, not abs: abs has slope 0 at P = 0, where the films do depend on P
+        # `where` and not `abs`, whose slope is 0 at P = 0, where the films depend on P
         push = jnp.where(forward, net_load, -jnp.asarray(net_load)) * self.clearance
         tight = 2.0 * k * self.clearance / (push + 2.0 * k + jnp.sqrt(jnp.square(push) + 4.0 * jnp.square(k)))
         wide = self.clearance - tight
@@ -97,7 +96,7 @@ class Pocket(Checked):
 
 
 class PocketFace(NamedTuple):
-    """One compliant wall: load (N), film (m), friction on the roller (N, signed as the surface speed),
+    """Results at one compliant wall: load (N), film (m), friction on the roller (N, signed as the surface speed),
     residual of the gap equation relative to the film."""
 
     load: Batch
@@ -107,16 +106,16 @@ class PocketFace(NamedTuple):
 
 
 class CompliantPocketFace(Checked):
-    r"""Squeeze film between roller and one flat wall that gives way: any rigid gap, also negative.
+    r"""Squeeze film between a roller and one flat compliant wall, for any rigid gap, also negative.
 
-    Load Q from $h(Q) - \delta(Q) = H$ with $h = (h_M^3 + h_E^3)^{1/3}$: Martin's film with squeeze
-    $h_M = \mu uRLG_w(s)/Q$, Dowson and Higginson's elastic film
-    $h_E = 2.65R(\mu u/E'R)^{0.7}(\alpha E')^{0.54}(Q/E'RL)^{-0.13}$ and Palmgren's flattening
-    $\delta = 0.39(8/E')^{0.9}L^{-0.8}Q^{0.9}$. $u = \sqrt{U^2+U_{min}^2}/2$ and
+    The load Q follows from $h(Q) - \delta(Q) = H$, the rigid gap, with the film $h = (h_M^3 + h_E^3)^{1/3}$ of Martin's
+    film with squeeze, $h_M = \mu uRLG_w(s)/Q$, and Dowson and Higginson's elastic film,
+    $h_E = 2.65R(\mu u/E'R)^{0.7}(\alpha E')^{0.54}(Q/E'RL)^{-0.13}$, and with Palmgren's flattening
+    $\delta = 0.39(8/E')^{0.9}L^{-0.8}Q^{0.9}$. The speed is $u = \sqrt{U^2+U_{min}^2}/2$, the squeeze number
     $s = (\dot H/u)\sqrt{2R/h_s}$ with $h_s = (H+\sqrt{H^2+4h_{min}^2})/2$.
 
-    **Limits:** wide gap: Martin; deep overlap: Hertz-like flattening. The blend exceeds the larger
-    of the two films by at most 26 %.
+    **Limits:** wide gap: Martin; deep overlap: Palmgren's flattening. The blend exceeds the larger of the two films by
+    at most 26 %.
     **Validity:** E' is 2/[(1-v1^2)/E1 + (1-v2^2)/E2]; no side leakage.
     **Reference:** Martin (1916); Dowson, Markho and Jones (1976); Dowson and Higginson (1966);
     Palmgren (1959), source eq. (41).
@@ -126,8 +125,8 @@ class CompliantPocketFace(Checked):
     - `length`: L along the wall, m, > 0.
     - `reduced_modulus`: E', Pa, > 0.
     - `pressure_viscosity`: alpha, 1/Pa, >= 0.
-    - `minimum_speed`: U_min, m/s, > 0.
-    - `minimum_film`: h_min of the squeeze number, m, > 0.
+    - `minimum_speed`: U_min, floor of the surface speed, m/s, > 0.
+    - `minimum_film`: h_min, floor of the film in the squeeze number, m, > 0.
     """
 
     roller_radius: Scalar = bounded("> 0")
@@ -139,7 +138,7 @@ class CompliantPocketFace(Checked):
 
     @property
     def compliance(self) -> Scalar:
-        """k of the flattening k Q^0.9, m/N^0.9."""
+        """Constant k of the flattening k Q^0.9, m/N^0.9."""
         return 0.39 * (8.0 / self.reduced_modulus) ** 0.9 / self.length**0.8
 
     def flattening_energy(self, load: Values) -> Batch:
@@ -193,20 +192,20 @@ class CompliantPocketFace(Checked):
 
 
 def _face_film(log_load: Array, log_martin: Array, log_elastic: Array) -> Array:
-    """(hM^3 + hE^3)^(1/3) at ln Q."""
+    """Film (hM^3 + hE^3)^(1/3), m, at ln Q."""
     return jnp.exp(log_add(3.0 * (log_martin - log_load), 3.0 * (log_elastic - 0.13 * log_load)) / 3.0)
 
 
 def _face_balance(log_load: Array, args: tuple[Array, Array, Array, Array]) -> Array:
-    """H + flattening - film: increasing in ln Q."""
+    """Residual of the gap equation, H + flattening - film, m: increasing in ln Q."""
     gap, log_martin, log_elastic, log_flat = args
     return gap + jnp.exp(log_flat + 0.9 * log_load) - _face_film(log_load, log_martin, log_elastic)
 
 
 def _face_expansion(log_load: Array, args: tuple[Array, Array, Array, Array]) -> tuple[Array, Array, Array]:
-    r"""The balance, its slope and its curvature over z = ln Q, at the cost of its value.
+    r"""Value of `_face_balance` and its first and second derivative with respect to z = ln Q.
 
-    With the cubes M, E of both films and a = E/(M + E): $h = (M + E)^{1/3}$, $h' = -(1 - 0.87a)h$,
+    With $M = h_M^3$, $E = h_E^3$ and a = E/(M + E): $h = (M + E)^{1/3}$, $h' = -(1 - 0.87a)h$,
     $h'' = [(1 - 0.87a)^2 + 3\,0.87^2a(1 - a)]h$.
     """
     gap, log_martin, log_elastic, log_flat = args
@@ -223,10 +222,10 @@ def _face_expansion(log_load: Array, args: tuple[Array, Array, Array, Array]) ->
 
 
 def side_leakage_factor(length: Values, radius: Values, film: Values) -> Batch:
-    r"""W_finite/W = $1/(1 + 1.58/\lambda + 3.3/\lambda^2)$, $\lambda = L/\sqrt{2Rh_0}$.
+    r"""Load of a film of finite length over that of a long one, $1/(1 + 1.58/\lambda + 3.3/\lambda^2)$.
 
-    A fit of two-dimensional Reynolds solutions with p >= 0 and no squeeze: error <= 2 % for
-    2 <= lambda <= 64. Off by default everywhere (-12 % at 100 um, -1.2 % at 1 um for 14 mm).
+    $\lambda = L/\sqrt{2Rh_0}$. Fitted to two-dimensional solutions of Reynolds' equation with p >= 0 and no squeeze:
+    error <= 2 % for 2 <= lambda <= 64. No model applies it (-12 % at a film of 100 um, -1.2 % at 1 um, L = 14 mm).
 
     **Arguments:** `length`, `radius` (equivalent), `film` > 0, m.
     """

@@ -13,12 +13,12 @@ FRICTION_GAIN, FRICTION_EXPONENT = 0.0012, 0.94
 
 
 def _regular_reynolds_power(reynolds: Values, exponent: float) -> Batch:
-    """(Re^2 + 1)^(m/2): Re^m with slope 0 at rest; relative error m/(2 Re^2), value 1 at Re = 0."""
+    """Smoothed power Re^m, (Re^2 + 1)^(m/2): 1 with slope 0 at Re = 0; relative error m/(2 Re^2)."""
     return (jnp.square(reynolds) + 1.0) ** (0.5 * exponent)
 
 
 def _fully_turbulent_excess(reynolds: Values) -> tuple[Batch, Batch]:
-    """k_z - 12 and C_f - 1 of the turbulent law."""
+    """Excess of the turbulent factors over the laminar ones, k_z - 12 and C_f - 1."""
     return (
         FLOW_GAIN * _regular_reynolds_power(reynolds, FLOW_EXPONENT),
         FRICTION_GAIN * _regular_reynolds_power(reynolds, FRICTION_EXPONENT),
@@ -26,7 +26,7 @@ def _fully_turbulent_excess(reynolds: Values) -> tuple[Batch, Batch]:
 
 
 class AbstractTurbulence(eqx.Module):
-    """Effect of turbulence on a thin film: the effective viscosity mu k_z/12 and the friction C_f."""
+    """Effect of turbulence on a thin film: effective viscosity mu k_z/12 and friction factor C_f."""
 
     @abc.abstractmethod
     def factors(self, reynolds: Values, critical_reynolds: Values) -> tuple[Batch, Batch]:
@@ -39,7 +39,7 @@ class AbstractTurbulence(eqx.Module):
 
 
 class Laminar(AbstractTurbulence):
-    """k_z = 12, C_f = 1 at every Reynolds number. The land torque is monotone in the clearance."""
+    """Laminar film: k_z = 12, C_f = 1 at every Reynolds number; the land torque is monotone in the clearance."""
 
     def factors(self, reynolds: Values, critical_reynolds: Values) -> tuple[Batch, Batch]:
         zero = jnp.zeros_like(reynolds * critical_reynolds)
@@ -51,8 +51,8 @@ class FullTurbulence(AbstractTurbulence):
 
     $k_z = 12 + 0.00430\,Re^{0.96}$, $C_f = 1 + 0.0012\,Re^{0.94}$.
 
-    **Limits:** smooth; at Re = 0 the factors are 12.0043 and 1.0012 (see `(Re^2+1)` above).
-    **Validity:** fitted above about 2 Re_c; below the onset it overstates C_f (by 56 % at Re = 691).
+    **Limits:** smooth; at Re = 0 the factors are 12.0043 and 1.0012 (see `_regular_reynolds_power`).
+    **Validity:** fitted above about 2 Re_c; below the onset of turbulence it overstates C_f (by 56 % at Re = 691).
     **Reference:** Constantinescu (1959, 1967), mean-film form; the constants are textbook values,
     not checked against the original paper.
     """
@@ -64,13 +64,13 @@ class FullTurbulence(AbstractTurbulence):
 
 
 class BlendedTurbulence(AbstractTurbulence):
-    r"""Laminar below Re_c, turbulent above 2 Re_c, a C1 smoothstep of (Re - Re_c)/Re_c between.
+    r"""Laminar below Re_c, turbulent above 2 Re_c, with a smooth transition between them.
 
-    Excess factors of `FullTurbulence` times $t^2(3-2t)$, $t = (Re-Re_c)/Re_c$ clipped to [0, 1].
+    The excess factors of `FullTurbulence` times $t^2(3-2t)$, $t = (Re-Re_c)/Re_c$ clipped to [0, 1].
 
-    A consequence to know: the land torque is *not* monotone in the clearance with this blend (a
-    wider film is slower sheared but may turn turbulent); it is with `Laminar` and `FullTurbulence`.
-    **Reference:** as `FullTurbulence`; the blend interval is our decision.
+    Unlike with `Laminar` and `FullTurbulence`, the land torque is *not* monotone in the clearance: a wider film has a
+    lower shear rate but may become turbulent.
+    **Reference:** as `FullTurbulence`; the interval of the blend is our decision.
     """
 
     def factors(self, reynolds: Values, critical_reynolds: Values) -> tuple[Batch, Batch]:

@@ -8,8 +8,8 @@ from .._types import Scalar, Values
 from ..numerics.arguments import require_angle, require_numbers
 
 RELIABILITY_FACTORS = {0.90: 1.0, 0.95: 0.64, 0.96: 0.55, 0.97: 0.47, 0.98: 0.37, 0.99: 0.25}
-"""Reliability factor a_1 of ISO 281:2007, by reliability [M]; in the edition before from 0.95 on: 0.62, 0.53, 0.44,
-0.33, 0.21."""
+"""Reliability factor a_1 of ISO 281:2007, by reliability [M]. The previous edition had 0.62, 0.53, 0.44, 0.33 and
+0.21 from 0.95 on."""
 BALL_EXPONENT, ROLLER_EXPONENT = 3.0, 10.0 / 3.0
 EXPONENTS = {"ball": BALL_EXPONENT, "roller": ROLLER_EXPONENT}
 """Exponent p of the load in ISO 281, by family."""

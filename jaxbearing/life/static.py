@@ -2,7 +2,7 @@ r"""Estimates of the basic static load rating from the Hertz pressure, at the li
 
 ISO 76 rates steel on steel. Rolling elements of another material on steel rings are rated here at the same pressure:
 $C_0 \propto 1/E'^2$ for balls, $1/E'$ for rollers. A hybrid bearing with silicon nitride balls therefore has 0.71 of
-the rating of the steel bearing. (ISO 20056-2 rates hybrid bearings; it was not at hand.)
+the rating of the steel bearing. ISO 20056-2 rates hybrid bearings; it was not at hand.
 """
 
 import jax.numpy as jnp
@@ -21,8 +21,8 @@ STEEL_MODULUS = 2.2747252747252747e11
 
 
 def rated_modulus(rings: Material, elements: Material, inner_ring: Material | None = None) -> Float[Array, ""]:
-    """Reduced modulus E' for the static rating, Pa: `STEEL_MODULUS` times the ratio of E' of elements on inner ring to
-    E' of `rings` on `rings`.
+    """Reduced modulus E' for the static rating, Pa: `STEEL_MODULUS` times the ratio of E' of the elements on the inner
+    ring to E' of `rings` on themselves.
 
     The ratio removes the grade of steel: ISO 76 gives all steels one rating. The inner contact is the rated one.
 

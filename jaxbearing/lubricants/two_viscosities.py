@@ -106,7 +106,7 @@ def require_falling(viscosity_1: Scalar, temperature_1: Scalar, viscosity_2: Sca
 
     **Arguments:** as `log_kinematic`.
 
-    **Raises:** `ValueError` for known numbers of which the viscosity does not fall.
+    **Raises:** `ValueError` if the numbers are known and the viscosity does not fall.
     """
     points = numbers_or_none(viscosity_1, viscosity_2, temperature_1, temperature_2)
     if points is not None:

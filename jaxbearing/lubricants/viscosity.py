@@ -100,7 +100,7 @@ class ModifiedWLF(AbstractViscosity):
     $T_g(p) = T_{g0} + A_1\ln(1 + A_2 p)$, $F(p) = 1 - B_1\ln(1 + B_2 p)$, $y = (T - T_g) F$,
     $\log_{10}\mu = \log_{10}\mu_g - C_1 y/(C_2 + y)$.
 
-    Coded as $(\log_{10}\mu_g - C_1) + C_1 C_2/(C_2 + y)$, which has one division and shows the pole.
+    Coded as $(\log_{10}\mu_g - C_1) + C_1 C_2/(C_2 + y)$, which has one division and makes the pole explicit.
 
     **Limits:** $\mu_g$ at $T = T_g(p)$; finite, and with a finite gradient, at every pressure and temperature.
     **Validity:** the printed law has a pole at $y = -C_2$ (cold, high pressure), and its viscosity falls again beyond

@@ -56,18 +56,18 @@ class RingSection(eqx.Module):
         return jnp.asarray(self.bending_stiffness / (self.shear_stiffness * jnp.square(self.radius)))
 
     def stiffness(self, orders: Int[np.ndarray, " order"]) -> Float[Array, " order"]:
-        """Stiffness 1/c_n of each order, N/m^2: radial load per length of circumference over deflection; 0 for n = 1."""
+        """Stiffness 1/c_n of each order, N/m^2: radial load per circumferential length over deflection; 0 for n = 1."""
         square = np.square(orders).astype(float)
         bending = self.bending_stiffness / self.radius**4 * np.square(square - 1.0) / self._softness(square)
         return jnp.where(orders == 0, self.axial_stiffness / jnp.square(self.radius), bending)
 
     def of_tangential_load(self, orders: Int[np.ndarray, " order"]) -> Float[Array, " order"]:
-        """Factor f_T of a tangential load on w_n (`bent_ring`): effect of axial strain and shear, in addition to c_n."""
+        """Factor f_T of a tangential load on w_n (`bent_ring`): effect of axial strain and shear in addition to c_n."""
         square = np.square(orders).astype(float)
         return jnp.asarray(1.0 + square * (self.axial_share + self.shear_share)) / self._softness(square)
 
     def of_moment(self, orders: Int[np.ndarray, " order"]) -> Float[Array, " order"]:
-        """Factor f_M of a couple on w_n (`bent_ring`): effect of axial strain and shear, in addition to c_n."""
+        """Factor f_M of a couple on w_n (`bent_ring`): effect of axial strain and shear in addition to c_n."""
         return 1.0 / self._softness(np.square(orders).astype(float))
 
     def _softness(self, square: Float[np.ndarray, " order"]) -> Float[Array, " order"]:
@@ -146,8 +146,8 @@ def aliased_compliance(
     At these places the orders m and $lN \pm m$ have the same shape, so that their compliances add up. With the sums the
     orders 0 to N/2 give the deflections at the places without truncation of the orders.
 
-    **Arguments:** `count`: N, even; `repeats`: number of terms l of the sum, whose remainder falls with the third power
-    of it.
+    **Arguments:** `count`: N, even; `repeats`: number of terms l of the sum. Its error falls with the third power of
+    the number; with shear strain, with the first power.
 
     **Raises:** `ValueError` for an odd `count`.
     """
@@ -172,7 +172,7 @@ def compliance_of_orders(
 def stiffness_of_orders(
     section: RingSection, foundation: Foundation | None, orders: Int[np.ndarray, " order"]
 ) -> Float[Array, " order"]:
-    """Generalised stiffness (load over amplitude) of each order, N/m: $\\pi R(1/c_n + k_f + k_t/n^2)$, twice this for n = 0."""
+    """Generalised stiffness of each order, N/m: $\\pi R(1/c_n + k_f + k_t/n^2)$, twice this for n = 0."""
     each = section.stiffness(orders)
     if foundation is not None:
         each = each + foundation.of_orders(orders)

@@ -1,19 +1,19 @@
-r"""A ring of `bending` under loads, on a housing all around it or on single supports.
+r"""A flexible ring (`bending`) under loads, on a housing all around it or on single supports.
 
-Its energy in the amplitudes $x = (a_n, b_n)$ of the deflection is convex:
+The energy is a convex function of the amplitudes $x = (a_n, b_n)$ of the deflection:
 
 $$U = \tfrac12\sum_n K_nx_n^2 + \sum_m\tfrac12k_m\langle w(\varphi_m) - g_m\rangle_+^2 - \sum_n G_nx_n$$
 
-with the stiffness $K_n$ of ring and housing, supports of stiffness $k_m$ at the angles $\varphi_m$ behind gaps $g_m$,
-which push only, and generalised loads $G_n$. A load at the angle $\varphi$ on the centroid circle contributes to the
+with the stiffness $K_n$ of ring and housing, the generalised loads $G_n$, and supports of stiffness $k_m$ at the angles
+$\varphi_m$ with gaps $g_m$, which only push. A load at the angle $\varphi$ on the centroid circle contributes to the
 cosine and the sine amplitude of order n
 
 - a radial force P, outwards: $P\cos n\varphi$, $P\sin n\varphi$;
 - a tangential force T, counter-clockwise: $-\frac{T}{n}f_T\sin n\varphi$, $\frac{T}{n}f_T\cos n\varphi$;
 - a couple M, counter-clockwise: $\frac{n^2-1}{nR}Mf_M\sin n\varphi$, $-\frac{n^2-1}{nR}Mf_M\cos n\varphi$,
 
-where $f_T = (1 + n^2(i+s))/(1+i+n^2s)$ and $f_M = 1/(1+i+n^2s)$ are exact for Timoshenko's ring, on a springy housing
-too. Rolling elements press an outer ring with P = Q and an inner one with P = -Q.
+where $f_T = (1 + n^2(i+s))/(1+i+n^2s)$ and $f_M = 1/(1+i+n^2s)$ are exact for Timoshenko's ring, also on a springy
+housing. Rolling elements press an outer ring with P = Q and an inner one with P = -Q.
 """
 
 import equinox as eqx
@@ -25,17 +25,17 @@ from .._types import Scalar
 from .bending import Foundation, RingSection, stiffness_of_orders
 
 ALIGNED = 1e-9
-"""Cosine of the angle between a support and a direction that counts as a right one."""
+"""Largest cosine that counts as 0: a direction is then at right angles to a support."""
 
 
 class RimLoads(eqx.Module):
-    """Forces on a ring from outside, one entry for each: the teeth of a planet gear, for example.
+    """External forces on a ring, one entry for each force; for example at the teeth of a planet gear.
 
     **Arguments:**
     - `angle`: where they act, rad.
     - `radial`: outwards, N.
     - `tangential`: counter-clockwise, N.
-    - `radius`: at which they act, m: a tangential force beside the centroid circle is a couple too.
+    - `radius`: where they act, m: a tangential force away from the centroid circle adds a couple.
     """
 
     angle: Float[Array, " load"]
@@ -52,12 +52,12 @@ class RimLoads(eqx.Module):
 
 
 class Supports(eqx.Module):
-    """Places that a ring may lean on from inside, as the feet of a cut housing; they push and never pull.
+    """Springs around a ring, such as the feet of a cut housing, that push the ring inwards and never pull.
 
     **Arguments:**
     - `angle`: where they stand, rad.
     - `stiffness`: N/m, > 0.
-    - `gap`: outward deflection at which the ring touches, m; negative: it is pressed already.
+    - `gap`: outward deflection at which the ring touches, m; negative: the support is preloaded.
     """
 
     angle: Float[Array, " support"]
@@ -71,11 +71,11 @@ class Supports(eqx.Module):
     def cannot_bear(self, load: Float[Array, "2"], sideways: bool) -> Bool[Array, ""]:
         """True if no forces of the supports balance a load on the ring along the angles 0 and 90 degrees, N.
 
-        They push, so a load can be balanced if it is a sum of positive multiples of their directions. It cannot if some
-        direction points along the load and away from all supports, or at right angles to them; in a plane the load
-        itself and the normals of the supports are all that need to be tried.
+        The supports only push, so a load can be balanced if it is a sum of positive multiples of their directions. It
+        cannot if some direction points along the load, and away from all supports or at right angles to them. In a
+        plane it suffices to try the direction of the load and the normals to the supports.
 
-        **Arguments:** `sideways`: whether the second component is given. If not, something holds the ring that way.
+        **Arguments:** `sideways`: True if the load along 90 degrees counts; False if the ring is held that way.
         """
         towards = jnp.stack([jnp.cos(self.angle), jnp.sin(self.angle)])
         if not sideways:
@@ -87,18 +87,18 @@ class Supports(eqx.Module):
         return jnp.any(away & (load @ tried > ALIGNED * size)) & (size > 0.0)
 
     def energy(self, deflection: Float[Array, " support"]) -> Float[Array, ""]:
-        """Elastic energy, J."""
+        """Elastic energy of the supports, J."""
         return 0.5 * jnp.sum(self.stiffness * jnp.square(jnp.maximum(deflection - self.gap, 0.0)))
 
 
 class BentRing(eqx.Module):
-    """A ring, what holds it and what loads it beside rolling elements. See the module.
+    """A flexible ring with its housing or supports, and with its loads other than those of rolling elements.
 
     **Arguments:**
-    - `section`: of the ring.
-    - `orders`: of the harmonics. Leave out 1 for a ring whose loads balance each other and that nothing holds: it has
-      no place of its own.
-    - `foundation`: a housing around it or a shaft in it; `None`: there is none.
+    - `section`: section of the ring.
+    - `orders`: orders of the harmonics. Leave out 1 for a ring that nothing holds and whose loads balance each other:
+      its position is undetermined.
+    - `foundation`: housing around the ring, or shaft in it; `None`: there is none.
     - `supports`, `loads`: `None`: there are none.
 
     **Raises:** `ValueError` for orders that are not whole, not rising or negative; for order 1 of a ring that neither
@@ -131,13 +131,13 @@ class BentRing(eqx.Module):
 
     @property
     def _sine(self) -> np.ndarray:
-        """True for the amplitudes of sines."""
+        """Mask of the amplitudes: True for sines."""
         return np.arange(self.modes) >= len(self.orders)
 
     def shapes(self, angle: Float[Array | np.ndarray, " place"]) -> Float[Array | np.ndarray, "mode place"]:
-        """Deflection at the angles, rad, for a unit of each amplitude.
+        """Deflection at the angles, rad, per unit of each amplitude.
 
-        NumPy angles give a NumPy array, which a compiled program holds as a constant: its sines are not computed in
+        NumPy angles give a NumPy array. It is a constant of a compiled program, which need not compute the sines in
         every solve.
         """
         library = np if isinstance(angle, np.ndarray) else jnp
@@ -151,7 +151,7 @@ class BentRing(eqx.Module):
         return amplitudes @ self.shapes(angle)
 
     def stiffness(self) -> Float[Array, " mode"]:
-        """Generalised load over amplitude, of ring and foundation, N/m."""
+        """Generalised stiffness of ring and foundation, N/m, for each amplitude."""
         orders = np.asarray(self.orders, dtype=int)
         place = np.arange(orders.size)
         of_order = stiffness_of_orders(self.section, self.foundation, orders)
@@ -164,7 +164,7 @@ class BentRing(eqx.Module):
             return jnp.zeros(self.modes)
         order, section = self._of_modes, self.section
         shapes = self.shapes(loads.angle)
-        # derivatives of the shapes by the angle, over the order; 0 for order 0, which no tangential load excites
+        # derivatives of the shapes by the angle, divided by the order; 0 for order 0, which no tangential load excites
         at = order.astype(float)[:, None] * loads.angle[None, :]
         turned = jnp.where(self._sine[:, None], jnp.cos(at), -jnp.sin(at))
         over = np.where(order > 0, 1.0 / np.maximum(order, 1), 0.0)
@@ -174,7 +174,7 @@ class BentRing(eqx.Module):
         return shapes @ loads.radial + tangential * (turned @ loads.tangential) - couple * (turned @ moment)
 
     def balance(self, amplitudes: Float[Array, " mode"], pressed: Float[Array, " mode"]) -> Float[Array, " mode"]:
-        """Derivatives of the energy by the amplitudes, N, less the generalised loads `pressed` of rolling elements."""
+        """Residuals of equilibrium, N: gradient of `energy` less the generalised loads `pressed` of the elements."""
         rows = self.stiffness() * amplitudes - pressed - self.given_loads()
         if self.supports is None:
             return rows
@@ -191,7 +191,7 @@ class BentRing(eqx.Module):
         return stiffness + (shapes * jnp.where(touching, self.supports.stiffness, 0.0)[None]) @ shapes.T
 
     def energy(self, amplitudes: Float[Array, " mode"]) -> Float[Array, ""]:
-        """Energy less the work of `loads`, J; `balance` with no element is its gradient."""
+        """Elastic energy less the work of `loads`, J; without rolling elements `balance` is its gradient."""
         energy = 0.5 * jnp.sum(self.stiffness() * jnp.square(amplitudes)) - self.given_loads() @ amplitudes
         if self.supports is None:
             return energy
@@ -204,7 +204,7 @@ class BentRing(eqx.Module):
         return self.supports.forces(self.deflection(amplitudes, self.supports.angle))
 
     def amplitudes(self, pressed: Float[Array, " mode"]) -> Float[Array, " mode"]:
-        """Amplitudes under generalised loads `pressed`, N, beside those of `loads`, m; without supports only.
+        """Amplitudes, m, under the generalised loads `pressed`, N, and those of `loads`; only without supports.
 
         **Raises:** `ValueError` for a ring on supports, whose contacts open and close.
         """

@@ -1,11 +1,14 @@
-r"""One interference fit: the pressure between two bodies, and the speed at which they part.
+r"""One interference fit: the pressure between two bodies, and the speed at which they separate.
 
 $$c = u_\mathrm{outer}(p = 1) - u_\mathrm{inner}(p = 1),\quad
 I_\mathrm{op} = I - s + 2(u_\omega + u_T)_\mathrm{inner} - 2(u_\omega + u_T)_\mathrm{outer},\quad
 p = \max(I_\mathrm{op}, 0)/(2c)$$
 
-At the limit between tight and loose the value is continuous and its slope jumps; the derivative there is that of the
-tight fit. It is not smoothed: a width of 1 um would change the clearance of a loose ring by half of it.
+I is the diametral interference, s its loss by smoothing, c the radial compliance of the joint, u the radial growth by
+pressure p, rotation $\omega$ and temperature T (`annulus`).
+
+At the limit between tight and loose the pressure is continuous, and its slope jumps; the derivative there is that of
+the tight fit. The jump is not smoothed: a width of 1 um would change the clearance of a loose ring by half of it.
 """
 
 from typing import NamedTuple
@@ -18,9 +21,14 @@ from .annulus import Annulus, Numbers
 
 
 class FitState(NamedTuple):
-    """State of a fit: pressure, Pa; effective interference (negative: a gap), m; loss of interference by rotation per
-    square of the speed, m s^2; speed at which the bodies part at these temperatures, rad/s, 0 where they are loose at
-    rest and infinite where no speed parts them."""
+    """State of a fit.
+
+    - `pressure`: Pa; 0 if the fit is loose.
+    - `interference`: effective diametral interference, m; negative: a gap.
+    - `spin_loss`: loss of interference by rotation, divided by the square of the speed, m s^2.
+    - `loose_speed`: speed at which the bodies separate at these temperatures, rad/s; 0 if they are loose at rest,
+      infinite if they separate at no speed.
+    """
 
     pressure: Float[Array, "..."]
     interference: Float[Array, "..."]
@@ -29,12 +37,12 @@ class FitState(NamedTuple):
 
 
 class Fit(eqx.Module):
-    """Two bodies on one cylinder, that turn together; or many pairs, as arrays of numbers.
+    """Two bodies that are fitted together and turn together; or many pairs, as arrays of numbers.
 
     **Arguments:**
     - `inner`, `outer`: the bodies; `inner.outside` and `outer.bore` are the diameter of the fit.
     - `interference`: diametral, as machined, m; negative: a gap.
-    - `smoothing`: what it loses where the asperities are flattened, m.
+    - `smoothing`: loss of interference by flattened asperities, m.
     """
 
     inner: Annulus

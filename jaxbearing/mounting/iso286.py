@@ -1,8 +1,8 @@
 """Tolerance classes of seats (ISO 286), and the normal tolerance class of bearings (ISO 492).
 
-The numbers were read in a maker's fit tables; those of j5 and j6 above 65 mm, of IT4 and IT8, and of J6 and J7 above
-250 mm come from memory. A class that is not here is refused. Diameters in m, deviations in m; a diameter may be traced,
-the class is a text.
+The numbers were read in a maker's fit tables, except those from memory: j5 and j6 above 65 mm, IT4 and IT8, J6 and J7
+above 250 mm. Functions refuse a class that is not in the tables. They take and return lengths in m; the diameter may be
+traced.
 """
 
 from typing import NamedTuple
@@ -15,7 +15,7 @@ from .._types import Scalar
 from ..numerics.arguments import require_choice
 
 _EDGES = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500)
-"""Ends of the ranges of diameters, which belong to the lower range, mm."""
+"""Upper ends of the diameter ranges, mm; each belongs to the range that it ends."""
 _GRADES = {
     4: (3, 4, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20),
     5: (4, 5, 6, 8, 9, 11, 13, 15, 18, 20, 23, 25, 27),
@@ -23,20 +23,20 @@ _GRADES = {
     7: (10, 12, 15, 18, 21, 25, 30, 35, 40, 46, 52, 57, 63),
     8: (14, 18, 22, 27, 33, 39, 46, 54, 63, 72, 81, 89, 97),
 }
-"""Width of a grade, um."""
+"""Width of the grades IT4 to IT8 in each diameter range, um."""
 _UPPER = {
     "h": (0,) * 13,
     "g": (-2, -4, -5, -6, -7, -9, -10, -12, -14, -15, -17, -18, -20),
     "f": (-6, -10, -13, -16, -20, -25, -30, -36, -43, -50, -56, -62, -68),
 }
-"""Upper deviation of shafts, um."""
+"""Upper deviation of shafts in each diameter range, um."""
 _LOWER = {
     "k": (0, 1, 1, 1, 2, 2, 2, 3, 3, 4, 4, 4, 5),
     "m": (2, 4, 6, 7, 8, 9, 11, 13, 15, 17, 20, 21, 23),
     "n": (4, 8, 10, 12, 15, 17, 20, 23, 27, 31, 34, 37, 40),
     "p": (6, 12, 15, 18, 22, 26, 32, 37, 43, 50, 56, 62, 68),
 }
-"""Lower deviation of shafts, um."""
+"""Lower deviation of shafts in each diameter range, um."""
 _SHAFT_J = {
     5: ((np.nan, -2, -2, -3, -4, -5, -7, -9, -11, -13, -16, -18, -20), (np.nan, 3, 4, 5, 5, 6, 6, 6, 7, 7, 7, 7, 7)),
     6: (
@@ -51,12 +51,12 @@ _HOLE_J = {
         (np.nan, np.nan, 8, 10, 12, 14, 18, 22, 26, 30, 36, 39, 43),
     ),
 }
-"""Lower and upper deviation of shafts j and holes J, um."""
+"""Lower and upper deviations of holes J by grade, um; `_SHAFT_J` holds those of shafts j."""
 _BORE = ((18, 8), (30, 10), (50, 12), (80, 15), (120, 20), (180, 25), (250, 30), (315, 35), (400, 40), (500, 45))
 _OUTSIDE = ((18, 8), (30, 9), (50, 11), (80, 13), (120, 15), (150, 18), *_BORE[5:])
-"""Ends of ranges, mm, and the normal class's lower deviation of bore and outside diameter of bearings, um."""
+"""Diameters of bearings, normal class: (upper end of the range, mm; size of the negative lower deviation, um)."""
 _CLOSE = ("K", "M", "N", "P")
-"""Holes whose width over the next finer grade counts, so that grade 4 has none."""
+"""Holes that are corrected by the difference to the next finer grade (`_step`); they have no grade 4."""
 SHAFT_CLASSES = tuple(
     f"{letter}{grade}"
     for letter in ("f", "g", "h", "j", "js", "k", "m", "n", "p")
@@ -69,11 +69,11 @@ HOLE_CLASSES = tuple(
     for grade in _GRADES
     if (letter != "J" or grade in _HOLE_J) and (letter not in _CLOSE or grade > 4)
 )
-"""Tolerance classes that the tables have."""
+"""Tolerance classes of holes in the tables; `SHAFT_CLASSES` are those of shafts."""
 
 
 class Limits(NamedTuple):
-    """Lower and upper limit, m."""
+    """Lower and upper limit of a deviation or of an interference, m."""
 
     lower: Float[Array, ""]
     upper: Float[Array, ""]
@@ -84,7 +84,7 @@ def shaft_limits(tolerance: str, diameter: Scalar) -> Limits:
 
     **Arguments:** `tolerance`: such as "k5"; `diameter`: nominal, m, above 0 and at most 0.5.
 
-    **Raises:** `ValueError` for a class that is not in the tables. For a diameter outside of them the limits are NaN.
+    **Raises:** `ValueError` for a class that is not in the tables. The limits are NaN for a diameter outside them.
     """
     return _at(diameter, *_shaft(tolerance))
 
@@ -109,8 +109,12 @@ def _shaft(tolerance: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def hole_limits(tolerance: str, diameter: Scalar) -> Limits:
-    """Deviations of a housing's bore from the nominal diameter; arguments and errors as of `shaft_limits`, a class such
-    as "J7"."""
+    """Deviations of a housing's bore from the nominal diameter.
+
+    **Arguments:** `tolerance`: such as "J7"; `diameter`: nominal, m, above 0 and at most 0.5.
+
+    **Raises:** `ValueError` as `shaft_limits`.
+    """
     return _at(diameter, *_hole(tolerance))
 
 
@@ -127,14 +131,14 @@ def _hole(tolerance: str) -> tuple[np.ndarray, np.ndarray]:
     else:
         upper = -np.asarray(_LOWER[letter.lower()], float) + _step(letter, grade, width)
         if (letter, grade) == ("M", 6):
-            # over 250 to 315 mm the standard departs from its rule
+            # above 250 and up to 315 mm the standard departs from its rule
             upper[_EDGES.index(315)] = -9.0
         lower = upper - width
     return lower, upper
 
 
 def covered(tolerance: str) -> tuple[float, float]:
-    """Diameters that the table of a class has: above the first and up to the second, m."""
+    """Range of diameters in the table of a tolerance class, m: above the first value and up to the second."""
     lower, _ = _shaft(tolerance) if tolerance in SHAFT_CLASSES else _hole(tolerance)
     first = int(np.argmax(np.isfinite(lower)))
     return 1e-3 * ((0, *_EDGES)[first]), 1e-3 * _EDGES[-1]
@@ -168,17 +172,17 @@ def _parsed(tolerance: str, classes: tuple[str, ...]) -> tuple[str, int]:
 
 
 def _step(letter: str, grade: int, width: np.ndarray) -> np.ndarray:
-    """Difference of two grades by which holes of close fits are wider than the shafts of the same letter, um."""
+    """Correction of the deviations of holes in `_CLOSE`, um: width of the grade less that of the next finer grade."""
     step = width - np.asarray(_GRADES[grade - 1], float)
     if letter == "P" and grade == 8:
         return np.zeros_like(step)
-    step[0] = 0.0  # up to 3 mm there is none
+    step[0] = 0.0  # no correction up to 3 mm
     return step
 
 
 def _place(diameter: Scalar, ends: tuple[int, ...]) -> Array:
-    """Range of a diameter. Its round-off in millimetres must not lift a nominal size into the next range."""
-    # one comparison with all ends: a search by halves is a loop, which costs as much as a tenth of a dry solve
+    """Index of the range of a diameter. Round-off in millimetres must not move a nominal size to the next range."""
+    # compare with all ends at once: a bisection is a loop, which costs a tenth of a dry solve
     size = jnp.asarray(diameter) * 1e3 * (1.0 - 1e-12)
     return jnp.searchsorted(jnp.asarray(ends, float), size, side="left", method="compare_all")
 

@@ -19,10 +19,10 @@ from .iso286 import HOLE_CLASSES, SHAFT_CLASSES, Limits
 Seat = Literal["shaft", "housing"]
 """Name of a seat."""
 SMOOTHING = 2e-6
-"""Loss of interference of a ground seat where none is given, m: ISO 286 knows none; makers' catalogues say 1 to 2.5 um
-for ground and 5 to 7 um for turned seats."""
+"""Loss of interference of a ground seat by smoothing, m, if the scene gives none. ISO 286 has no value; makers'
+catalogues state 1 to 2.5 um for ground and 5 to 7 um for turned seats."""
 ASSUMED_HOUSING = 1.5
-"""Outside of the housing over the outside diameter of the bearing, where a scene does not give it."""
+"""Outside diameter of the housing over that of the bearing, assumed if the scene gives none."""
 
 
 def _seat_material(value: Any) -> Material:
@@ -30,19 +30,19 @@ def _seat_material(value: Any) -> Material:
 
 
 class Fits(Checked):
-    """Seats of the bearing's rings. A ring without an interference and without a tolerance class has no seat: it grows
+    """Seats of the bearing's rings. A ring with neither an interference nor a tolerance class has no seat and grows
     freely.
 
     **Arguments:**
     - `shaft_interference`, `housing_interference`: diametral, as machined, m; positive: tight.
-    - `shaft_tolerance`, `housing_tolerance`: instead of a number a tolerance class of ISO 286, such as "k5" and "J7";
-      the bearing has the normal class of ISO 492.
-    - `at`: which interference of the tolerance classes counts: the mean one, the tightest or the loosest.
-    - `shaft_bore`: of a hollow shaft, m; 0: solid.
+    - `shaft_tolerance`, `housing_tolerance`: tolerance class of ISO 286, such as "k5" or "J7", in place of an
+      interference; the bearing has the normal class of ISO 492.
+    - `at`: interference that is used within the tolerance classes: the mean, the tightest or the loosest.
+    - `shaft_bore`: bore of a hollow shaft, m; 0: solid.
     - `housing_outside`: outside diameter of the housing, m; not given: 1.5 times that of the bearing.
-    - `shaft_material`, `housing_material`: steel where not given.
-    - `smoothing`: loss of interference of each seat by flattened asperities, m; not given: 2 um of a tight seat, not
-      more than the interference.
+    - `shaft_material`, `housing_material`: material; not given: steel.
+    - `smoothing`: loss of interference of each seat by flattened asperities, m; not given: 2 um for a tight seat, at
+      most its interference.
     """
 
     part: ClassVar[str] = "fits"
@@ -85,7 +85,7 @@ class Fits(Checked):
         return getattr(iso286, f"{seat}_interference")(getattr(self, f"{seat}_tolerance"), diameter)
 
     def interference(self, seat: Seat, diameter: Scalar) -> Float[Array, ""]:
-        """Interference of a seat that counts, m, before smoothing."""
+        """Interference of a seat, selected by `at`, before smoothing, m. **Arguments:** `diameter`: of the seat, m."""
         low, high = self.limits(seat, diameter)
         match self.at:
             case "tightest":
@@ -98,7 +98,7 @@ class Fits(Checked):
         """Loss of an interference by smoothing, m."""
         if self.smoothing is not None:
             return jnp.asarray(self.smoothing)
-        # `where` and no `clip`: at both ends the derivative is that of an interference that loses no more
+        # `where` instead of `clip`: at both ends the derivative of the loss is 0
         flattened = jnp.where(interference > 0.0, interference, 0.0)
         return jnp.where(interference >= SMOOTHING, SMOOTHING, flattened)
 
@@ -107,8 +107,13 @@ class Fits(Checked):
         return ASSUMED_HOUSING * outside_diameter if self.housing_outside is None else self.housing_outside
 
     def check_room(self, bore: Scalar | None, outside_diameter: Scalar | None) -> None:
-        """**Raises:** `ValueError` where shaft or housing has no wall, where an interference is more than steel bears,
-        and where a class has no row for the diameter."""
+        """Checks the walls of shaft and housing, the interferences and the tolerance classes.
+
+        **Arguments:** `bore`, `outside_diameter`: of the bearing, m.
+
+        **Raises:** `ValueError` if shaft or housing has no wall, if an interference would make steel yield, or if the
+        table of a tolerance class does not have the diameter.
+        """
         shaft = numbers_or_none(bore, self.shaft_bore)
         if shaft is not None and self.on_shaft:
             demand(
@@ -132,7 +137,7 @@ class Fits(Checked):
         _check_covered("housing_tolerance", self.housing_tolerance, outside_diameter)
 
     def assumptions(self, warm: bool = True) -> tuple[str, ...]:
-        """Notes for the user. **Arguments:** `warm`: whether the parts have temperatures."""
+        """Notes for the user on what is assumed. **Arguments:** `warm`: True if temperatures of the parts are given."""
         said = [] if warm else ["fits: no [temperatures] are given, all parts are at 20 degC"]
         if self.smoothing is None and (self.on_shaft or self.in_housing):
             said.append("fits.smoothing is not given: each tight seat loses 2 um, as ground ones do")
@@ -142,9 +147,12 @@ class Fits(Checked):
 
 
 def _check_covered(name: str, tolerance: object, diameter: Scalar | None) -> None:
-    """**Raises:** `ValueError` where the tables do not have this diameter, as far as it is known."""
+    """Checks that the table of a tolerance class has the diameter of the seat, m.
+
+    **Raises:** `ValueError` if it does not have it.
+    """
     size = numbers_or_none(diameter)
-    # neither where none is given, nor where what is given has been refused
+    # nothing to check: a value is not given, or has been refused already
     if not isinstance(tolerance, str) or size is None:
         return
     least, most = iso286.covered(tolerance)
@@ -164,7 +172,7 @@ class PartTemperatures(Checked):
     **Arguments:**
     - `inner_ring`, `outer_ring`: must be given.
     - `elements`: of the rolling elements; not given: the mean of both rings.
-    - `shaft`, `housing`: not given: those of the rings on them.
+    - `shaft`, `housing`: not given: the temperature of the ring that is fitted to it.
     """
 
     part: ClassVar[str] = "temperatures"

@@ -1,9 +1,10 @@
-r"""Growth of a ball bearing: it changes clearance, contact angle and grooves.
+r"""Clearance, contact angle and grooves of a ball bearing after the expansion of its parts.
 
-Diameters of the groove bottoms: $G_i = d_m + (2f_i-1)D\cos\alpha - 2f_iD$, $G_o = d_m - (2f_o-1)D\cos\alpha + 2f_oD$.
-They grow by what the rings grow there; the radius of a groove scales with the temperature of its ring alone (its change
-by the strain of the ring drops out of the clearance, and moves $\cos\alpha$ by some 1e-5). With circles of groove
-centres of radii $R_i$ and $R_o$, $A_r = R_i - R_o$ and $BD = r_i + r_o - D$: clearance $2(BD - A_r)$,
+The diameters of the groove bottoms are $G_i = d_m + (2f_i-1)D\cos\alpha - 2f_iD$ and
+$G_o = d_m - (2f_o-1)D\cos\alpha + 2f_oD$. They change with the expansion of the rings at the raceways. The radii
+$r_i, r_o$ of the grooves change with the temperature of their ring only (their change by the strain of the ring cancels
+in the clearance, and changes $\cos\alpha$ by about 1e-5). With the radii $R_i$ and $R_o$ of the circles of groove
+centres, $A_r = R_i - R_o$ and $BD = r_i + r_o - D$, the diametral clearance is $2(BD - A_r)$, and
 $\cos\alpha = A_r/BD$.
 """
 
@@ -21,14 +22,15 @@ from .geometry import BallGeometry
 
 
 class RunningBallGeometry(BallGeometry):
-    """Geometry of a ball bearing that has grown. The contact angle or clearance on the drawing stays what it was, for
-    what is made for the nominal bearing, such as its ratings.
+    """Geometry of a ball bearing after expansion. `contact_angle` and `diametral_clearance` keep their nominal values,
+    for quantities that are defined for the nominal bearing, such as its ratings.
 
     **Arguments:** those of `BallGeometry`, and
-    - `running_clearance`: diametral, m; negative: radial preload. Of rings with two arcs it is `free_clearance`.
-    - `axial_rest`: axial distance of the grooves' planes where displacements count from, m: that of first contact on
-      the drawing, 0 of a bearing given by its clearance. It does not change with the clearance, so that displacements
-      are smooth where that passes 0.
+    - `running_clearance`: diametral operating clearance, m; negative: radial preload. For rings with two arcs it is the
+      clearance of `free_clearance`.
+    - `axial_rest`: axial distance between the planes of the grooves at an axial displacement of 0, m: that at first
+      contact in the nominal bearing, 0 in a bearing given by its clearance. It does not change with the operating
+      clearance, so that displacements are smooth where the clearance passes 0.
     """
 
     running_clearance: Scalar = number(kw_only=True, unit="m")
@@ -44,8 +46,8 @@ class RunningBallGeometry(BallGeometry):
 
 
 class _Grooves(NamedTuple):
-    """Radii of both grooves and of the circles of their centres, diameter of the balls, m. `shims`: shim angles,
-    rad, `None` of rings with one arc."""
+    """Radii of both grooves and of the circles of groove centres, diameter of the balls, m. `shims`: shim angles, rad;
+    `None` for rings with one arc."""
 
     radii: tuple[Array, Array]
     circles: tuple[Array, Array]
@@ -58,17 +60,17 @@ class _Grooves(NamedTuple):
 
     @property
     def across(self) -> Array:
-        """A_r."""
+        """Radial distance A_r between the circles of groove centres, m."""
         return self.circles[0] - self.circles[1]
 
     @property
     def clearance(self) -> Array:
-        """Diametral clearance of a bearing with one arc each and the same circles, m."""
+        """Diametral clearance of a bearing with one arc on each ring and the same circles of groove centres, m."""
         return 2.0 * (self.distance - self.across)
 
     @property
     def play(self) -> Array:
-        """Diametral clearance between all contacts, m."""
+        """Diametral clearance between the balls and all groove arcs, m."""
         pairs = [(r - 0.5 * self.ball, a) for r, a in zip(self.radii, self.shims, strict=True) if a is not None]
         if not pairs:
             return self.clearance
@@ -76,11 +78,11 @@ class _Grooves(NamedTuple):
 
 
 def groove_bottoms(geometry: BallGeometry) -> tuple[Float[Array, ""], Float[Array, ""]]:
-    """Diameters of the bottoms of the inner and outer groove, m."""
+    """Diameters of the bottoms of the inner and the outer groove, m."""
     ball, cosine = geometry.ball_diameter, jnp.minimum(geometry.free_cosine, 1.0)
     inner = geometry.pitch_diameter + 2.0 * (geometry.inner_offset * cosine - geometry.conformity_inner * ball)
     outer = geometry.pitch_diameter - 2.0 * (geometry.outer_offset * cosine - geometry.conformity_outer * ball)
-    # a bearing on whose drawing there is a preload: the inner ring is that much larger
+    # with nominal radial preload the inner ring is larger by the overlap
     return inner + 2.0 * geometry.centre_distance * jnp.maximum(geometry.free_cosine - 1.0, 0.0), outer
 
 
@@ -96,7 +98,7 @@ def _grown(geometry: BallGeometry, growth: Growth) -> _Grooves:
 
 
 def running_geometry(geometry: BallGeometry, growth: Growth) -> RunningBallGeometry:
-    """The geometry of the grown bearing."""
+    """The geometry of the bearing after expansion."""
     grooves = _grown(geometry, growth)
     cosine = jnp.minimum(grooves.across / grooves.distance, 1.0)
     middle = grooves.circles[1] + (grooves.radii[1] - 0.5 * grooves.ball) * cosine
@@ -111,10 +113,10 @@ def running_geometry(geometry: BallGeometry, growth: Growth) -> RunningBallGeome
 
 
 def running_play(geometry: BallGeometry, growth: Growth) -> Play:
-    """Clearance, contact angle and axial shift of the grown bearing."""
+    """Clearance, contact angle and axial shift of the bearing after expansion."""
     grooves = _grown(geometry, growth)
     lift = grooves.clearance / (2.0 * grooves.distance)
-    # the angle has an end where the centres coincide, beyond which nothing touches
+    # the angle has its largest value where the circles of groove centres coincide; beyond it nothing touches
     open_ = (lift > 0.0) & (lift < 1.0)
     sine = jnp.where(open_, jnp.sqrt(jnp.where(open_, lift * (2.0 - lift), 1.0)), 0.0)
     angle = jnp.arctan2(sine, jnp.where(open_, 1.0 - lift, 1.0))

@@ -1,4 +1,4 @@
-"""A ball and the grooves that it touches, for drawings."""
+"""Outline of a ball and of its grooves, for drawings."""
 
 import math
 from collections.abc import Callable
@@ -10,11 +10,11 @@ from ..outline import RING_SIDE, RING_THICKNESS, Outline, Point, moved
 from .scene import BallBearing
 
 _SHOULDER = 0.3
-"""Height of a ball bearing's shoulders over the ball's centre, in ball diameters: a scene does not have it."""
+"""Height of the shoulders above the ball centre, in ball diameters; assumed, because scenes do not give it."""
 
 
 def ball_outline(scene: BallBearing, of: Callable[[str], float] | None) -> Outline:
-    """See `AbstractBearing.outline`."""
+    """Outline of a ball and its rings (see `AbstractBearing.outline`)."""
     geometry = scene.geometry
     diameter, half = 1e3 * float(geometry.ball_diameter), 500.0 * float(geometry.ball_diameter)
     free = float(geometry.nominal_angle)
@@ -53,13 +53,14 @@ def ball_outline(scene: BallBearing, of: Callable[[str], float] | None) -> Outli
 
 
 def _carrying(contacts: dict[str, tuple[Point, Point]], race: str, of: Callable[[str], float] | None) -> Point:
-    """Place of the contact of a race that carries most; the first one of an unloaded bearing."""
+    """Position of the most loaded contact on a race; without loads, of the first contact."""
     sides = [side for side in (race, f"{race}{SECOND}") if side in contacts]
     return contacts[sides[0] if of is None else max(sides, key=lambda side: of(f"load_{side}"))][0]
 
 
 def _groove(diameter: float, conformity: float, direction: Point, sign: float) -> list[Point]:
-    """A ring whose groove touches the ball in this direction; what is above (`sign` 1) or below the shoulders."""
+    """Outline of a ring whose groove touches the ball in the given direction: the part above (`sign` 1, outer ring) or
+    below (`sign` -1, inner ring) the shoulders. Lengths in mm."""
     radius = conformity * diameter
     cx, cy = moved((0.0, 0.0), direction, (0.5 - conformity) * diameter)
     shoulder = sign * _SHOULDER * diameter
@@ -72,7 +73,8 @@ def _groove(diameter: float, conformity: float, direction: Point, sign: float) -
 
 
 def _two_arcs(diameter: float, conformity: float, direction: Point, sign: float, apart: float) -> list[Point]:
-    """A ring with two groove arcs, whose first one touches the ball in this direction; see `_groove`.
+    """Outline of a ring with two groove arcs, the first of which touches the ball in the given direction; see
+    `_groove`.
 
     **Arguments:** `apart`: distance of the centres of the arcs from the middle plane of the ring, mm."""
     radius = conformity * diameter

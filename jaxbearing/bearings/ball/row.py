@@ -1,4 +1,4 @@
-"""The convex energy of a ball bearing whose ring is held."""
+"""Convex energy of a ball bearing whose inner ring is held (see `bearings.row`)."""
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -12,10 +12,10 @@ from .start import force_at, hold
 
 
 class BallRow(AbstractRow):
-    """Balls in grooves that move to first order with the ring's tilts.
+    """A row of balls in grooves that move to first order with the tilts of the ring.
 
-    **Arguments:** `problem`: with all five degrees of freedom, lengths; `lever`: of the tilts, m; `distance`: of the
-    plane of the inner groove centres from the port, m.
+    **Arguments:** `problem`: convex problem with all five degrees of freedom, as lengths; `lever`: lever of the tilts,
+    m; `distance`: axial distance of the plane of the inner groove centres from the port, m.
     """
 
     problem: CentrifugalProblem
@@ -40,7 +40,9 @@ class BallRow(AbstractRow):
 
 
 def ball_row_of(scene: BallBearing, expansion: Array) -> BallRow:
-    """The row of a scene at its speeds; its contact laws and loads have no effect."""
+    """The row of a scene at its speeds. Contact laws and loads of the scene have no effect.
+
+    **Arguments:** `expansion`: see `InnerRing.expansion`, m."""
     ring = free_ring(scene.ring_lever, scene.port_distance, expansion)
     problem = build_core(scene, exact=False, ring=ring).at_free_angle()
     return BallRow(problem, jnp.asarray(ring.lever), jnp.asarray(scene.port_distance))

@@ -1,9 +1,10 @@
-"""The ball bearing as a scene: geometry, materials, oil, contact laws, cage, drag, attitude of the balls' spin.
+"""The ball bearing as a scene: geometry, materials, oil, contact laws, cage, drag, attitude of the balls.
 
-Frames and signs. $e_x$ along the bearing axis; azimuths from the load line, counter-clockwise, the sense of inner ring
-rotation. Axial load and displacement push the inner ring along $+e_x$, radial ones along azimuth 0; a positive moment
-or tilt moves azimuth 0 of the inner ring along $+e_x$. Contact angles are positive where the inner race pushes the ball
-along $+e_x$. The groove is taken as a full circle: `geometry.shoulder_angle_*` says where it ends.
+Frames and signs. $e_x$ points along the bearing axis. Azimuths count from the load line, counter-clockwise, which is
+the direction of rotation of the inner ring. A positive axial load or displacement pushes the inner ring along $+e_x$, a
+positive radial one along azimuth 0; a positive moment or tilt moves azimuth 0 of the inner ring along $+e_x$. Contact
+angles are positive where the inner race pushes the ball along $+e_x$. The cross-section of a groove arc is taken as a
+full circle; range checks use `geometry.shoulder_angle_*` as the angle at which the groove ends.
 """
 
 import dataclasses
@@ -64,14 +65,14 @@ if TYPE_CHECKING:
     from .solution import BallResults
 
 ASSUMED_CAGE_THICKNESS = 0.4
-"""Radial thickness of the cage over the ball diameter, where a scene does not give its diameters."""
+"""Radial thickness of the cage over the ball diameter, assumed if a scene does not give the diameters of the cage."""
 
 
 class BallOperation(AbstractOperation):
     """Operating point of a ball bearing: the batched part of a sweep.
 
-    It needs a load, or a displacement of the ring. Where nothing across the axis is given all balls are alike, and one
-    of them is solved for.
+    It needs a load or a prescribed displacement of the ring. If none is given perpendicular to the axis, all balls are
+    alike, and only one of them is solved for.
 
     **Arguments:** those of `AbstractOperation`.
     """
@@ -95,8 +96,8 @@ class BallOperation(AbstractOperation):
 
 
 class BallMaterials(AbstractMaterials):
-    """Solids of a ball bearing: `rings`, `balls` and, for the motion in time, `cage`; `inner_ring`: where it is of
-    another material than `rings`, which is that of the outer ring then."""
+    """Materials of a ball bearing: `rings`, `balls` and, for transient runs, `cage`. If `inner_ring` is given, `rings`
+    is the material of the outer ring only."""
 
     rings: Material
     balls: Material
@@ -109,16 +110,17 @@ class BallMaterials(AbstractMaterials):
 
 
 class BallAttitude(eqx.Module):
-    """Model of the balls' rotation.
+    """Model of the rotation of the balls.
 
     **Arguments:**
-    - `attitude`: closure for the direction of a ball's spin: "outer" or "inner" race control (no spin there),
-      "linear_slip" (moment balance under tractions proportional to pressure and sliding: of dry bearings, and of
-      rings with two groove arcs without traction), "min_power" (least spin power), "equilibrium" (moment balance of
+    - `attitude`: rule for the direction of the spin axis of a ball: "outer" or "inner" race control (no spin on that
+      race), "linear_slip" (moment balance under tractions proportional to pressure and sliding, for dry bearings and
+      for rings with two groove arcs without traction), "min_power" (least spin power), "equilibrium" (moment balance of
       the ball under its traction).
-    - `gyroscopic`: what carries the gyroscopic couple: `None` (off), an `AbstractGyroscopic`, or `ResolvedCouple()`.
-    - `orbit`: speed about the bearing axis of balls that roll without sliding: "own", of each ball from its contact
-      angles, or "common", the mean of these weighted by the inner loads.
+    - `gyroscopic`: law for the friction that carries the gyroscopic couple: `None` (couple left out), an
+      `AbstractGyroscopic`, or `ResolvedCouple()`.
+    - `orbit`: orbital speed of balls that roll without sliding: "own", for each ball from its contact angles, or
+      "common", the mean of these speeds weighted by the inner loads.
     """
 
     attitude: Literal["outer", "inner", "linear_slip", "min_power", "equilibrium"] = choice(
@@ -136,9 +138,9 @@ class BallCage(AbstractCage[BallGeometry]):
     """One-piece cage with cylindrical pockets, guided by one ring on `n_lands` lands.
 
     **Arguments:** those of `AbstractCage`, and
-    - `pocket_clearance`: DIAMETRAL: pocket diameter minus ball diameter, m, > 0.
-    - `pocket_superposition`: how the entrainments along and across the axis of a pocket add up: "root_of_squares" (the
-      exact film) or "sum" (loads of two films, as in the source: up to 41 % more).
+    - `pocket_clearance`: DIAMETRAL clearance, pocket diameter minus ball diameter, m, > 0.
+    - `pocket_superposition`: rule that combines the film loads of the entrainment along and across the axis of a
+      pocket: "root_of_squares" (exact) or "sum" (as in the source, up to 41 % more load).
     """
 
     element: ClassVar[str] = "ball"
@@ -154,15 +156,17 @@ class BallCage(AbstractCage[BallGeometry]):
         return hole, hole
 
     def land_places(self, geometry: BallGeometry) -> Array:
-        """Axial places of the middles of the lands from that of the balls, m: beside the pockets, evenly spaced."""
+        """Axial positions of the middles of the lands relative to the ball centres, m: beside the pockets, evenly
+        spaced."""
         if self.lands == 1:
             return jnp.zeros(1)
         side = 0.5 * (geometry.ball_diameter + self.pocket_clearance + self.land_width)
         return jnp.linspace(-1.0, 1.0, self.lands) * side
 
     def mass_and_inertias(self, geometry: BallGeometry, density: Scalar) -> tuple[Scalar, Scalar, Scalar]:
-        """Mass, kg, and moments of inertia about the axis and across it, kg m^2: a ring as wide as pockets and lands,
-        less a flat round plug for each pocket; the mass is spread as in the whole ring."""
+        """Mass, kg, and moments of inertia about the axis and about a diameter, kg m^2, of a ring as wide as pockets
+        and lands together. The cylindrical holes of the pockets are subtracted from the mass; the moments of inertia
+        are those of a full ring with this mass."""
         inner, outer = self.bore(geometry) / 2.0, self.outside(geometry) / 2.0
         hole, _ = self.pocket_opening(geometry)
         width = hole + self.lands * self.land_width
@@ -174,22 +178,22 @@ class BallCage(AbstractCage[BallGeometry]):
 
 
 class BallDragSettings(DragSettings):
-    """Oil drag on the orbiting balls; where the coefficient is not given it is that of an isolated sphere."""
+    """Oil drag on the orbiting balls. If no coefficient is given, it is that of an isolated sphere."""
 
 
 class BallBearing(AbstractMovingBearing):
     """A single-row ball bearing under any combination of axial load, radial load and moment.
 
-    - `contact=None`: dry and frictionless: loads, contact angles and motion without sliding, with `kinematics.attitude`
-      "outer" or "inner".
-    - `contact.traction=None`: films too, and where named the rolling resistance; balls roll without sliding.
-    - with traction the balls slide and spin; without a `cage` every ball has its own orbital speed.
+    - `contact=None`: dry and frictionless: loads, contact angles and motion without traction, with
+      `kinematics.attitude` "outer", "inner" or "linear_slip".
+    - `contact.traction=None`: films too, and the rolling resistance if its law is given; balls roll without sliding.
+    - With traction the balls slide and spin; without a `cage` every ball has its own orbital speed.
     - `outer_ring`: a flexible outer ring in its housing; `inner_ring`: a flexible inner ring on its shaft;
-      `None`: it is rigid. `inner_roundness`, `outer_roundness`: raceways that are not round, standing still relative to
-      the load. Balls in motion have rigid, round rings.
-    - `simulation`: what a transient run does beyond the operating point; a steady solve does not look at it.
+      `None`: the ring is rigid. `inner_roundness`, `outer_roundness`: raceways that are not round; their shape does not
+      rotate relative to the load. In transient runs of the balls both rings are rigid and round.
+    - `simulation`: settings of a transient run beyond the operating point; a steady solve ignores them.
 
-    **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
+    **Raises:** `ValueError` for combinations of parts that have no steady state, or that lack a required part.
     """
 
     kind: ClassVar[str] = "ball_bearing"
@@ -265,7 +269,7 @@ class BallBearing(AbstractMovingBearing):
             )
 
     def _arc_problems(self) -> Iterator[str]:
-        """Problems of rings with two groove arcs."""
+        """Conflicts of rings with two groove arcs with other parts of the scene."""
         name = "shim_outer" if self.geometry.shim_inner is None else "shim_inner"
         if isinstance(self.simulation, Simulation):
             yield (
@@ -349,12 +353,13 @@ class BallBearing(AbstractMovingBearing):
 
     @property
     def tilts_by_standard(self) -> bool:
-        """True if the equations are those of ISO 16281 (`Rating.tilt`)."""
+        """True if the tilt of the ring is treated as in ISO 16281 (`Rating.tilt`)."""
         return self.rating is not None and self.rating.tilt == "iso"
 
     @property
     def slips(self) -> bool:
-        """True if the balls' speeds are unknowns; without traction they follow from rolling without sliding."""
+        """True if the balls have traction and their speeds are unknowns; else the speeds follow from rolling without
+        sliding."""
         return self.contact is not None and self.contact.traction is not None
 
     @property
@@ -363,32 +368,32 @@ class BallBearing(AbstractMovingBearing):
 
     @property
     def ring_lever(self) -> Array:
-        """Lever by which the equations multiply the tilts of the ring, m; see `Rating.tilt`."""
+        """Length by which the equations multiply the tilts of the ring, m (see `Rating.tilt`)."""
         if self.tilts_by_standard:
             return 0.5 * jnp.asarray(self.geometry.pitch_diameter)
         return self.geometry.groove_circle_radius
 
     @property
     def port_distance(self) -> Array:
-        r"""Distance of the plane of the inner groove centres, where `ring` counts, from that of the unloaded balls,
-        m: $(f_i - \frac12)D\sin\alpha$ at the contact angle of the unloaded bearing. Of rings with two
-        groove arcs both planes are the middle one."""
+        r"""Axial distance of the plane of the inner groove centres, at which the displacements `ring` are given, from
+        the plane of the unloaded balls, m: $(f_i - \frac12)D\sin\alpha$ at the contact angle of the unloaded bearing.
+        With two groove arcs on a ring it is 0, because both are the middle plane."""
         if self.geometry.has_arcs:
             return jnp.zeros(())
         return self.geometry.inner_offset * self.geometry.free_sine
 
     def unused_parts(self) -> tuple[str, ...]:
-        """Tables that the scene names but that have no effect without traction on the raceways."""
+        """Tables of the scene that have no effect because there is no traction on the raceways."""
         if self.slips:
             return ()
         named = {"cage": self.cage, "drag": self.drag}
         if self.contact is None:
-            # a rating takes the viscosity ratio from it
+            # a rating takes the viscosity ratio from the oil
             named["oil"] = None if self.rating is not None else self.oil
         return tuple(name for name, part in named.items() if part is not None)
 
     def assumptions(self) -> tuple[str, ...]:
-        """Notes for the user: assumptions of the model, and uses for which the scene's data were not made."""
+        """Notes for the user: assumptions of the model, and uses for which the data of the scene are not intended."""
         said = []
         if self.contact is not None and self.oil is not None:
             said += [f"oil: {note}" for note in self.oil.notes]

@@ -1,4 +1,4 @@
-"""Results of a ball bearing, labelled (see `solution`)."""
+"""Results of a ball bearing with their labels (see `bearings.solution`)."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -19,7 +19,10 @@ _Values = Float[Array, " element"]
 
 
 class SolvedBalls(NamedTuple):
-    """Converged state of the balls. **Arguments:** `films`: the `state` of balls with films, `None` of others."""
+    """Converged state of the balls.
+
+    **Arguments:** `system`: the equations; `state`: the state of the balls; `films`: the same state if the balls are
+    lubricated, else `None`."""
 
     system: "BallCore | AbstractBallEquations"
     state: "BallState | BallsState"
@@ -27,7 +30,8 @@ class SolvedBalls(NamedTuple):
 
     @property
     def angle(self) -> tuple[Array, Array]:
-        """Contact angles inner and outer, rad: of rings with two arcs those of the flanks for thrust along +e_x."""
+        """Contact angles at the inner and the outer race, rad; on rings with two arcs, those of the flanks for thrust
+        along +e_x."""
         return self.state.angle[0], self.state.angle[self.system.arcs.first_outer]
 
 
@@ -36,7 +40,7 @@ def _result(unit: str, description: str) -> Any:
 
 
 def _between_races(of: Callable[[SolvedBalls], Array]) -> Callable[[SolvedBalls], Array | None]:
-    """A result about race control, which only balls with two contacts have."""
+    """A result about race control, which is defined only for balls with two contacts (else `None`)."""
     return lambda at: of(at) if at.system.arcs.single else None
 
 
@@ -49,9 +53,9 @@ def _optional(unit: str, description: str) -> Any:
 
 
 class BallResults(eqx.Module):
-    """Arrays over the balls; what is not modelled is `None`. Speeds are positive in normal running. Of a ring with two
-    groove arcs, loads, angles and pressures are those of its flank for thrust along +e_x, and beside them stand those
-    of the second flank."""
+    """Results at the balls, as arrays over the balls; results that are not modelled are `None`. Speeds are positive in
+    normal running. For a ring with two groove arcs, the results of the contacts are those of the flank for thrust along
+    +e_x; fields with `_second` in their name hold those of the other flank."""
 
     azimuth: _Values = _result("rad", "azimuth from the load line")
     load_inner: _Values = _result("N", "normal load on the inner raceway")
@@ -173,8 +177,8 @@ _Power = Float[Array, ""]
 
 
 class BallPowerLoss(eqx.Module):
-    """Dissipated power by location, W; the entries add up to `total`. Losses that a scene does not model are `None`,
-    and `total` is `None` where it models none."""
+    """Dissipated power by location, W; the entries add up to `total`. Losses that the scene does not model are `None`;
+    if it models none, `total` is `None` too."""
 
     total: _Power | None = _optional("W", "total")
     inner_raceway: _Power | None = _optional("W", "sliding and spin on the inner raceway")

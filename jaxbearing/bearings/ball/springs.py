@@ -1,6 +1,6 @@
-"""Energy, forces and stiffness of balls between two grooved rings, at frozen centrifugal forces: a convex problem.
+"""Energy, forces and stiffness of balls between two grooved rings under given centrifugal forces: a convex problem.
 
-See `start`, which minimises the energy.
+The module `start` minimises the energy.
 """
 
 from typing import NamedTuple
@@ -15,18 +15,21 @@ from ..ring import LENGTH_UNIT
 from .arcs import Arcs, added, coordinate_map
 
 NO_APPROACH = 1e-300
-"""Approach of bodies that do not touch, m: their force is 0, and the root of it has a derivative."""
+"""Approach assumed for bodies that do not touch, m. It gives practically no force, and its square root has a
+derivative."""
 
 
 class CentrifugalProblem(eqx.Module):
-    """Balls between two grooves under given forces. Units m, N; (inner, outer) or (axial, radial) first.
+    """Balls between two grooves under given forces. Units are m and N; the first axis of arrays is (inner, outer) or
+    (axial, radial).
 
-    `groove`: coordinates of the inner groove at every ball with the ring at rest (`arcs`; of one arc its centre);
-    `directions`: their change for a unit of every coordinate of the rings: the degrees of freedom of the inner one (a
-    length each), then the amplitudes of an `outer` and of an `inner` flexible ring; `ring_load`: on the degrees of
-    freedom;
-    `held_load`: of `InnerRing`; `aligned`: axial displacement at which the planes of the grooves coincide;
-    `multiplicity`: balls that each ball stands for.
+    - `offset`, `stiffness`, `centre_distance`, `free_cosine`, `aligned`: as in `Grooves`.
+    - `groove`: coordinates of the inner groove at every ball if the coordinates of the rings are 0 (`arcs`; with one
+      arc, its centre).
+    - `directions`: derivatives of these coordinates by the coordinates of the rings: first the degrees of freedom of
+      the inner ring (all lengths), then the amplitudes of an `outer` and of an `inner` flexible ring.
+    - `ring_load`: loads on the degrees of freedom; `held_load`: as in `InnerRing`; `centrifugal`: force on each ball.
+    - `multiplicity`: number of balls of the bearing that each ball stands for.
     """
 
     offset: Float[Array, "2"]
@@ -51,21 +54,22 @@ class CentrifugalProblem(eqx.Module):
         return BentRings(self.outer, self.inner)
 
     def carried(self) -> Float[Array, " mode"]:
-        """Generalised loads of the centrifugal forces, which move with the outer groove, on the flexible rings, N."""
+        """Generalised loads of the centrifugal forces on the amplitudes of flexible rings, N. They exist because the
+        balls move with the outer groove."""
         return self.bent.pressed(self.bent.pick(self.centrifugal, jnp.zeros_like(self.centrifugal)))
 
     def groove_at(self, ring: Float[Array, " coordinate"]) -> Float[Array, "p ball"]:
         return self.groove + jnp.einsum("f,fcn->cn", ring, self.directions)
 
     def ring_work(self, ring: Float[Array, " coordinate"]) -> Array:
-        """Work of the loads on the rings at displacements, m, less the energy of flexible rings, J."""
+        """Work of the loads on the rings at given coordinates `ring`, m, minus the energy of flexible rings, J."""
         if not self.bent:
             return jnp.sum(self.ring_load * ring)
         d = len(self.freedoms)
         return jnp.sum(self.ring_load * ring[:d]) + jnp.sum(self.carried() * ring[d:]) - self.bent.energy(ring[d:])
 
     def ring_balance(self, ring: Array, force: Float[Array, " coordinate"]) -> Float[Array, " coordinate"]:
-        """Derivatives of the whole energy by the displacements of the rings, N; `force`: by those of the grooves."""
+        """Derivatives of the total energy by the coordinates of the rings, N; `force`: the part of the balls, N."""
         if not self.bent:
             return force - self.ring_load
         d = len(self.freedoms)
@@ -73,7 +77,7 @@ class CentrifugalProblem(eqx.Module):
         return jnp.concatenate([force[:d] - self.ring_load, bent])
 
     def ring_stiffness(self, ring: Array, matrix: Float[Array, "coordinate coordinate"]) -> Array:
-        """Derivatives of `ring_balance`, N/m; `matrix`: those of its `force`."""
+        """Derivatives of `ring_balance` by the coordinates of the rings, N/m; `matrix`: the part of the balls, N/m."""
         if not self.bent:
             return matrix
         d = len(self.freedoms)
@@ -81,23 +85,25 @@ class CentrifugalProblem(eqx.Module):
 
 
 class Forces(NamedTuple):
-    """Energy, forces and stiffness of the springs at a ball, for a ball centre and coordinates of the inner groove."""
+    """Energy, J, forces, N, and stiffness, N/m, of the springs at each ball (the contacts), for given ball centre and
+    coordinates of the inner groove."""
 
     energy: Float[Array, " ball"]
     balance: Float[Array, "2 ball"]
-    """d energy / d centre."""
+    """Derivative of `energy` by the ball centre."""
     inner: Float[Array, "p ball"]
-    """d energy / d groove: forces on the coordinates of the inner groove."""
+    """Derivative of `energy` by the coordinates of the inner groove: the forces on them."""
     stiffness: Float[Array, "2 2 ball"]
-    """d balance / d centre."""
+    """Derivative of `balance` by the ball centre."""
     coupling: Float[Array, "2 p ball"]
-    """- d balance / d groove."""
+    """Derivative of `balance` by the coordinates of the inner groove, with its sign changed."""
     of_groove: Float[Array, "p p ball"]
-    """d inner / d groove."""
+    """Derivative of `inner` by the coordinates of the inner groove."""
 
 
 class Spring(NamedTuple):
-    """The contacts of a ball on one ring: energy, J, force that the ball exerts on the ring, N, and stiffness, N/m."""
+    """Contact of a ball with one ring, or sum over its contacts with the ring: energy, J, and its first and second
+    derivatives (force, N, and stiffness, N/m) by the arm of the contact or by the coordinates of the groove."""
 
     energy: Array
     force: Array
@@ -105,7 +111,10 @@ class Spring(NamedTuple):
 
 
 def spring(arm: Float[Array, "2 ball"], offset: Array, constant: Array) -> Spring:
-    """Energy, force and stiffness of one contact, whose centres are `arm` apart."""
+    """Energy, force and stiffness of one contact.
+
+    **Arguments:** `arm`: vector between ball and groove centre, m; `offset`: its length at first contact, m;
+    `constant`: contact stiffness, N/m^(3/2)."""
     length = safe_norm(arm[0], arm[1], 1e-30)
     approach = jnp.maximum(length - offset, NO_APPROACH)
     root = jnp.sqrt(approach)
@@ -118,7 +127,8 @@ def spring(arm: Float[Array, "2 ball"], offset: Array, constant: Array) -> Sprin
 
 
 def inner_springs(problem: CentrifugalProblem, centre: Array, groove: Array) -> tuple[Spring, Spring, Array]:
-    """The contacts with the inner ring: with respect to ball centre, to the coordinates of the groove, and to both."""
+    """The contacts with the inner ring: energy, force and stiffness with respect to the ball centre, the same with
+    respect to the coordinates of the groove, and the stiffness that couples both."""
     places = problem.arcs.inner_centres(groove)
     springs = [spring(place - centre, problem.offset[0], problem.stiffness[0]) for place in places]
     if problem.arcs.inner is None:
@@ -133,13 +143,13 @@ def inner_springs(problem: CentrifugalProblem, centre: Array, groove: Array) -> 
 
 
 def outer_springs(problem: CentrifugalProblem, centre: Array) -> Spring:
-    """The contacts with the outer ring."""
+    """The contacts with the outer ring, with respect to the ball centre."""
     springs = [spring(arm, problem.offset[1], problem.stiffness[1]) for arm in problem.arcs.from_outer(centre)]
     return Spring(*(added(parts) for parts in zip(*springs, strict=True)))
 
 
 def forces_at(problem: CentrifugalProblem, centre: Array, groove: Array) -> Forces:
-    """The energy and its derivatives at ball centres and coordinates of the inner groove, m."""
+    """Energy, forces and stiffness at given ball centres and coordinates of the inner groove, m."""
     ball, ring, coupling = inner_springs(problem, centre, groove)
     outer = outer_springs(problem, centre)
     push = jnp.stack([jnp.zeros_like(problem.centrifugal), problem.centrifugal])
@@ -149,5 +159,5 @@ def forces_at(problem: CentrifugalProblem, centre: Array, groove: Array) -> Forc
 
 
 def together(stiffness: Float[Array, "2"]) -> Float[Array, ""]:
-    """Constant of both contacts of a ball, one behind the other, N/m^(3/2)."""
+    """Stiffness of the inner and the outer contact of a ball in series, N/m^(3/2)."""
     return jnp.sum(stiffness ** (-2.0 / 3.0)) ** -1.5

@@ -1,10 +1,12 @@
-r"""First guess of a ball bearing's equilibrium: without friction, at frozen centrifugal forces, it is a convex problem.
+r"""First guess of the equilibrium of a ball bearing: a convex problem without friction, at given centrifugal forces.
 
+The potential is
 $\Pi = \sum_j[\sum\frac25K_o\delta_{o+}^{5/2} + \sum\frac25K_i\delta_{i+}^{5/2} - F_CW] - F\cdot q$, with sums over the
-arcs of each ring (`arcs`): each $\delta$ is the norm of an affine map minus a constant, and the power is convex and
-increasing. Two nested damped Newton iterations, on each ball for given rings and on the rings with every ball in
-equilibrium, both accepting a step only where the potential falls. Only `force_at` is differentiated: the rest is the
-start of an iteration.
+balls j and over the arcs of each ring (`arcs`). It is convex, because each $\delta$ is the norm of an affine map minus
+a constant, and the power 5/2 of its positive part is convex and increasing. Two nested damped Newton iterations
+minimise it: the inner one finds the equilibrium of each ball for given rings, the outer one that of the rings with
+every ball in equilibrium. Both accept a step only if the potential decreases. Only `force_at` is differentiated; the
+other functions give the start of an iteration.
 """
 
 import dataclasses
@@ -26,23 +28,25 @@ from .arcs import added
 from .springs import CentrifugalProblem, Forces, forces_at, inner_springs, together
 
 RING_TOLERANCE = 2e-2
-"""Tolerance of the ring's balance, relative to the load: sufficient for a start of the full equations."""
+"""Tolerance of the force balance of the ring, relative to the load; sufficient as first guess of the full equations."""
 BENDING_TOLERANCE = 1e-8
-"""The same of flexible rings, where the inner one is held: `hold` takes one Newton step from there."""
+"""Tolerance of the balance of flexible rings if the inner ring is held, relative to the load; `hold` takes one more
+Newton step."""
 BALL_TOLERANCE = 1e-9
-"""Tolerance of a ball's balance, relative to its load scale."""
+"""Tolerance of the force balance of a ball, relative to its load scale."""
 RING_STEPS, BALL_STEPS = 40, 60
-"""Most trials."""
+"""Largest number of trial steps of the iterations on the rings and on the balls."""
 SOFTEST = 1e2
-"""Added to the ring's stiffness, N/m: where no ball carries anything the ring would be free."""
+"""Stiffness added to that of balls and rings in Newton steps, N/m; a ring that no ball holds has none of its own."""
 ARMIJO = 1e-4
-"""Part of the promised decrease that a step must bring."""
+"""Least decrease of the potential in a step, over the decrease that its slope predicts (Armijo's rule)."""
 SHORTEST = 1e-6
-"""Fraction of a step at which it is taken as it is: the decrease is lost in round-off."""
+"""Fraction of the Newton step below which a step is accepted without a decrease, which round-off then hides."""
 
 
 class Start(NamedTuple):
-    """Ball centres from the outer groove centre and displacements of the rings, m; outer Newton steps."""
+    """First guess: ball centres from the outer groove centre and coordinates of the rings, m, and the number of Newton
+    steps on the rings."""
 
     centre: Float[Array, "2 ball"]
     ring: Float[Array, " coordinate"]
@@ -52,10 +56,11 @@ class Start(NamedTuple):
 def free_centres(
     problem: CentrifugalProblem, groove: Array, blocked: bool | Bool[Array, ""] = True
 ) -> tuple[Array, Bool[Array, " ball"]]:
-    """Ball centres for given inner grooves, near equilibrium; and which balls do not touch the inner race (exact).
+    """Estimated ball centres for given inner grooves, m, and which balls do not touch the inner race (exact).
 
-    **Arguments:** `blocked`: whether the inner race stops a ball that the centrifugal force turns down the outer
-    groove. Where the ring has not followed yet, contact angles of the equilibrium are nearer to those without.
+    **Arguments:** `groove`: coordinates of the inner groove at every ball, m; `blocked`: whether the inner race stops a
+    ball that the centrifugal force moves towards the bottom of the outer groove. As long as the ring has not followed,
+    the contact angles without this stop are nearer to those of the equilibrium.
     """
     compliance = problem.stiffness ** (-2.0 / 3.0)
     arcs = problem.arcs
@@ -66,14 +71,14 @@ def free_centres(
     axial, radial = load * groove[0] / length, load * groove[1] / length + problem.centrifugal
     outer = safe_norm(axial, radial, 1e-30)
     reach = problem.offset[1] + compliance[1] * outer ** (2.0 / 3.0)
-    # as far down the outer groove as the forces on the ball point, but not through the inner race
+    # the ball lies in the outer groove in the direction of the force on it, but does not penetrate the inner race
     angle, side = jnp.arctan2(groove[0], groove[1]), jnp.where(groove[0] < 0, -1.0, 1.0)
     inner = problem.offset[0] + compliance[0] * load ** (2.0 / 3.0)
     swing = (jnp.square(reach) + jnp.square(length) - jnp.square(inner)) / (2.0 * reach * length)
     stopped = side * angle - jnp.arccos(jnp.clip(swing, -1.0, 1.0))
     stopped = jnp.where(blocked, stopped, -jnp.inf)
     if arcs.outer is not None:
-        # nor through the other arc of the outer ring
+        # nor the other arc of the outer ring
         stopped = jnp.maximum(stopped, jnp.arcsin(arcs.outer / problem.offset[1]))
     angle = side * jnp.maximum(side * jnp.arctan2(axial, radial), stopped)
     centre = arcs.moved_out(reach[None] * jnp.stack([jnp.sin(angle), jnp.cos(angle)]), flank)
@@ -86,8 +91,8 @@ def free_centres(
 
 
 def _resting(problem: CentrifugalProblem, compliance: Array) -> Float[Array, " ball"]:
-    """Distance of a ball that touches the outer ring only from its groove centre, outward, m; between two arcs to first
-    order in the deformation."""
+    """Outward distance from the outer groove centre, m, of a ball that touches the outer ring only. For an outer ring
+    with two arcs it is of first order in the deformation."""
     offset, force, apart = problem.offset[1], problem.centrifugal, problem.arcs.outer
     if apart is None:
         return offset + compliance * force ** (2.0 / 3.0)
@@ -109,10 +114,11 @@ class _Balls(NamedTuple):
 def _equilibrium(
     problem: CentrifugalProblem, groove: Array, scale: Array, cap: Array, near: Float[Array, "2 ball"] | None = None
 ) -> Float[Array, "2 ball"]:
-    """Ball centres that minimise each ball's potential for given inner grooves.
+    """Ball centres that minimise the potential of each ball for given inner grooves, m.
 
-    **Arguments:** `near`: those for other grooves, m; the search begins there where the potential is lower than that of
-    `free_centres`.
+    **Arguments:** `groove`: coordinates of the inner groove at every ball, m; `scale`: scale of the force balances of
+    the balls, N; `cap`: longest step, m; `near`: ball centres for other grooves, m. The search starts from `near` if
+    the potential is lower there than at the centres of `free_centres`.
     """
     first, lost = free_centres(problem, groove)
     if near is not None:
@@ -134,7 +140,7 @@ def _equilibrium(
         near = jnp.abs(state.slope) <= 1e-12 * jnp.abs(forces.energy) + 1e-18
         accept = (enough | near | (state.fraction < SHORTEST)) & ~state.done
         step, slope, small = propose(trial, forces)
-        # a lane that begins without numbers has none later, and the others would wait for it
+        # a ball that starts with NaN stays NaN, and the other balls would wait for it
         hopeless = (state.trials == 0) & jnp.isnan(forces.energy)
         return _Balls(
             centre=jnp.where(accept[None], trial, state.centre),
@@ -156,7 +162,7 @@ def _equilibrium(
 
 
 def _on_ring(problem: CentrifugalProblem, forces: Forces) -> tuple[Float[Array, " coordinate"], Array]:
-    """Forces that hold the grooves, and their derivatives with every ball in equilibrium."""
+    """Forces that hold the rings against the balls, N, and their derivatives with every ball in equilibrium, N/m."""
     # stiffness of a ball in equilibrium: springs in series
     series = forces.stiffness + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
     reduced = forces.of_groove - jnp.einsum("jin,jkn->ikn", forces.coupling, solve_blocks(series, forces.coupling))
@@ -166,8 +172,8 @@ def _on_ring(problem: CentrifugalProblem, forces: Forces) -> tuple[Float[Array, 
 
 
 class HeldBalls(NamedTuple):
-    """Balls in equilibrium under an inner ring that is held: energy, J, forces on the ring's degrees of freedom, N,
-    and their derivatives, N/m, the ball centres, m, and the amplitudes of flexible rings, m."""
+    """Balls in equilibrium with an inner ring that is held: energy, J, forces on the degrees of freedom of the ring, N,
+    their derivatives, N/m, ball centres, m, and amplitudes of flexible rings, m."""
 
     energy: Float[Array, ""]
     force: Float[Array, " freedom"]
@@ -182,10 +188,11 @@ def hold(
     near: Float[Array, "2 ball"],
     guess: Float[Array, " mode"] | None = None,
 ) -> HeldBalls:
-    """The balls for a given displacement of the inner ring, m; not differentiated.
+    """Equilibrium of the balls for given displacements of the inner ring, m; not differentiated.
 
-    **Arguments:** `near`: ball centres under another displacement, m; `guess`: amplitudes of flexible rings, near
-    those that are sought, m; see `row` on how exactly they are found.
+    **Arguments:** `ring`: displacements of the inner ring, as lengths, m; `near`: ball centres for other displacements,
+    m; `guess`: first guess of the amplitudes of flexible rings, m. The accuracy of the amplitudes is explained in
+    `bearings.row`.
     """
     problem, ring = jax.lax.stop_gradient((problem, ring))
     cap, outer = 0.5 * problem.centre_distance, problem.outer
@@ -226,15 +233,15 @@ def hold(
 
 
 def _pressed_scale(problem: CentrifugalProblem, groove: Float[Array, "p ball"]) -> Float[Array, " ball"]:
-    """Scale of the balances of the balls between grooves that are held, N."""
+    """Scale of the force balances of the balls between given grooves, N."""
     pair, _ = problem.arcs.facing(groove)
     depth = jnp.maximum(safe_norm(pair[0], pair[1], 1e-30) - jnp.sum(problem.offset), 0.0)
     return together(problem.stiffness) * jnp.max(depth) ** 1.5 + problem.centrifugal
 
 
 def _anchored(matrix: Float[Array, "coordinate coordinate"], count: int) -> Float[Array, "coordinate coordinate"]:
-    """The stiffness of both rings with a little on the amplitudes, which come after `count` degrees of freedom:
-    nothing holds an outer ring that leans on no support and that no ball touches."""
+    """The stiffness of both rings with a small stiffness added for the amplitudes, which come after the first `count`
+    coordinates. It holds an outer ring that no support and no ball touches."""
     anchor = np.where(np.arange(matrix.shape[0]) < count, 0.0, 1e-3 * SOFTEST)
     return matrix + jnp.diag(jnp.asarray(anchor))
 
@@ -245,10 +252,10 @@ def force_at(
     centre: Float[Array, "2 ball"],
     amplitudes: Float[Array, " mode"] | None = None,
 ) -> Float[Array, " freedom"]:
-    """The forces of `hold` with their first derivatives: one Newton step of the balls and of the amplitudes, which does
-    not move them.
+    """The forces of `hold` in a form that has first derivatives: balls and amplitudes take one more Newton step, which
+    carries the derivatives and is 0 at the solution.
 
-    **Arguments:** `centre`, `amplitudes`: those that `hold` found.
+    **Arguments:** `ring`: displacements of the inner ring, m; `centre`, `amplitudes`: solution of `hold`, m.
     """
     centre = jax.lax.stop_gradient(centre)
     if amplitudes is None:
@@ -266,7 +273,8 @@ def force_at(
 def _forces(
     problem: CentrifugalProblem, ring: Float[Array, " coordinate"], centre: Float[Array, "2 ball"]
 ) -> Float[Array, " coordinate"]:
-    """Forces that hold the grooves, N, with first derivatives: the balls take one Newton step from `centre`."""
+    """Forces that hold the rings, N, in a form that has first derivatives: the balls take one Newton step from
+    `centre`."""
     groove = problem.groove_at(ring)
     forces = forces_at(problem, centre, groove)
     matrix = jax.lax.stop_gradient(forces.stiffness) + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
@@ -288,7 +296,7 @@ class _Ring(NamedTuple):
 
 
 def start(problem: CentrifugalProblem, ring: Float[Array, " coordinate"]) -> Start:
-    """The minimum of the potential to `RING_TOLERANCE`, from an estimate of the rings' displacements, `ring`, m."""
+    """Minimum of the potential to `RING_TOLERANCE`. **Arguments:** `ring`: estimated coordinates of the rings, m."""
     problem = jax.lax.stop_gradient(problem)
     total, count = _scale(problem)
     scale = total / count + problem.centrifugal
@@ -305,11 +313,11 @@ def _descend(
     cap: Array,
     tolerance: float,
 ) -> Start:
-    """The minimum of the potential over the rings, with every ball in equilibrium.
+    """Minimum of the potential over the coordinates of the rings, with every ball in equilibrium.
 
-    **Arguments:** `ring`: first guess, m; `scales`: from the coordinates of the grooves to the scales of the balances
-    of the balls and of the rings, N; `cap`: largest change of a displacement in one step, m; `tolerance`: of the rings'
-    balances over their scale.
+    **Arguments:** `ring`: first guess of the coordinates of the rings, m; `scales`: function from the coordinates of
+    the grooves, m, to the scales of the force balances of the balls and of the rings, N; `cap`: largest change of a
+    coordinate or ball centre in one step, m; `tolerance`: tolerance of the balances of the rings over their scale.
     """
 
     def evaluate(ring: Array):
@@ -363,7 +371,7 @@ def _descend(
 
 
 def _scale(problem: CentrifugalProblem) -> tuple[Array, int]:
-    """Size of the load on the ring, N, and the number of balls that carry it."""
+    """Scale of the load on the ring, N, and number of balls of the bearing."""
     count = problem.groove.shape[1] * problem.multiplicity
     size = jnp.sqrt(jnp.sum(jnp.square(problem.ring_load)))
     if problem.held_load is not None:
@@ -372,7 +380,8 @@ def _scale(problem: CentrifugalProblem) -> tuple[Array, int]:
 
 
 def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " coordinate"]:
-    """Displacements of the rings: those that bend begin displaced as rigid bodies; the shaft follows."""
+    """Estimated coordinates of the rings, m. Flexible rings start with a displacement as rigid bodies, and the inner
+    ring is displaced with them."""
     inner = _inner_estimate(problem)
     if not problem.bent:
         return inner
@@ -386,11 +395,13 @@ def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " coordinate"]:
 
 
 def _inner_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
-    """Displacements of the inner ring between round, rigid races, pressed in rather too deep: Newton on a power 3/2
-    contracts from there, and a ring that touches no ball has no stiffness.
+    """Estimated displacements of the inner ring between round, rigid races, m. They are rather too large than too
+    small, because Newton's method on a power of 3/2 converges from the side of larger loads, and a ring that touches no
+    ball has no stiffness.
 
-    Axially from $\\sin\\alpha(\\cos\\alpha_0/\\cos\\alpha - 1)^{3/2} = F/(NK_nBD^{3/2})$ with the axial force that
-    would load half the balls (Harris), radially from Sjovall's load distribution.
+    The axial displacement follows from $\\sin\\alpha(\\cos\\alpha_0/\\cos\\alpha - 1)^{3/2} = F/(NK_nBD^{3/2})$, with F
+    not below the axial force that loads half of the balls (Harris); the radial one follows from Sjovall's load
+    distribution.
     """
     if not problem.freedoms:
         return jnp.zeros(0)
@@ -398,7 +409,7 @@ def _inner_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
     load = dict(zip(problem.freedoms, problem.ring_load, strict=True))
     zero = jnp.zeros(())
     both = together(problem.stiffness)
-    # with radial preload the rings are nearer than the balls are thick
+    # with radial preload the gap between the rings is smaller than the ball diameter
     distance, cosine = problem.centre_distance, jnp.minimum(problem.free_cosine, 1.0)
     axial, across = load.get("axial", zero), jnp.stack([load.get("radial", zero), load.get("lateral", zero)])
     radial = jnp.sqrt(jnp.sum(jnp.square(across)))
@@ -409,7 +420,7 @@ def _inner_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
     target = jnp.log(thrust / (count * both * distance**1.5))
 
     def deeper(_, angle):
-        """Newton on the logarithm of the thrust, from above."""
+        """One Newton step for the contact angle, on the logarithm of the axial force, from larger angles."""
         lift = jnp.maximum(cosine / jnp.cos(angle) - 1.0, 1e-12)
         value = jnp.log(jnp.sin(angle)) + 1.5 * jnp.log(lift) - target
         slope = 1.0 / jnp.tan(angle) + 1.5 * cosine * jnp.tan(angle) / (jnp.cos(angle) * lift)
@@ -422,7 +433,7 @@ def _inner_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
     pushed = jnp.where(axial < 0, -1.0, 1.0)
     first, play = distance * sine, distance * (1.0 - cosine)
     if not problem.arcs.single:
-        # the arcs are nearer to contact along the axis and across it
+        # with two arcs the axial and the radial play are smaller
         first = first - added([offset for offset in problem.arcs if offset is not None])
         play = play - problem.arcs.lift(problem.offset)
     mixed = 1.0 - 0.6 * jnp.minimum(1.0, radial * tangent / jnp.maximum(jnp.abs(axial), 1e-3))

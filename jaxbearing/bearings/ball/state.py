@@ -1,4 +1,4 @@
-"""Parts of the equations of lubricated balls, and what they find at every ball."""
+"""Parts of the equations of lubricated balls, their first guesses, and the state of the balls."""
 
 from typing import Literal, NamedTuple
 
@@ -14,7 +14,7 @@ from .kinematics import BallMotion, RaceMotion
 
 
 class BallCageParts(eqx.Module):
-    """Terms of the cage in the equations; all are prepared, with the oil at its inlet temperature."""
+    """Parts of the cage in the equations: film law of the pockets, film law of the lands, and the guiding ring."""
 
     pocket: BallPocket
     land: ShortJournal
@@ -22,20 +22,23 @@ class BallCageParts(eqx.Module):
 
 
 class BallDrag(eqx.Module):
-    """Drag on the orbiting balls: a law with its own coefficient, and the density of the oil-air mixture."""
+    """Drag on the orbiting balls: the law, and the density of the oil-air mixture, kg/m^3."""
 
     law: ReynoldsDrag | RollerDrag
     density: Float[Array, ""]
 
     def force(self, speed: Array, viscosity: Array) -> Array:
-        """N, of the sign of the orbital speed, m/s; it acts against it."""
+        """Drag force, N, with the sign of the orbital speed; it acts on the ball against this speed.
+
+        **Arguments:** `speed`: orbital speed, m/s; `viscosity`: viscosity of the oil, Pa s."""
         if isinstance(self.law, RollerDrag):
             return self.law.force(speed, self.density)
         return self.law.force(speed, self.density, viscosity)
 
 
 class BallGuess(NamedTuple):
-    """Start of the iteration: from the bearing without friction."""
+    """First guess for balls with two contacts, from the bearing without friction: logarithm of the inner load (in N),
+    contact angle at the inner race, rad, attitude, rad, and the rings."""
 
     log_load: Float[Array, " ball"]
     angle: Float[Array, " ball"]
@@ -45,8 +48,8 @@ class BallGuess(NamedTuple):
 
 
 class BallPlaces(NamedTuple):
-    """Start of the iteration of balls with more than two contacts: centres and displacements of the rings (as in
-    `BallGuess`), m, and loads and contact angles, N and rad, of the bearing without friction."""
+    """First guess for balls with more than two contacts, from the bearing without friction: ball centres and
+    displacements of the rings (as in `BallGuess`), m, contact loads, N, and contact angles, rad."""
 
     centre: Float[Array, "2 ball"]
     ring: Float[Array, " coordinate"]
@@ -55,11 +58,12 @@ class BallPlaces(NamedTuple):
 
 
 class BallsState(NamedTuple):
-    """Everything that happens at every ball, for given unknowns; arrays over balls, contacts first (`arcs`)."""
+    """State of all balls for given unknowns. The last axis of arrays is over the balls; an axis over the contacts
+    (`arcs`) comes first. Fields that are not modelled, or not known yet, are `None`."""
 
     load: Float[Array, "contact ball"]
     angle: Float[Array, "contact ball"]
-    """Contact angles on the races: of the inner one against the tilted ring."""
+    """Contact angles, rad; that at the inner race is relative to the tilted ring."""
     centre: Float[Array, "2 ball"]
     """Centre of the ball, from the outer groove centre, m."""
     motion: BallMotion
@@ -69,29 +73,30 @@ class BallsState(NamedTuple):
     friction: Float[Array, "contact ball"] | None
     film: PointFilm
     orbit_residual: Float[Array, ""]
-    """Gives how far centrifugal forces of balls that roll without sliding are off, over their loads; 0 for others."""
+    """Largest residual of the nested solves: for balls with two contacts that roll without sliding, the error of the
+    centrifugal force over its sum with the inner load, else 0; for balls with more contacts, that of the loads."""
     traction: Traction | None
     rolling: Float[Array, "contact ball"] | None
-    """Moment of the film's pressure against the roll, N m."""
+    """Moment against the roll by the pressure in the film, N m."""
     curvature: Float[Array, "contact ball"] | None
-    """Moment of Heathcote slip against the roll, N m."""
+    """Moment against the roll by Heathcote slip, N m."""
     pocket_force: Float[Array, " ball"] | None
-    """Outward force of the pocket's friction on the ball in the balance of forces, N."""
+    """Outward friction force of the pocket on the ball, as used in the force balance of the ball, N."""
     pocket: BallPocketFilm | None
     drag_force: Float[Array, " ball"] | None
     fit: Float[Array, "2 ball"]
-    """Residuals of the two equations of the contacts."""
+    """Scaled residuals of the two equations of the contacts."""
     rows: tuple[Array, ...]
-    """Residuals of the ball's motion, in the order of its unknowns."""
+    """Scaled residuals of the equations of motion of the ball, in the order of its unknowns."""
     on_ring: Float[Array, "row ball"]
-    """Contributions of each ball to the forces on the inner ring's degrees of freedom, N; then the radial forces on
-    rings that bend."""
+    """Contributions of each ball to the forces on the degrees of freedom of the inner ring, N; then the radial forces
+    on flexible rings, N."""
     cage_moment: Float[Array, " ball"] | None
     cage_force: Float[Array, "2 ball"] | None
 
 
 class RaceState(NamedTuple):
-    """State on which the friction of the raceways depends; the fields are those of `BallsState`."""
+    """Part of the state on which the friction of the raceways depends; the fields are those of `BallsState`."""
 
     load: Float[Array, "2 ball"]
     contact: PointContact

@@ -1,4 +1,4 @@
-"""Steady state of a ball bearing: from the scene to the equations, and from the roots to the results."""
+"""Steady state of a ball bearing: solution of the equations of a scene, and results."""
 
 import dataclasses
 from collections.abc import Callable
@@ -41,9 +41,10 @@ Seen = TypeVar("Seen")
 def solve_ball(
     scene: BallBearing, options: NewtonOptions, ring: InnerRing | None = None, exact: bool | None = None
 ) -> Solution:
-    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve.
+    """Steady state of a ball bearing: pure, jit-able, vmap-able, differentiable; never raises for a failed solve.
 
-    **Arguments:** `ring`: instead of that of the scene's operating point; `exact`: of `build_core`.
+    **Arguments:** `ring`: a ring with loads and displacements instead of those of the scene's operating point; `exact`:
+    see `build_core`.
     """
     core = build_core(scene, exact, ring)
     if scene.contact is not None and scene.geometry.has_arcs:
@@ -89,8 +90,8 @@ def solve_ball(
 def _of_lengths(
     stiffness: Float[Array, "5 5"], lever: Array, freedoms: tuple[str, ...]
 ) -> Float[Array, "freedom freedom"]:
-    """The stiffness of the unknown degrees of freedom of a ring that may tilt, all displacements counted as lengths,
-    N/m."""
+    """Stiffness of the unknown degrees of freedom `freedoms` of the ring, N/m, with tilts converted to lengths by the
+    `lever`, m."""
     free = np.asarray([RING_FREEDOMS.index(name) for name in freedoms])
     unit = jnp.stack([1.0 / lever if name in TILTS else jnp.ones(()) for name in freedoms])
     return stiffness[free][:, free] * unit[:, None] * unit[None]
@@ -107,12 +108,13 @@ def _without_cage(scene: BallBearing) -> dict[str, FailureCause]:
 
 
 def overload(scene: BallBearing) -> Float[Array, ""]:
-    r"""Load over the static load rating of the scene's own grooves and materials, by the definition of ISO 76:
-    $P_0/C_0$, $C_0 = \frac15Z\cos\alpha\,Q(4.2\,GPa)$ of the inner contact.
+    r"""Static equivalent load over the static load rating, $P_0/C_0$, for the grooves and materials of the scene.
 
-    $P_0 = \max(F_r, X_0F_r + Y_0F_a)$, X_0 = 0.6 (deep groove) or 0.5, $Y_0 = 0.58 - 0.008\alpha$/1°, at most 0.5: a
-    line through ISO 76's table ([M], from memory). A moment counts as the axial load $2M/d_m$. The load at 4.2 GPa is
-    that of Hamrock and Brewe's closed form of the ellipse, within 5 %: enough for a message, and short.
+    The rating follows the definition of ISO 76, $C_0 = \frac15Z\cos\alpha\,Q(4.2\,GPa)$ for the inner contact. The load
+    is $P_0 = \max(F_r, X_0F_r + Y_0F_a)$ with $X_0$ = 0.6 (deep groove) or 0.5 and
+    $Y_0 = 0.58 - 0.008\alpha$/1°, at most 0.5, a line through the table of ISO 76 ([M], from memory). A moment counts
+    as the axial load $2M/d_m$. The contact load at 4.2 GPa comes from Hamrock and Brewe's closed form of the ellipse,
+    which is accurate to 5 %; this is sufficient for a message.
     """
     geometry, operation = scene.geometry, scene.operation
     angle, radial_row = jnp.asarray(geometry.nominal_angle), geometry.contact_angle is None and not geometry.has_arcs
@@ -194,7 +196,7 @@ def _cage_state(system: AbstractBallEquations, result: NewtonResult, state: Ball
 def _rolling_alone(
     system: AbstractBallEquations, state: BallsState, elements: BallResults, facts: Facts
 ) -> Results[BallResults, BallPowerLoss]:
-    """Results of balls that roll without sliding: what rolling costs, where the scene models it."""
+    """Results of balls that roll without sliding, with the rolling resistance if the scene models it."""
     resistance, found = rolling_resistance(system, state), []
     if resistance is not None:
         power = system.multiplicity * jnp.sum(system.arcs.senses * resistance * state.races.roll)
@@ -223,7 +225,7 @@ def _raceway_power(system: AbstractBallEquations, state: BallsState) -> RacewayP
 
 
 def _interactions(system: AbstractBallEquations, state: BallsState, land: LandState | None) -> list[Interaction]:
-    """The friction of sliding balls: one interaction each, with its own force and its own speed."""
+    """The friction of sliding balls as a list of interactions, each with the power of its own force and speed."""
     shear, pocket, motion = state.traction, state.pocket, state.motion
     assert shear is not None
     total = lambda power: system.multiplicity * jnp.sum(power)
@@ -252,7 +254,8 @@ def _interactions(system: AbstractBallEquations, state: BallsState, land: LandSt
 
 
 def _by_race(system: AbstractBallEquations, state: BallsState, resistance: Array) -> Float[Array, "2"]:
-    """Power of the rolling resistance of each race, W. **Arguments:** of each ball, N m."""
+    """Power of the rolling resistance on the inner and the outer race, W. **Arguments:** `resistance`: moment against
+    the roll at each contact, N m."""
     power = system.arcs.by_race(jnp.asarray(system.arcs.senses * resistance * state.races.roll))
     return system.multiplicity * jnp.sum(jnp.stack(power), axis=1)
 
@@ -260,8 +263,10 @@ def _by_race(system: AbstractBallEquations, state: BallsState, resistance: Array
 def _ball_torques(
     system: AbstractBallEquations, state: BallsState, forward: Array, about: Array, resistances: tuple[Array, ...]
 ) -> tuple[Array, Array]:
-    """Torques on the rings against the balls, N m. **Arguments:** on each ball, races first: force along the orbit, N,
-    moments about the normals and against the roll, N m."""
+    """Torques that drive the inner and the outer ring against the friction of the balls, N m.
+
+    **Arguments:** loads on each ball at each contact (first axis): `forward`: force along the orbit, N; `about`: moment
+    about the normal, N m; `resistances`: moments against the roll, N m."""
     motion, senses = system.kinematics, system.arcs.senses
     sine, cosine = jnp.sin(state.angle), jnp.cos(state.angle)
     radius = 0.5 * motion.pitch_diameter * (1.0 - senses * motion.ratio * cosine)
@@ -274,7 +279,8 @@ def _ball_torques(
 
 
 def _released(scene: BallBearing, system: Balls, result: NewtonResult) -> tuple[Balls, ArrowPoint]:
-    """The equations and the unknowns of all balls, also where one was solved for all, with all five freedoms."""
+    """The equations and the unknowns with all balls and all five degrees of freedom of the ring, even if only one ball
+    or fewer degrees of freedom were solved for."""
     count = scene.geometry.n_balls
     azimuth = azimuths(scene.geometry, count)
     released = system.ring.released(system.load_scale())
@@ -289,8 +295,8 @@ def _wide(values: Array, count: int) -> Array:
 
 
 def _dry_port(scene: BallBearing, system: BallCore, result: NewtonResult) -> tuple[Port, BallState]:
-    """The reaction and the stiffness of all five degrees of freedom of the ring, and the state of all balls, from one
-    evaluation."""
+    """Reaction and stiffness for all five degrees of freedom of the ring, and the state of all balls, from one
+    evaluation of the frictionless equations."""
     full, point = _released(scene, system, result)
     return _port_anew(full, point, full.seen, system.freedoms)
 
@@ -301,8 +307,11 @@ def _port_anew(
     element: Callable[[Array, Array], tuple[Array, Array, Seen]],
     freedoms: tuple[str, ...],
 ) -> tuple[Port, Seen]:
-    """The reaction and the stiffness of the ring with all its degrees of freedom and all balls, from derivatives of
-    `element`; and the third result of that."""
+    """Reaction and stiffness for all degrees of freedom of the ring, from derivatives of `element`, and the third
+    result of `element`.
+
+    **Arguments:** `full`, `point`: equations and unknowns of `_released`; `element`: function of the unknowns of the
+    balls and the shared unknowns; `freedoms`: names of the degrees of freedom that were solved for."""
     values, tangents, seen = element_tangents(element, point.elements, seen_by_elements(full, point))
     equations, jacobian = assembled(full, point, values, tangents, jnp.zeros(()))
     force = equations.residual.globals[:5] * full.load_scale() + full.ring.load
@@ -312,14 +321,14 @@ def _port_anew(
 def _port(
     scene: BallBearing, system: LubricatedBallSystem | ArchedBallSystem, result: NewtonResult, film: PointFilm
 ) -> Port:
-    """The reaction and the stiffness of all five degrees of freedom of the ring."""
+    """Reaction and stiffness for all five degrees of freedom of the ring of a lubricated bearing."""
     if isinstance(system, ArchedBallSystem):
         every, point = _released(scene, system, result)
         return _port_anew(every, point, every.element, system.freedoms)[0]
     full, point = _released(scene, system, result)
     if full.bent:
         return _port_anew(full, point, full.element, system.freedoms)[0]
-    # a ring that cannot tilt moves the groove centres only: at given unknowns of the balls the films stay
+    # a ring that cannot tilt only moves the groove centres: at given unknowns of the balls the films do not change
     kept = None if full.exact else jax.tree.map(lambda values: _wide(values, scene.geometry.n_balls), film)
     jacobian, force = _all_freedoms(full, point, result.jacobian, len(system.freedoms), system.multiplicity, kept)
     return full.ring.port(jacobian, force, full.load_scale(), system.freedoms)
@@ -333,13 +342,15 @@ def _all_freedoms(
     multiplicity: int,
     film: PointFilm | None,
 ) -> tuple[ArrowJacobian, Float[Array, "5"]]:
-    """The Jacobian with all five degrees of freedom of the ring, from that of the solve, and the forces on them, N.
-    Ring displacements only move the groove centres, so the expensive friction derivatives of the solve can be reused;
-    that a tilt also turns the inner race under the sliding ball is left out here.
+    """The Jacobian with all five degrees of freedom of the ring, from the Jacobian of the solve, and the forces on the
+    degrees of freedom, N.
 
-    **Arguments:** `full`: the equations of all balls with five degrees of freedom; `solved`: of the solve, with this
-    many
-    `freedoms`, every ball of it standing for `multiplicity`; `film`: where it does not depend on the ring.
+    Displacements of the ring only move the groove centres, so the expensive friction derivatives of the solve are
+    reused. The rotation of the inner race under a sliding ball by a tilt is left out here.
+
+    **Arguments:** `full`: the equations of all balls with five degrees of freedom; `solved`: Jacobian of the solve;
+    `freedoms`: number of degrees of freedom of the ring in the solve; `multiplicity`: number of balls for which each
+    ball of the solve stands; `film`: films of the contacts if they do not depend on the ring, else `None`.
     """
     m, count = point.elements.shape
     g = point.globals.shape[0]

@@ -37,10 +37,10 @@ _OUTWARD = np.asarray([[0.0], [1.0]])
 class Grooves(NamedTuple):
     """Geometry and stiffness of the grooves.
 
-    - `offset`, `stiffness`: of (inner, outer): distance of the groove centre from the centre of a ball that touches the
-      groove without load, m; contact stiffness, N/m^(3/2).
-    - `centre_distance`: of the inner from the outer groove centre at first contact, m; `free_cosine`, `free_sine`: of
-      `free_angle`.
+    - `offset`: distance of the (inner, outer) groove centre from the centre of a ball that touches the groove without
+      load, m; `stiffness`: contact stiffness (inner, outer), N/m^(3/2).
+    - `centre_distance`: distance between the inner and the outer groove centre at first contact, m; `free_cosine`,
+      `free_sine`: cosine and sine of `free_angle`.
     """
 
     offset: Float[Array, "2"]
@@ -106,12 +106,12 @@ class InnerArm(NamedTuple):
 
     @property
     def along(self) -> Float[Array, " ball"] | None:
-        """Component along the orbit, m; `None` if the grooves move to first order."""
+        """Component of the vector along the orbit, m; `None` if the grooves move to first order."""
         return None if self.turned is None else self.vector[2]
 
     @property
     def share(self) -> Float[Array, " ball"]:
-        """Length of the part in the half-plane over the whole length."""
+        """Length of the component in the half-plane over the total length of the vector."""
         return length_of(self.in_plane) / self.length
 
 
@@ -132,7 +132,7 @@ class Touch(NamedTuple):
     - `direction`: angle of each normal from the outward radius towards $+e_x$, in the fixed frame, rad; `angle`:
       contact angles, rad: `direction`, less the rotation of the ring by its tilt on the inner race of an `exact`
       system.
-    - `on_ring`: of `AbstractBallSystem.reach`.
+    - `on_ring`: function from the forces on the arcs to those on the ring, as returned by `AbstractBallSystem.reach`.
     """
 
     apart: Float[Array, "contact ball"]
@@ -225,9 +225,9 @@ class AbstractBallSystem(AbstractBetweenRings):
         return self.grooves.of_ring + moved + self.held_shift
 
     def from_round(self, centre: Float[Array, "2 ball"], shared: Float[Array, "p ball"]) -> Float[Array, "2 ball"]:
-        """Ball centres (axial, radial), m, counted from the centre of the outer groove, as they are for rings that are
-        round and rigid."""
-        # an opening widens the gap between the races
+        """Equivalent ball centres (axial, radial) between round and rigid rings, m, from the outer groove centre: the
+        radial component is corrected for the deflections of flexible rings and for races that are not round."""
+        # `opened` gives the radial widening of the gap between the races at each ball
         for opening in self.opened(shared).values():
             centre = jnp.stack([centre[0], centre[1] + opening])
         if self.out_of_round is not None:
@@ -237,13 +237,16 @@ class AbstractBallSystem(AbstractBetweenRings):
     def inner_arms(
         self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]
     ) -> tuple[tuple[InnerArm, ...], OnRing]:
-        r"""From ball centres of `from_round`, m, to the centres of each inner arc; and what forces on the arcs
-        contribute to those that hold the ring's freedoms.
+        r"""Vectors from the ball centres to the nearest centre of each inner arc, and the function `OnRing` from the
+        forces on these arcs to those on the degrees of freedom of the ring.
 
-        The contributions are conjugate to the displacements: force times the motion of the nearest groove centre,
-        friction moment times the turning of the groove. To second order, a force $(F_x, F_r)$ on the groove centre
-        gives the moment $R_i(F_x\cos t\cos\psi - F_r\sin t\cos^2\psi)$ on a tilt t that moves azimuth 0 along the
-        axis.
+        The forces on the degrees of freedom are conjugate to the displacements: they follow from the work of the forces
+        at the nearest groove centre and of the friction moment on the rotation of the groove. To second order, a force
+        $(F_x, F_r)$ on the groove centre gives the moment $R_i(F_x\cos t\cos\psi - F_r\sin t\cos^2\psi)$ on a tilt t
+        that moves azimuth 0 along the axis.
+
+        **Arguments:** `shift`: displacements of the ring in units of `LENGTH_UNIT`; `centre`: ball centres as returned
+        by `from_round`, m.
         """
         if self.ring_motion is None:
             arms = [groove - centre for groove in self.arcs.inner_centres(self.groove_centres(shift))]
@@ -264,7 +267,7 @@ class AbstractBallSystem(AbstractBetweenRings):
         return 0.5 * self.mass * self.kinematics.pitch_diameter * jnp.square(orbital_speed)
 
     def couple(self, motion: BallMotion) -> Array:
-        """The gyroscopic couple that acts, N m (source eq. (13))."""
+        """Gyroscopic couple on each ball, N m (source eq. (13)), times `couple_share`."""
         spin = motion.spin_speed * motion.orbital_speed * jnp.sin(motion.attitude)
         return self.couple_share * self.inertia * spin
 
@@ -294,8 +297,8 @@ class AbstractBallSystem(AbstractBetweenRings):
     def couple_friction(
         self, motion: BallMotion, load: Float[Array, "contact ball"]
     ) -> Float[Array, "contact ball"] | None:
-        """Friction of each contact that carries the gyroscopic couple, with its sign, N; `None` where no law says. The
-        contacts of a ring with two arcs share in proportion to their loads, N."""
+        """Friction forces of the contacts that carry the gyroscopic couple, with their sign, N; `None` without a law
+        for them. The two contacts on a ring with two arcs share the friction in proportion to their loads."""
         if self.gyroscopic is None:
             return None
         loads = self.arcs.on_inner(load), self.arcs.on_outer(load)
@@ -308,15 +311,18 @@ class AbstractBallSystem(AbstractBetweenRings):
     def reach(
         self, shared: Float[Array, "p ball"], centre: Float[Array, "2 ball"]
     ) -> tuple[tuple[InnerArm, ...], OnRing]:
-        """Returns what `inner_arms` does, for ball centres that count from the outer groove centre (axial, radial), m.
+        """The result of `inner_arms` for ball centres relative to the outer groove centre.
 
         **Arguments:** `shared`: the unknowns that all balls share, as each ball sees them; those of the ring come
-        first.
+        first; `centre`: ball centres (axial, radial), m.
         """
         return self.inner_arms(shared[: len(self.freedoms)], self.from_round(centre, shared))
 
     def touch(self, shared: Float[Array, "p ball"], centre: Float[Array, "2 ball"]) -> Touch:
-        """The contacts of balls whose centres are known, m from the middle of the outer arcs (axial, radial)."""
+        """The contacts of the balls for given ball centres.
+
+        **Arguments:** `shared`: as in `reach`; `centre`: ball centres (axial, radial) from the outer groove centre or
+        the point midway between the outer arc centres, m."""
         arms, on_ring = self.reach(shared, centre)
         rests = self.arcs.from_outer(centre)
         lengths = [*(arm.length for arm in arms), *(safe_norm(rest[0], rest[1]) for rest in rests)]
@@ -332,7 +338,8 @@ class AbstractBallSystem(AbstractBetweenRings):
     def push(
         self, touch: Touch, load: Float[Array, "contact ball"], friction: Float[Array, "contact ball"] | None
     ) -> Push:
-        """The forces of all contacts. **Arguments:** `load`, N; `friction`: of `couple_friction`, N."""
+        """The forces of all contacts. **Arguments:** `touch`: see `touch`; `load`: contact loads, N; `friction`: see
+        `couple_friction`, N."""
         forces, moment = [load[k][None] * normal for k, normal in enumerate(touch.normals)], None
         if friction is not None:
             dragged, moment = self.couple_forces(unit_normals(touch.direction), friction)
@@ -351,18 +358,18 @@ class AbstractBallSystem(AbstractBetweenRings):
         for direction, name in zip(self.directions, self.freedoms, strict=True):
             row = jnp.sum(force * direction, axis=0)
             if name in TILTS and moment is not None:
-                # a tilt also turns the groove, by its axial displacement over R_i
+                # a tilt also rotates the groove, by the axial displacement of the groove over R_i
                 row = row + moment * direction[0] / self.grooves.lever
             rows.append(self.multiplicity * row)
         return jnp.stack(rows)
 
     def _on_coordinates(self, forces: tuple[Array, ...]) -> Float[Array, "p ball"]:
-        """Forces on the coordinates of the inner groove, N, from those on its arcs, axial and outward."""
+        """Forces on the coordinates of the inner groove, N, from the axial and outward forces on its arcs, N."""
         if self.arcs.inner is None:
             return forces[0]
         turning = added([-side * force[1] for side, force in zip(self.arcs.inner_sides, forces, strict=True)])
         return jnp.concatenate([added(forces), turning[None]])
 
     def shared_fields(self) -> dict[str, Any]:
-        """Arguments of another system of the same balls."""
+        """Fields of this base class, as arguments for another system of equations of the same balls."""
         return {name: getattr(self, name) for name in AbstractBallSystem.__dataclass_fields__}

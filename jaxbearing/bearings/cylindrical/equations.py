@@ -231,7 +231,7 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
     # -- physics --------------------------------------------------------------------------------------------------
 
     def orbit(self, scaled: Array) -> Array:
-        """Orbital speed W from the scaled unknown, which is 0 when rolling without slip."""
+        """Orbital speed W, rad/s, from the scaled unknown, which is 0 in rolling without slip."""
         return self.kinematics.free_orbit + self.kinematics.orbit_unit * scaled
 
     def at(self, point: ArrowPoint) -> RollerState:
@@ -370,12 +370,14 @@ class DryRollerSystem(AbstractInPlane):
         return ArrowPoint(jnp.zeros((0, self.azimuth.shape[0])), ring)
 
     def loads(self, shift: Array) -> tuple[Float[Array, "2 roller"], Array]:
-        r"""Loads on both races from the inward displacement of the inner ring at each roller, and the root's residual.
+        r"""Loads on both races, N, and the residual of the solve for them.
 
-        $k_i Q^{0.9} + k_o (Q + F_c)^{0.9} = d\cdot n - J_d/2$, with the load Q at the inner race. Q is 0 until
+        The load Q at the inner race satisfies $k_i Q^{0.9} + k_o (Q + F_c)^{0.9} = d\cdot n - J_d/2$. It is 0 until
         $d\cdot n$ exceeds $J_d/2$ plus the approach that the centrifugal force causes at the outer race. The equation
         is solved for $t = Q^{0.9}$, in which it is nearly linear. Where contact begins, Q is continuously
         differentiable with slope 0.
+
+        **Arguments:** `shift`: displacement of the inner ring towards each roller, m.
         """
         kappa = per_race(self.contact.palmgren_compliance)
         fc = self.centrifugal()
@@ -396,7 +398,7 @@ class DryRollerSystem(AbstractInPlane):
         return jnp.stack([at_inner, at_inner + fc]), jnp.max(root.residual / x)
 
     def inward_shift(self, point: ArrowPoint) -> Array:
-        """Displacement of the rings towards each other at each roller, m."""
+        """Displacement of the rings towards each other at each roller at a point, m."""
         return self.approaching(point.globals) if self.bent else self.inward(point.globals[:, None])
 
     def local_inputs(self, globals_):

@@ -25,7 +25,8 @@ class AbstractInPlane(AbstractBetweenRings):
     """Base of the equations of rollers that carry evenly along their length.
 
     - `directions`: components of the outward unit vectors along the unknown degrees of freedom of the `ring`.
-    - `held`: displacement of the inner ring towards each roller that is given, m; `None` if none is given.
+    - `held`: given displacement of the inner ring towards each roller, with the expansion of its raceway, m; `None` if
+      none is given.
     - `out_of_round`: approach of the races at each roller because they are not round, m; `None` if they are round.
     - `outer`, `inner`: flexible rings; `None` if they are rigid. Their bending opens the contacts of a roller, which
       reduces the displacement of the rings towards each other (`local_inputs`).

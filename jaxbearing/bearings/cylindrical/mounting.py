@@ -1,4 +1,4 @@
-r"""Effect of growth (by fits, temperatures and speed) on a cylindrical roller bearing: its clearance and roller size.
+r"""Effect of growth (by fits, temperatures and speed) on the clearance and roller size of a cylindrical roller bearing.
 
 The raceways, with diameters $d_m \mp D_w$, grow by $\Delta G$ with their rings, and the rollers expand with their
 temperature. The diametral clearance becomes $P_d' = P_d + \Delta G_o - \Delta G_i - 2\Delta D_w$.

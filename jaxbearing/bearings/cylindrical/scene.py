@@ -81,14 +81,16 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     - With `contact.traction`, a steady solve needs a `cage`: without it, a roller outside the loaded zone has no steady
       state. Only a scene with a `simulation` may leave the cage out.
     - `profile`, or `operation.misalignment` or `operation.moment`: rollers may tilt, divided into laminae if they have
-      a `profile`. If there is a `contact`, it must be without traction; films and rolling resistance are those of
+      a `profile`. If there is a `contact`, it must be without traction. Films and rolling resistance are then those of
       rolling without sliding.
     - `geometry.flange_stiffness`: flanges hold the ring along its axis. This axial degree of freedom is independent of
       all others.
-    - `outer_ring`: flexible outer ring in its housing; `None`: it is rigid, as a transient run requires.
-    - `inner_ring`: flexible inner ring on its shaft; `None`: it is rigid, as a transient run requires.
+    - `outer_ring`: flexible outer ring in its housing; `None`: it is rigid. A run of rollers and cage in motion
+      requires rigid rings.
+    - `inner_ring`: flexible inner ring on its shaft; `None`: it is rigid. A run of rollers and cage in motion requires
+      rigid rings.
     - `inner_roundness`, `outer_roundness`: deviations of a raceway that is not round, stationary relative to the load.
-    - `simulation`: settings of a transient run, or a `WarmUpSimulation` if the scene has `thermal`; a steady solve
+    - `simulation`: settings of a transient run, or a `WarmUpSimulation` if the scene has `thermal`. A steady solve
       ignores it.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack a required part.

@@ -196,7 +196,7 @@ def _port(
 ) -> Port:
     """Reaction and stiffness of the ring, with everything else in equilibrium.
 
-    They have the unknown degrees of freedom; if a displacement is given, all that the model has.
+    They cover the unknown degrees of freedom or, if a displacement is given, all degrees of freedom of the model.
 
     **Arguments:** `load`: on the inner race, N.
     """

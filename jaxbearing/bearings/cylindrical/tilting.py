@@ -55,8 +55,8 @@ class TiltingRollers(AbstractRowSystem):
 
     - `columns`: displacement of the inner race towards each roller, and its slope along the roller, for a unit of each
       unknown degree of freedom of the ring.
-    - `held`: the same displacement, m, and slope, rad, by the given displacements of the ring and by races that are not
-      round.
+    - `held`: the same displacement, m, and slope, rad, by given displacements of the ring, by expansion and by races
+      that are not round.
     """
 
     line: AbstractTiltedLine

@@ -75,7 +75,7 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
 
 def _columns(azimuth: Float[Array, " roller"], lever: Array) -> Float[Array, "5 2 roller"]:
     """Displacement of the inner race towards each roller, and its slope along the roller, for a unit of each degree of
-    freedom in `RING_FREEDOMS`. Tilts are multiplied by `lever`, m, and so are lengths. The axial displacement has no
+    freedom in `RING_FREEDOMS`. The unit of a tilt is a length: the tilt times `lever`, m. The axial displacement has no
     effect on the rollers."""
     zero, cosine, sine = jnp.zeros_like(azimuth), jnp.cos(azimuth), jnp.sin(azimuth)
     pairs = ((zero, zero), (cosine, zero), (sine, zero), (zero, -cosine / lever), (zero, -sine / lever))

@@ -2,8 +2,8 @@
 
 Such a family has a scene class derived from `AbstractMovingBearing`, a class of its equations of motion
 (`AbstractDynamics`) and a class that makes these from a scene (`AbstractMotion`). Integration, restart, batches,
-history and files are common to all families and are in this folder. An *instant* holds all results of a run at one time. A
-function is *pure* if JAX can transform it: its result depends on its arguments alone.
+history and files are common to all families and are in this folder. An *instant* holds all results of a run at one
+time. A function is *pure* if JAX can transform it: its result depends on its arguments alone.
 """
 
 import abc
@@ -104,7 +104,7 @@ class AbstractMotion(abc.ABC):
 
     @abc.abstractmethod
     def require_moving(self, scene: Any) -> None:
-        """Checks that friction drives the rolling elements of the scene.
+        """Checks that the rolling elements of the scene are driven.
 
         **Raises:** `ValueError` if nothing drives them."""
 

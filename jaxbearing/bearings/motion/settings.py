@@ -27,8 +27,8 @@ class Simulation(Checked):
     - `tolerance`: relative tolerance, also the absolute tolerance in the units of the state.
     - `entrainment_smoothing`: speed by which the absolute value of the mean surface speed in the raceway films is
       smoothed, m/s. It determines the film that remains where the surface of a roller passes through rest.
-    - `ring_mass`: mass of the inner ring and its share of the shaft, kg; for a ball bearing whose ring moves under
-      loads.
+    - `ring_mass`: mass of the inner ring and its share of the shaft for a ball bearing whose ring moves under loads,
+      kg.
     - `ring_damping`: external damping of the moving inner ring, N s/m; 0 for ball bearings if not given.
     - `meridian`: motion of balls and inner ring in the planes through the axis: "dynamic", with their inertia, or
       "quasi_static", in balance at every instant, so that masses and damping have no effect.

@@ -1,4 +1,4 @@
-"""From a tapered roller bearing scene to its equations."""
+"""Builds the equations of a tapered roller bearing from its scene."""
 
 import dataclasses
 from typing import NamedTuple
@@ -17,15 +17,16 @@ from .system import Inertia, TaperedForm, TaperedSystem
 
 
 class TaperedMotion(NamedTuple):
-    """Rolling without sliding about the apex, rad/s: orbit of the rollers and their spin relative to it, positive in
-    normal running."""
+    """Rolling without sliding about the apex: orbital speed of the rollers and their spin relative to the orbiting
+    frame, rad/s. Both are positive in normal running."""
 
     orbital_speed: Array
     spin_speed: Array
 
 
 class RollerBody(NamedTuple):
-    """Mass, kg, centre of mass from the big end, m, moments of inertia about and across the axis, kg m^2."""
+    """Mass of a roller, kg, distance of its centre of mass from the big end, m, and its moments of inertia about and
+    across its axis, through the centre of mass, kg m^2."""
 
     mass: Array
     centre: Array
@@ -34,15 +35,16 @@ class RollerBody(NamedTuple):
 
 
 def rolling_motion(geometry: TaperedGeometry, operation: TaperedOperation) -> TaperedMotion:
-    r"""$\omega_m = (\omega_i\sin\alpha_i + \omega_o\sin\alpha_o)/(\sin\alpha_i + \sin\alpha_o)$, $\omega_s =
-    (\omega_m - \omega_o)\sin\alpha_o/\sin\epsilon$."""
+    r"""Orbital speed $\omega_m = (\omega_i\sin\alpha_i + \omega_o\sin\alpha_o)/(\sin\alpha_i + \sin\alpha_o)$ and spin
+    $\omega_s = (\omega_m - \omega_o)\sin\alpha_o/\sin\epsilon$ of the rollers."""
     inner, outer = jnp.sin(geometry.cone_angle), jnp.sin(jnp.asarray(geometry.contact_angle))
     orbit = (operation.inner_speed * inner + operation.outer_speed * outer) / (inner + outer)
     return TaperedMotion(orbit, (orbit - operation.outer_speed) * outer / jnp.sin(geometry.roller_half_angle))
 
 
 def roller_body(geometry: TaperedGeometry, density: Array) -> RollerBody:
-    """A frustum from the big end to the end of contact; the spherical cap is left out."""
+    """Mass and inertia of a roller. It is a frustum from the big end to the end of the contact, without the spherical
+    cap."""
     big = 0.5 * jnp.asarray(geometry.roller_diameter)
     length = geometry.roller_length * jnp.cos(geometry.roller_half_angle)
     small = big - geometry.roller_length * jnp.sin(geometry.roller_half_angle)
@@ -56,8 +58,9 @@ def roller_body(geometry: TaperedGeometry, density: Array) -> RollerBody:
 
 
 def roller_inertia(geometry: TaperedGeometry, body: RollerBody, motion: TaperedMotion) -> Inertia:
-    r"""$F_c = m\omega_m^2(Y_b - l_c\sin\gamma)$, $M_g = \omega_m\sin\gamma[I_a(\omega_s - \omega_m\cos\gamma) +
-    I_t\omega_m\cos\gamma]$, which pushes the small end inwards."""
+    r"""Centrifugal force $F_c = m\omega_m^2(Y_b - l_c\sin\gamma)$ and gyroscopic moment $M_g =
+    \omega_m\sin\gamma[I_a(\omega_s - \omega_m\cos\gamma) + I_t\omega_m\cos\gamma]$ of a roller. The moment pushes the
+    small end inwards."""
     orbit, sine, cosine = motion.orbital_speed, jnp.sin(geometry.axis_angle), jnp.cos(geometry.axis_angle)
     force = body.mass * jnp.square(orbit) * (geometry.big_end_radius - body.centre * sine)
     spinning = body.axial * (motion.spin_speed - orbit * cosine)
@@ -83,11 +86,11 @@ def tapered_form(geometry: TaperedGeometry) -> TaperedForm:
 
 
 def ring_columns(azimuth: Float[Array, " roller"], lever: Array, load_position: Array) -> Float[Array, "5 3 roller"]:
-    """(Da, Dr, t) of the cone at every roller for a unit of each of `RING_FREEDOMS` of the reference point; a unit of
-    tilt is a length, the tilt times `lever`."""
+    """Motion (Da, Dr, t) of the cone at every roller, as in `system`, for a unit of each degree of freedom in
+    `RING_FREEDOMS` at the reference point. The unit of a tilt is a length: the tilt times `lever`, m."""
     zero, one = jnp.zeros_like(azimuth), jnp.ones_like(azimuth)
     cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
-    # a tilt that moves azimuth 0 along +a is -t, about the reference point: the apex moves by a_B with it
+    # a tilt that moves azimuth 0 along +a is -t; it turns about the reference point and moves the apex radially
     tilt = jnp.stack([zero, load_position * cosine, -cosine]) / lever
     tilt_lateral = jnp.stack([zero, load_position * sine, -sine]) / lever
     shifts = [jnp.stack(one) for one in ((one, zero, zero), (zero, cosine, zero), (zero, sine, zero))]
@@ -95,7 +98,11 @@ def ring_columns(azimuth: Float[Array, " roller"], lever: Array, load_position: 
 
 
 def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) -> TaperedSystem:
-    """The equations of a scene with its own ring, or with another one and then all rollers."""
+    """Equations of a scene.
+
+    **Arguments:** `ring`: inner ring to use instead of the one at the operating point. The equations then have all
+    rollers, also under a purely axial load.
+    """
     geometry, operation = scene.geometry, scene.operation
     azimuth = azimuths(geometry, geometry.n_rollers, operation.symmetric and not shaped_parts(scene) and ring is None)
     lever = geometry.apex_distance
@@ -129,7 +136,7 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
 
 
 def _bending_rings(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"]) -> BentRings:
-    """The cup and the cone of a scene, if they bend."""
+    """The flexible rings of a scene, of cup and cone."""
     rings, (inner, outer) = scene.materials.of_rings, scene.raceway_diameters
     return BentRings(
         elastic_ring(scene.outer_ring, rings[1], outer, scene.ring_width, azimuth),
@@ -138,7 +145,7 @@ def _bending_rings(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"]
 
 
 def _out_of_round(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"]) -> Float[Array, "2 roller"] | None:
-    """Returns what lobes of the raceways add to the approaches of inner and outer race, m; `None` if both are round."""
+    """Change of the approaches of inner and outer race by raceways that are not round, m; `None` if both are round."""
     inner, outer = scene.inner_roundness, scene.outer_roundness
     if inner is None and outer is None:
         return None
@@ -151,7 +158,7 @@ def _out_of_round(scene: TaperedRollerBearing, azimuth: Float[Array, " roller"])
 
 
 def _held_load(system: TaperedSystem) -> Float[Array, ""]:
-    """Estimates the load that the given displacements of the ring ask for, N."""
+    """Estimates the load that the given displacements of the ring cause, N."""
     pressed = system.pressed(system.held)
     if system.out_of_round is not None:
         pressed = pressed + jnp.sum(system.out_of_round, axis=0)

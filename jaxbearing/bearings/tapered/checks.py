@@ -1,4 +1,4 @@
-"""Range checks of tapered roller bearings, beside those of all bearings."""
+"""Range checks that apply to tapered roller bearings only."""
 
 import jax.numpy as jnp
 
@@ -11,7 +11,8 @@ def _would_skid(result: SolvedBearing) -> Excess:
     reserve = result.facts.traction_reserve
     if reserve is None:
         return {}
-    # each of those that roll by themselves, and, since a cage hands on what others lack, all together
+    # every roller with a large load must keep itself rolling; and since the cage transmits forces between rollers,
+    # all rollers together must have a reserve too
     own = result.facts.contacts[0].loaded(BUSY)[:1]
     least = jnp.minimum(jnp.min(jnp.where(own, reserve, jnp.inf)), jnp.min(jnp.sum(reserve, axis=1)))
     text = (

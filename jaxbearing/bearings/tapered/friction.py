@@ -1,35 +1,39 @@
-r"""Friction of a tapered roller bearing: what it takes to keep the rollers rolling without sliding about the apex.
+r"""Friction of a tapered roller bearing whose rollers roll without sliding about the apex, and the forces that keep
+them rolling.
 
-Raceways. A cone that rolls on a cone of the same apex touches it at rest along the whole line, whatever forces act: the
-tangential forces there are *constraint forces*, which do no work and follow from the balance of the roller; slip stays
-microscopic as long as they are small against what the film carries (`SKIDDING`, a warning). They push only around the
-bearing, and every one of them passes at a distance $\rho$ from the apex: with $A_k = \int t_k\rho\,d\rho$ their moment
-about the *apex* is $A_k m_k$, $m_k = (\sin\alpha_k, \cos\alpha_k)$ in (a, r), wherever along the line they act. Moments
-about the apex in the meridian plane are two equations for the two unknowns of a roller, $A_i$ and $A_o$:
+Raceways. If a cone rolls on a cone with the same apex, the surfaces do not slide on each other anywhere along the line
+of contact. The tangential forces there are *constraint forces*, which do no work and follow from the balance of the
+roller. Slip stays microscopic as long as they are small against the traction that the film can carry (otherwise there
+is a warning, see `SKIDDING`). Constraint forces act in the circumferential direction only. With the distance $\rho$
+from the apex and $A_k = \int t_k\rho\,d\rho$, their moment about the *apex* is $A_k m_k$, $m_k = (\sin\alpha_k,
+\cos\alpha_k)$ in (a, r), independent of their distribution along the line. The balance of moments about the apex in
+the meridian plane gives two equations for the two unknowns of a roller, $A_i$ and $A_o$:
 
 $A_i m_i + A_o m_o + G = 0$, $A_i = -G\cdot p_o/\sin2\epsilon$, $A_o = G\cdot p_i/\sin2\epsilon$, $p_k = (-\cos\alpha_k,
 \sin\alpha_k)$,
 
-with all that dissipates in G. In a frame that orbits with the rollers, S the spin of a roller (`spin_speed`):
+where G is the moment about the apex of all forces that dissipate. They are, in a frame that orbits with the rollers and
+with the spin S of a roller (`spin_speed`):
 
-- *Rolling resistance*, force $P_k$ and power $P_ku$ (`contacts.rolling`) at $u = S\rho\sin\epsilon$, $\rho$ of mid
-  length. Ring and roller turn against each other at $S\sin\gamma/\sin\alpha_k$ about the line of contact; the pressure,
-  displaced against the motion, is a couple $-P_kR_kp_k$ on the roller, $R_k = \rho\sin\epsilon\sin\alpha_k/\sin\gamma$
-  the reduced radius. (What it pushes around the bearing belongs to the constraint force.)
-- *Rib*: at $x_f = (a_f, r_f)$ rib and roller end move with $u_1 = (\omega_i - \omega_m)r_f$ and $u_2 = SR_s\sin\theta$;
-  they slide on each other and spin about the normal $n_f$ with $(\omega_i - \omega_m)\cos\alpha_f + S\cos\theta$. The
-  film sheared in the Hertz ellipse gives a force $F_f$ around the bearing and a moment $M_f$ about the normal,
-  $F_f(r_f, -a_f) + M_fn_f$. Left out: shear outside the ellipse, and the rolling resistance of what little rolls there.
+- *Rolling resistance*, with the force $P_k$ and the power $P_ku$ (`contacts.rolling`) at the speed $u =
+  S\rho\sin\epsilon$, $\rho$ at mid length. Ring and roller turn against each other at $S\sin\gamma/\sin\alpha_k$ about
+  the line of contact. The pressure is displaced against the motion and exerts the couple $-P_kR_kp_k$ on the roller,
+  with the reduced radius $R_k = \rho\sin\epsilon\sin\alpha_k/\sin\gamma$. (Its circumferential force is a part of the
+  constraint force.)
+- *Rib*: at $x_f = (a_f, r_f)$ rib and roller end move with $u_1 = (\omega_i - \omega_m)r_f$ and $u_2 = SR_s\sin\theta$.
+  They slide on each other and spin about the normal $n_f$ with $(\omega_i - \omega_m)\cos\alpha_f + S\cos\theta$. The
+  film is sheared in the Hertz ellipse. This gives a circumferential force $F_f$ and a moment $M_f$ about the normal:
+  $F_f(r_f, -a_f) + M_fn_f$. Shear outside the ellipse and the small rolling resistance of this contact are left out.
 - *Drag* D against the orbit, at mid length on the roller axis: $-D(r_m, -a_m)$.
 
-Gyroscopic and normal forces have no moment in that plane. The torques that drive the rings are assembled from the same
-forces, $\sum[A_i\sin\alpha_i + P_iR_i\cos\alpha_i + F_fr_f + M_f\cos\alpha_f]$ and $\sum[A_o\sin\alpha_o +
-P_oR_o\cos\alpha_o]$; that their power is the sum of the dissipations tests every sign.
+Gyroscopic and normal forces have no moment in that plane. The torques that drive the rings are computed from the same
+forces: $\sum[A_i\sin\alpha_i + P_iR_i\cos\alpha_i + F_fr_f + M_f\cos\alpha_f]$ and $\sum[A_o\sin\alpha_o +
+P_oR_o\cos\alpha_o]$. Their power must be the sum of the dissipations, which tests every sign.
 
-**Validity:** pure rolling. Friction does not change the normal loads and does not skew the rollers (the rib's force
-along its generator and what friction does to the cone's equilibrium are left out). There is no cage: where a roller
-without load on the cone is dragged, the constraint forces stand for the pocket that would push it, and are none of
-the raceways.
+**Validity:** pure rolling. Friction does not change the normal loads and does not skew the rollers: the force of the
+rib along its generator and the effect of friction on the equilibrium of the cone are left out. There is no cage: if
+drag acts on a roller without load on the cone, the constraint forces stand for the pocket that would push it, not for
+forces of the raceways.
 **Reference:** own derivation; the source's tapered bearing is frictionless.
 """
 
@@ -57,14 +61,17 @@ from .solution import TaperedPowerLoss
 from .system import TaperedState
 
 SKIDDING = 0.1
-"""Sliding over rolling at which the traction that a film can carry is taken: beyond it films and rolling resistance are
-no laws for rolling."""
+"""Slide-to-roll ratio at which the largest traction of a film is evaluated. Beyond it, the laws of film and rolling
+resistance do not hold, because they are laws of rolling."""
 
 
 class RibMotion(NamedTuple):
-    """At the contact with the rib, seen from the orbiting frame: mean speed of both surfaces and speed of the rib over
-    the roller end around the bearing, m/s; spin of the rib over the roller end about the normal into the roller,
-    rad/s."""
+    """Motion at the contact of rib and roller end, in the orbiting frame.
+
+    - `mean_speed`: mean circumferential speed of both surfaces, m/s.
+    - `sliding_speed`: circumferential speed of the rib relative to the roller end, m/s.
+    - `spin`: of the rib relative to the roller end, about the normal that points into the roller, rad/s.
+    """
 
     mean_speed: Array
     sliding_speed: Array
@@ -72,11 +79,15 @@ class RibMotion(NamedTuple):
 
 
 class RaceFriction(NamedTuple):
-    """Raceway contacts, races first. Without load a contact is not there: film and rise are NaN, forces are 0.
+    """Films and friction of the raceway contacts; the first axis runs over the races (inner, outer). `None`: not
+    modelled. For contacts without load, film and temperature rise are NaN, and forces are 0.
 
-    `film`, m; `temperature_rise`, K; `rolling`, the force P, N; `capacity`: the traction at a slide-to-roll ratio of
-    `SKIDDING`, N; `speed`, m/s, and `radius`, m, of shape (2, 1); `residual` of nested solves; `asperities`: of mixed
-    friction; `starved`: what little oil does. None: not modelled.
+    - `film`, m; `temperature_rise`, K.
+    - `rolling`: rolling resistance P, N.
+    - `capacity`: traction at the slide-to-roll ratio `SKIDDING`, N.
+    - `speed`: mean surface speed at mid length, m/s; `radius`: reduced radius at mid length, m.
+    - `residual`: largest residual of nested solves.
+    - `asperities`: film ratio and load share in mixed friction; `starved`: effect of starvation.
     """
 
     film: Float[Array, "2 roller"]
@@ -91,8 +102,12 @@ class RaceFriction(NamedTuple):
 
 
 class RibFriction(NamedTuple):
-    """Contacts of the roller ends, as in `RaceFriction`; `traction`: force, moment about the normal and power of film
-    and asperities, of the rib on the roller; `mixed`: mixed friction."""
+    """Films and friction of the roller ends on the rib; fields not listed here are as in `RaceFriction`.
+
+    - `traction`: circumferential force of the rib on the roller, its moment about the normal and its power, of film and
+      asperities together.
+    - `mixed`: state of mixed friction.
+    """
 
     motion: RibMotion
     film: Float[Array, " roller"]
@@ -103,15 +118,19 @@ class RibFriction(NamedTuple):
 
 
 class RollerBalance(NamedTuple):
-    """Constraint forces of the raceways on every roller, races first: moments A_k about the apex, N m, and force on the
-    roller around the bearing less that of the rolling resistance, N."""
+    """Constraint forces of the raceways on every roller; the first axis runs over the races.
+
+    - `arms`: moments A_k about the apex, N m.
+    - `traction`: circumferential force on the roller, without the part that rolling resistance exerts, N.
+    """
 
     arms: Float[Array, "2 roller"]
     traction: Float[Array, "2 roller"]
 
 
 class TaperedFriction(NamedTuple):
-    """Friction of races and rib, and the balance of the rollers; `balance` is `None` if the scene models none."""
+    """Friction of races and rib, oil drag on a roller, N, balance of the rollers, and losses and torques. `balance` is
+    `None` if the scene models no friction."""
 
     races: RaceFriction
     rib: RibFriction | None
@@ -121,8 +140,13 @@ class TaperedFriction(NamedTuple):
 
 
 class _Roller(NamedTuple):
-    """Geometry of friction: sin(alpha_k); unit vectors (a, r) p_k from the apex along the lines of contact; sin(2 eps);
-    rho of mid length, m."""
+    """Geometry in the equations of friction.
+
+    - `sine`: sin(alpha_k).
+    - `line`: unit vectors p_k = (a, r) from the apex along the lines of contact.
+    - `double`: sin(2 epsilon).
+    - `reach`: distance rho of mid length from the apex, m.
+    """
 
     sine: Float[Array, "2 1"]
     line: Float[Array, "component race 1"]
@@ -131,7 +155,8 @@ class _Roller(NamedTuple):
 
 
 def rib_motion(geometry: TaperedGeometry, motion: TaperedMotion) -> RibMotion:
-    """See the module. The speeds of the rings against the rollers are taken from the spin, in which nothing cancels."""
+    """Motion at the rib (see the module). The speed of the inner ring relative to the orbit is computed from the spin,
+    which avoids cancellation."""
     orbiting = motion.spin_speed * jnp.sin(geometry.roller_half_angle) / jnp.sin(geometry.cone_angle)
     rib = orbiting * geometry.flange_radius
     end = motion.spin_speed * geometry.sphere_radius * jnp.sin(geometry.flange_tilt)
@@ -140,7 +165,8 @@ def rib_motion(geometry: TaperedGeometry, motion: TaperedMotion) -> RibMotion:
 
 
 def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> TaperedFriction:
-    """Films, friction, losses and torques at the loads of a solution. **Arguments:** `scene` with oil and contact."""
+    """Films, friction, losses and torques at the loads of a solution. **Arguments:** `scene`: it must have an oil and
+    contact laws."""
     geometry, operation, oil = scene.geometry, scene.operation, scene.oil
     assert scene.contact is not None
     assert oil is not None
@@ -168,7 +194,7 @@ def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> Tapere
     multiplicity = geometry.n_rollers // state.load.shape[1]
     total = lambda values: multiplicity * jnp.sum(values, axis=-1)
     inner, outer = total(torques)
-    # what keeps the rollers rolling acts on the rings and does no work
+    # the constraint forces act on the rings and do no work
     found = [Interaction("", None, inner, outer)]
     if races.rolling is not None:
         powers = total(races.rolling * races.speed)
@@ -199,7 +225,7 @@ def _races(
     oil: Lubricant,
     inlet: InletOil,
 ) -> RaceFriction:
-    """Even line contacts of the size and speed at mid length."""
+    """Friction of the raceways: evenly loaded line contacts with the reduced radius and the speed of mid length."""
     contact = LineContact(
         geometry.race_reduced_radii(jnp.asarray(0.5))[:, None], jnp.asarray(geometry.roller_length), modulus
     )
@@ -271,7 +297,8 @@ def _rib(
 
 
 def _where_loaded(mixed: MixedState, loaded: Array) -> MixedState:
-    """Nothing rubs where nothing touches, and film and temperature are not there."""
+    """Mixed friction, with boundary friction 0 and film ratio, load share and flash temperature NaN for contacts
+    without load."""
     absent = (jnp.nan, jnp.nan, 0.0, 0.0, jnp.nan)
     return MixedState(*(jnp.where(loaded, values, none) for values, none in zip(mixed, absent, strict=True)))
 
@@ -279,7 +306,7 @@ def _where_loaded(mixed: MixedState, loaded: Array) -> MixedState:
 def _balance(
     geometry: TaperedGeometry, roller: _Roller, races: RaceFriction, rib: Traction | None, drag: Array | None
 ) -> tuple[RollerBalance, Float[Array, "2 roller"]]:
-    """Balance of each roller about the apex; and the torque that each roller asks of the rings, N m."""
+    """Balance of each roller about the apex, and torques that drive the rings against each roller, N m."""
     moment, force, torque = jnp.zeros_like(races.film), jnp.zeros(races.film.shape[1]), jnp.zeros_like(races.film)
     if races.rolling is not None:
         couple = races.rolling * races.radius
@@ -297,7 +324,7 @@ def _balance(
         moment, force = moment - drag * arm, force - drag
     across = jnp.sum(moment[:, None, :] * roller.line[:, ::-1], axis=0) / roller.double
     arms = jnp.asarray([[-1.0], [1.0]]) * across
-    # at mid length; what the sum of forces then lacks, both share
+    # forces at mid length; both races share what is missing in the balance of forces
     at_middle = arms / roller.reach
     traction = at_middle - 0.5 * (force + jnp.sum(at_middle, axis=0))[None]
     if races.rolling is not None:

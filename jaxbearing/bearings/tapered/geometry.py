@@ -1,10 +1,10 @@
 r"""Geometry of a tapered roller bearing: cones with one apex, spherical roller ends, a conical rib on the cone.
 
-Meridian plane of a roller: (a, r), a along the bearing axis, *positive from the rollers' big ends towards the common
-apex O*, r radially outwards; O is the origin. Half angles of cup $\alpha_o$ and cone $\alpha_i$, roller half angle
-$\epsilon = (\alpha_o - \alpha_i)/2$, roller axis $\gamma = (\alpha_o + \alpha_i)/2$ (the source prints these two
-definitions in swapped order). Source eqs. (42), (43), (53): the first, X_b, only places its origin and could not be
-reconstructed.
+The meridian plane of a roller has the coordinates (a, r): a along the bearing axis, *positive from the rollers' big
+ends towards the common apex O*, and r radially outwards. O is the origin. The half angles are $\alpha_o$ of the cup and
+$\alpha_i$ of the cone. The roller has the half angle $\epsilon = (\alpha_o - \alpha_i)/2$, and its axis is inclined by
+$\gamma = (\alpha_o + \alpha_i)/2$ (the source prints these two definitions in swapped order). Source eqs. (42), (43),
+(53). Eq. (42), X_b, is not used: it only places the origin of the source and could not be reconstructed.
 """
 
 import math
@@ -25,26 +25,29 @@ from ..parts import FIRST_ELEMENT, AbstractGeometry
 from .usual_ends import USUAL_END_RADIUS, USUAL_RIB_HEIGHT, usual_end_radius, usual_flange_angle
 
 LEAST_HALF_ANGLE = math.radians(0.3)
-"""Least half angle of the rollers: below, the apex goes to infinity and the bearing is a cylindrical one."""
+"""Smallest half angle of the rollers, rad. As it approaches 0, the apex goes to infinity and the bearing becomes a
+cylindrical one."""
 
 
 class TaperedGeometry(AbstractGeometry):
-    """Main dimensions; the pitch diameter follows from them.
+    """Main dimensions of a tapered roller bearing; the pitch diameter follows from them.
 
     **Arguments:**
     - `n_rollers`: number of rollers (structure).
-    - `roller_diameter`: D_w, of the big end, m.
-    - `roller_length`: l_w, of contact, along the generator, m.
+    - `roller_diameter`: diameter D_w of the big end, m.
+    - `roller_length`: length l_w of the contact, along the generator, m.
     - `contact_angle`: half angle of the cup, alpha_o, rad.
-    - `roller_half_angle`: epsilon, rad, at least 0.3 degrees.
-    - `flange_angle`: of the NORMAL of the rib to the bearing axis, alpha_f, rad; less than gamma = alpha_o - epsilon;
-      not given: estimated, so that rib and roller touch 0.8 of the big end's radius below the roller axis.
-    - `end_radius`: R_s, of the sphere of the roller's big end, m; not given: estimated, 0.95 of the length of the
-      roller's cone.
+    - `roller_half_angle`: half angle of the roller's cone, epsilon, rad, at least 0.3 degrees.
+    - `flange_angle`: angle alpha_f between the NORMAL of the rib and the bearing axis, rad; less than gamma =
+      alpha_o - epsilon; not given: estimated so that rib and roller touch 0.8 of the big end's radius below the roller
+      axis.
+    - `end_radius`: radius R_s of the spherical big end of the roller, m; not given: estimated as 0.95 of the length of
+      the roller's cone.
     - `first_element_angle`: azimuth of the first roller, rad; not given: 0, and the load line is a line of symmetry.
-    - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, for what knows its seats.
+    - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, used for fits, thermal networks and
+      flexible rings.
 
-    **Raises:** `ValueError` naming the field that makes the bearing impossible.
+    **Raises:** `ValueError` that names the field that makes the bearing impossible.
     """
 
     part: ClassVar[str] = "geometry"
@@ -92,7 +95,7 @@ class TaperedGeometry(AbstractGeometry):
 
     @property
     def rib_angle(self) -> Scalar:
-        """alpha_f, as given or estimated, rad."""
+        """Angle alpha_f between the normal of the rib and the bearing axis, given or estimated, rad."""
         if self.flange_angle is not None:
             return self.flange_angle
         return usual_flange_angle(
@@ -101,7 +104,7 @@ class TaperedGeometry(AbstractGeometry):
 
     @property
     def sphere_radius(self) -> Scalar:
-        """R_s, as given or estimated, m."""
+        """Radius R_s of the spherical big end, given or estimated, m."""
         if self.end_radius is not None:
             return self.end_radius
         return usual_end_radius(self.roller_diameter, self.roller_half_angle, jnp)
@@ -120,66 +123,71 @@ class TaperedGeometry(AbstractGeometry):
 
     @property
     def cone_angle(self) -> Array:
-        """alpha_i, rad."""
+        """Half angle alpha_i of the cone, rad."""
         return jnp.asarray(self.contact_angle) - 2.0 * self.roller_half_angle
 
     @property
     def axis_angle(self) -> Array:
-        """gamma, of the roller axis to the bearing axis, rad."""
+        """Angle gamma between roller axis and bearing axis, rad."""
         return jnp.asarray(self.contact_angle) - self.roller_half_angle
 
     @property
     def apex_distance(self) -> Array:
-        """d, from the apex to the big end along a generator, m."""
+        """Distance d from the apex to the big end along a generator, m."""
         return self.roller_diameter / (2.0 * jnp.sin(self.roller_half_angle))
 
     @property
     def big_end_radius(self) -> Array:
-        """Y_b, of the circle of big-end centres, m (eq. (43))."""
+        """Radius Y_b of the circle through the centres of the big ends, m (eq. (43))."""
         return 0.5 * self.roller_diameter * jnp.sin(self.axis_angle) / jnp.tan(self.roller_half_angle)
 
     @property
     def mean_roller_diameter(self) -> Array:
-        """At mid length, m."""
+        """Roller diameter at mid length, m."""
         return self.roller_diameter - self.roller_length * jnp.sin(self.roller_half_angle)
 
     @property
     def pitch_diameter(self) -> Array:
-        r"""Diameter of the circle of the rollers' middles, m: $2Y_b - \ell\cos\epsilon\sin\gamma$, since the contact's
-        length counts along the generator."""
+        r"""Diameter of the circle through the middles of the rollers, m: $2Y_b - \ell\cos\epsilon\sin\gamma$, where
+        $\ell$ is the length along the generator."""
         along = self.roller_length * jnp.cos(self.roller_half_angle)
         return 2.0 * self.big_end_radius - along * jnp.sin(self.axis_angle)
 
     @property
     def end_height(self) -> Array:
-        """R_s cos(lambda): from the big end's plane to the centre of its sphere, m."""
+        """Distance R_s cos(lambda) from the plane of the big end to the centre of its sphere, m."""
         return self.sphere_radius * jnp.sqrt(1.0 - jnp.square(self.roller_diameter / (2.0 * self.sphere_radius)))
 
     @property
     def flange_tilt(self) -> Array:
-        """theta = gamma - alpha_f, rad: the contact at the rib lies below the roller axis."""
+        """Angle theta = gamma - alpha_f, rad, by which the contact at the rib lies below the roller axis, seen from the
+        centre of the sphere."""
         return self.axis_angle - self.rib_angle
 
     @property
     def sphere_centre(self) -> tuple[Array, Array]:
-        """(a, r) of the sphere's centre, m."""
+        """Coordinates (a, r) of the centre of the spherical big end, m."""
         k = self.roller_diameter / (2.0 * jnp.tan(self.roller_half_angle)) - self.end_height
         return -k * jnp.cos(self.axis_angle), k * jnp.sin(self.axis_angle)
 
     @property
     def flange_radius(self) -> Array:
-        """r_f: of the contact on the rib about the bearing axis, m."""
+        """Radius r_f of the contact on the rib, from the bearing axis, m."""
         height = self.sphere_radius * jnp.sin(self.rib_angle) - self.end_height * jnp.sin(self.axis_angle)
         return self.big_end_radius + height
 
     def flange_contact(self, race_modulus: Float[Array, ""] | Float[Array, "2 1"]) -> PointContact:
-        """Sphere on the concave cone of the rib (eq. (53)): straight along its generator, curved around the axis, which
-        is the direction of rolling. The rib is a part of the inner ring. **Arguments:** of the materials, Pa."""
+        """Contact of the spherical big end with the rib, a concave cone (eq. (53)). The rib is straight along its
+        generator and curved in the direction of rolling, around the bearing axis. It is a part of the inner ring.
+
+        **Arguments:** `race_modulus`: reduced modulus of the raceway contacts, Pa.
+        """
         around = 1.0 / self.sphere_radius - jnp.sin(self.rib_angle) / self.flange_radius
         return PointContact(1.0 / around, jnp.asarray(self.sphere_radius), of_inner_race(race_modulus))
 
     def race_reduced_radii(self, position: Array) -> Array:
-        """Reduced radii of the inner and outer contact normal to the generator at s/l, m; shape (2, ...)."""
+        """Reduced radii of the inner and the outer raceway contact in the plane normal to the generator, m; shape
+        (2, ...). **Arguments:** `position`: s/l, 0 at the big end."""
         reach = self.apex_distance - self.roller_length * position
         roller = reach * jnp.tan(self.roller_half_angle)
         inner, outer = reach * jnp.tan(self.cone_angle), reach * jnp.tan(self.contact_angle)
@@ -187,7 +195,8 @@ class TaperedGeometry(AbstractGeometry):
 
 
 def _check(n_rollers: int, diameter: Any, length: Any, cup: Any, half: Any, flange: Any, end_radius: Any) -> None:
-    """Numbers known or traced. **Raises:** `ValueError` for a bearing that is known to be impossible."""
+    """Checks the dimensions, which may be numbers or traced. **Raises:** `ValueError` for a bearing that is known to be
+    impossible."""
     xp = array_module(diameter, length, cup, half, flange, end_radius)
     degrees = lambda angle: f"{math.degrees(float(angle)):g} degrees"
     metres = lambda size: f"{float(size):g} m"
@@ -214,7 +223,7 @@ def _check(n_rollers: int, diameter: Any, length: Any, cup: Any, half: Any, flan
             f"geometry.roller_length must be below {metres(slant)} (the roller's cone ends there), got {metres(length)}"
         ),
     )
-    # a longer radius than the cone is fits the rib closer than a sphere can: Hertz's contact does not hold
+    # a radius above the length of the roller's cone conforms too closely to the rib for a Hertz contact
     fits = (end_radius > 0.5 * diameter) & (end_radius < slant)
     demand(
         "geometry.end_radius must be above half the roller_diameter and below the length of the roller's cone",
@@ -225,7 +234,7 @@ def _check(n_rollers: int, diameter: Any, length: Any, cup: Any, half: Any, flan
         ),
     )
     radius = 0.5 * diameter * xp.sin(gamma) / xp.tan(half)
-    # rollers are nearest where they touch their neighbours: the plane of two axes through the apex
+    # neighbouring rollers are nearest in the plane of their two axes, which meet at the apex
     most = lambda: math.ceil(math.pi / math.asin(math.sin(half) / math.sin(gamma))) - 1
     demand(
         "geometry.n_rollers must be so small that the rollers fit beside each other",
@@ -238,7 +247,7 @@ def _check(n_rollers: int, diameter: Any, length: Any, cup: Any, half: Any, flan
     height = xp.sqrt(xp.where(fits, end_radius**2 - 0.25 * diameter**2, 0.0))
     contact_radius = radius + end_radius * xp.sin(flange) - height * xp.sin(gamma)
     cone_big_end = diameter / (2.0 * xp.sin(half)) * xp.sin(cone)
-    # at the rim of the end face, and where the rib ends at the cone
+    # angles of the contact at the rim of the end face, and (its sine) where the rib meets the cone
     rim = gamma - xp.arcsin(0.5 * diameter / end_radius)
     foot = (cone_big_end - radius + height * xp.sin(gamma)) / end_radius
     lowest = xp.where(foot < xp.sin(gamma), xp.maximum(rim, xp.arcsin(xp.clip(foot, 0.0, 1.0))), math.inf)

@@ -1,4 +1,4 @@
-"""A tapered roller between cup, cone and rib, for drawings."""
+"""Outline of a tapered roller between cup, cone and rib, for drawings."""
 
 import math
 
@@ -44,7 +44,7 @@ def tapered_outline(scene: TaperedRollerBearing) -> Outline:
         },
         shoulder=500.0 * number(geometry.mean_roller_diameter),
         dimensions=[(on(cone, big), on(cup, big)), (on(cup, big), on(cup, small))],
-        # what is not given has no number to be written
+        # dimensions that are not given have no value to write
         labels={name: place for name, place in labels.items() if getattr(geometry, name) is not None},
     )
 

@@ -11,7 +11,11 @@ from .scene import TaperedRollerBearing
 def rated_contacts(
     scene: TaperedRollerBearing, laminae: LaminaLoads | None, force: Float[Array, " freedom"] | None = None
 ) -> RatedContacts:
-    """**Arguments:** `LaminaLoads` of a solution, `None` of an unloaded bearing; `force`: its `force`."""
+    """Sizes and loads of the raceway contacts for the life.
+
+    **Arguments:** `laminae`: loads of the laminae of a solution, `None` if the bearing is unloaded; `force`: the field
+    `force` of the solution.
+    """
     if laminae is None:
         unloaded = jnp.zeros((scene.n_elements, 1))
         laminae = LaminaLoads(unloaded, unloaded)

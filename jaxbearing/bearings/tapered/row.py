@@ -1,4 +1,4 @@
-"""The convex energy of a tapered roller bearing whose ring is held."""
+"""The row model of a tapered roller bearing: frictionless rollers under a held inner ring."""
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -32,6 +32,6 @@ class TaperedRow(AbstractRow):
         return settled_force(held.ring, full, state)
 
     def _both(self, displacement: Float[Array, "5"]) -> tuple[TaperedSystem, TaperedSystem]:
-        """The equations with the ring held, and with the ring free, which give the force on it."""
+        """Two sets of equations: with the ring held, and with the ring free. The second set gives the force on it."""
         held = self._held(displacement)
         return held, build_tapered(self.scene, held.ring.released(held.load_scale()))

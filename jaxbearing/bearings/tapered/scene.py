@@ -1,10 +1,11 @@
 r"""The tapered roller bearing as a scene: geometry, materials, oil, contact laws, operating point.
 
-Frames and signs. As for ball bearings: axial load and displacement push the inner ring (the cone) along $+e_x$, radial
-ones along azimuth 0; a positive moment or tilt moves azimuth 0 of the inner ring along $+e_x$. Here $+e_x$ points from
-the rollers' big ends towards the common apex of the cones, so that a positive axial load presses the bearing together.
-Loads and displacements are those of the *reference point* on the axis, `operation.load_position` from the apex: by
-default the apex itself. (The source's tilt t and moment M_1 have the opposite sense: $t = -$tilt.)
+Frames and signs are those of ball bearings. Axial load and displacement push the inner ring (the cone) along $+e_x$,
+radial ones along azimuth 0. A positive moment or tilt moves azimuth 0 of the inner ring along $+e_x$. Here $+e_x$
+points from the rollers' big ends towards the common apex of the cones, so that a positive axial load presses the
+bearing together. Loads and displacements are those of the *reference point* on the axis, at the distance
+`operation.load_position` from the apex: by default the apex itself. (The source's tilt t and moment M_1 have the
+opposite sense: $t = -$tilt.)
 """
 
 import dataclasses
@@ -55,18 +56,18 @@ if TYPE_CHECKING:
     from .solution import TaperedResults
 
 LOAD_POSITION = "reference point from the apex (of the rollers' middle: negative)"
-"""Label of the field."""
+"""Label of the field `load_position`."""
 
 
 class TaperedOperation(AbstractOperation):
     """Operating point of a tapered roller bearing: the batched part of a sweep.
 
-    It needs an axial load, towards the apex, or an axial displacement. Where nothing across the axis is given all
-    rollers are alike, and one of them is solved for.
+    It needs an axial load towards the apex, or an axial displacement. If no load or displacement across the axis is
+    given, all rollers are alike, and only one of them is solved for.
 
-    **Arguments:** those of `AbstractOperation`, of the reference point, and
-    - `load_position`: of the reference point, from the common apex of the cones along the axis, m. The rollers are on
-      the apex's negative side: the middle of their row is at `middle_position` of the scene, a negative number.
+    **Arguments:** those of `AbstractOperation`, at the reference point, and
+    - `load_position`: position of the reference point along the axis, from the common apex of the cones, m. The rollers
+      are on the negative side: the middle of their row is at `middle_position` of the scene, a negative number.
     """
 
     load_position: Scalar = number(0.0, kw_only=True, metadata=label("m", LOAD_POSITION))
@@ -81,22 +82,26 @@ class TaperedOperation(AbstractOperation):
 
 
 class TaperedRollerBearing(AbstractBearing):
-    """A steady single-row tapered roller bearing under axial load, radial load and moment, whose rollers roll without
-    sliding about the apex: loads of raceways and rib, displacements, films, and what friction costs
-    (`friction`). A part that is `None` is not modelled.
+    """A steady single-row tapered roller bearing under axial load, radial load and moment.
 
-    - `contact`: laws of the raceways: films, and where named the rolling resistance. Its `traction` moves nothing: it
-      tells whether the films can carry what keeps the rollers rolling.
-    - `rib`: laws of the roller ends on the rib: film, and where named the traction of what slides there.
-    - `drag`: of the oil on the orbiting rollers.
-    - `profile`: without one rollers are straight, and contacts integrated in closed form.
-    - `fits`, `temperatures`: seats of the rings and temperatures of the parts.
-    - `outer_ring`, `inner_ring`: a cup and a cone that bend in their plane; `None`: it is rigid. `inner_roundness`,
-      `outer_roundness`: raceways that are not round, standing still relative to the load.
-    - `closing`: what growth adds to the approaches of inner race, outer race and rib, m (`mounting.closing`); a
-      scene that has seats makes it.
+    The rollers roll without sliding about the apex. Results are loads of raceways and rib, displacements, films and
+    friction losses (`friction`). A part that is `None` is not modelled.
 
-    **Raises:** `ValueError` for combinations that lack what they need.
+    - `contact`: laws of the raceway contacts: films and, if given, rolling resistance. Its `traction` has no effect on
+      the motion. It tells whether the films can carry the forces that keep the rollers rolling.
+    - `rib`: laws of the contacts of roller ends and rib: film and, if given, traction.
+    - `drag`: oil drag on the orbiting rollers.
+    - `profile`: laminae and profile of the rollers; `None`: rollers are straight, and contacts are integrated in closed
+      form.
+    - `fits`: fits of the rings on the shaft and in the housing.
+    - `temperatures`: temperatures of the parts.
+    - `outer_ring`: flexible cup, which bends in its plane; `None`: it is rigid.
+    - `inner_ring`: flexible cone, which bends in its plane; `None`: it is rigid.
+    - `inner_roundness`, `outer_roundness`: deviations of a raceway that is not round, stationary relative to the load.
+    - `closing`: changes of the approaches of inner race, outer race and rib by growth, m (`mounting.closing`). The
+      solver computes them for a scene with `fits`. A user leaves them out.
+
+    **Raises:** `ValueError` for combinations that lack a required part.
     """
 
     kind: ClassVar[str] = "tapered_roller_bearing"
@@ -159,7 +164,7 @@ class TaperedRollerBearing(AbstractBearing):
 
     @property
     def ring_width(self) -> Scalar:
-        """Width of flexible rings, where the scene gives none, m."""
+        """Default width of flexible rings, m: the width of the bearing, or the roller length if no width is given."""
         return self.geometry.roller_length if self.geometry.width is None else self.geometry.width
 
     def play(self, growth: Growth) -> Play:
@@ -196,7 +201,7 @@ class TaperedRollerBearing(AbstractBearing):
 
     @property
     def slips(self) -> bool:
-        """Rollers roll without sliding on the raceways."""
+        """Always False: rollers roll without sliding on the raceways."""
         return False
 
     @property
@@ -217,15 +222,16 @@ class TaperedRollerBearing(AbstractBearing):
 
     @property
     def port_distance(self) -> Array:
-        r"""Distance of the loads' reference point from the plane of the rollers' middles along $+e_x$, m:
-        $(\frac{D_w}{2\tan\epsilon} - \frac{l_w}2\cos\epsilon)\cos\gamma$ to the apex, and `load_position`."""
+        r"""Distance of the loads' reference point from the plane of the rollers' middles along $+e_x$, m: the sum of
+        $(\frac{D_w}{2\tan\epsilon} - \frac{l_w}2\cos\epsilon)\cos\gamma$, which is the distance to the apex, and
+        `load_position`."""
         geometry, half = self.geometry, jnp.asarray(self.geometry.roller_half_angle)
         along = 0.5 * geometry.roller_diameter / jnp.tan(half) - 0.5 * geometry.roller_length * jnp.cos(half)
         return along * jnp.cos(geometry.axis_angle) + self.operation.load_position
 
     @property
     def middle_position(self) -> Array:
-        """The `load_position` of the middle of the row of rollers, m: less than 0."""
+        """Position of the middle of the row of rollers, counted as `load_position`, m: a negative number."""
         return self.operation.load_position - self.port_distance
 
     def unused_parts(self) -> tuple[str, ...]:

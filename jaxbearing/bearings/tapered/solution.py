@@ -19,7 +19,7 @@ _Values = Float[Array, " element"]
 
 class SolvedTapered(NamedTuple):
     """Converged state of the rollers. **Arguments:** `place`: displacements of the rollers along and across their
-    axis, m, and their tilts, rad; `friction`: `None` of dry rollers."""
+    axis, m, and their tilts, rad; `friction`: friction of the bearing, `None` for dry rollers."""
 
     system: "TaperedSystem"
     state: "TaperedState"
@@ -40,8 +40,9 @@ def _optional(unit: str, description: str) -> Any:
 
 
 class TaperedResults(eqx.Module):
-    """Arrays over the rollers; what is not modelled is `None`, films and tractions where nothing touches are NaN.
-    Speeds are positive in normal running."""
+    """Results of the rollers as arrays, one value for each roller. A result that is not modelled is `None`. Films of
+    contacts without load are NaN, and so are tractions of raceway contacts without load. Speeds are positive in normal
+    running."""
 
     azimuth: _Values = _result("rad", "azimuth from the load line")
     load_inner: _Values = _result("N", "normal load on the inner raceway")

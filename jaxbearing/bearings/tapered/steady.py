@@ -31,25 +31,27 @@ from .solution import SolvedTapered, TaperedPowerLoss, TaperedResults
 from .system import Inertia, TaperedState, TaperedSystem
 
 ROUNDED_UP = 2e-6
-"""Added to a bound, of itself, so that its six printed digits are on the right side of it."""
+"""Fraction by which a printed lower bound is raised, so that its value rounded to six digits still satisfies it."""
 ROUNDING = 1e-9
-"""Relative round-off of the moments that a bound compares: closer cases are left to the solve."""
+"""Relative round-off of the moments in `tips_over`: cases closer to the bound than this are left to the solve."""
 HIGHEST = 9.0
-"""1/(10/9 - 1): see `line_pressure`."""
+"""Number 1/(10/9 - 1) in the formula of `line_pressure`."""
 
 
 def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: InnerRing | None = None) -> Solution:
-    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve. `ring`: instead of that
-    of the scene's operating point.
+    """Solves for the steady state. The function is pure and can be jitted, vmapped and differentiated. A failed solve
+    does not raise.
 
-    Where no equilibrium is found and one of two proofs holds that there is none, the status is `no_equilibrium`: the
-    loads are beyond a static bound (`slides_out`, `tips_over`), which they tell alone; or the cone, with all else in
-    equilibrium, is still pushed on at a tilt of 0.1 rad, or at a displacement of the apex distance
-    (`numerics.convex.find_minimum`).
+    The status is `no_equilibrium` if no equilibrium is found and there is a proof that none exists. There are two
+    proofs. The first needs the loads only: they are beyond a static bound (`slides_out`, `tips_over`). The second is
+    that the cone, with all else in equilibrium, is still pushed further at a tilt of 0.1 rad or at a displacement of
+    the apex distance (`numerics.convex.find_minimum`).
+
+    **Arguments:** `ring`: inner ring to use instead of the one at the scene's operating point.
     """
     asked = build_tapered(scene, ring)
     sliding = slides_out(scene, asked.inertia) | tips_over(scene) if _bounded(scene, ring) else jnp.asarray(False)
-    # what has no equilibrium is not looked for: in its place a few steps to one that is finite, with its derivatives
+    # loads without equilibrium are replaced by loads with one: a few steps then lead to finite values and derivatives
     easy = jnp.where(sliding, _axial_only(asked), asked.ring.load)
     started, minimum = dataclasses.replace(asked, ring=asked.ring.under(easy)).started(sliding)
     system, result = newton_solve(started, options)
@@ -82,17 +84,18 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
 
 
 def _bounded(scene: TaperedRollerBearing, ring: InnerRing | None) -> bool:
-    """True if the loads alone may tell that there is no equilibrium: all forces are given."""
+    """True if the static bounds apply, because all loads are given and no displacements."""
     return ring is None and not scene.operation.displaced
 
 
 def slides_out(scene: TaperedRollerBearing, inertia: Inertia) -> Bool[Array, ""]:
-    r"""True if $F_a < F_r\tan\alpha_o + ZQ_c\sin\alpha_o$, $Q_c = F_c\cos\alpha_f/\cos(\alpha_o - \alpha_f)$: no
-    equilibrium then, whatever the tilt.
+    r"""True if $F_a < F_r\tan\alpha_o + ZQ_c\sin\alpha_o$, with $Q_c = F_c\cos\alpha_f/\cos(\alpha_o - \alpha_f)$.
+    There is then no equilibrium at any tilt.
 
-    Every roller leans on the cup at that angle, and the centrifugal forces of two or more cancel (a single one proves
-    nothing): $F_a - F_r\tan\alpha_o = \sin\alpha_o\sum Q_o(1 - \cos\psi)$; and $Q_c$ is the least that a roller leans
-    on the cup with, its centrifugal force carried by cup and rib alone.
+    All rollers press on the cup at the angle $\alpha_o$, and the centrifugal forces of two or more rollers cancel (for
+    a single roller nothing is proved). Hence $F_a - F_r\tan\alpha_o = \sin\alpha_o\sum Q_o(1 - \cos\psi)$. $Q_c$ is
+    the smallest possible load $Q_o$ on the cup: that of a roller whose centrifugal force is carried by cup and rib
+    alone.
     """
     if scene.geometry.n_rollers < 2:
         return jnp.asarray(False)
@@ -100,7 +103,7 @@ def slides_out(scene: TaperedRollerBearing, inertia: Inertia) -> Bool[Array, ""]
 
 
 def least_axial_load(scene: TaperedRollerBearing, inertia: Inertia) -> Float[Array, ""]:
-    """The bound of `slides_out`, N: less does not hold the cone in the cup."""
+    """Bound in `slides_out`, N: a smaller axial load cannot hold the cone in the cup."""
     geometry = scene.geometry
     cup, rib = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.rib_angle)
     least = inertia.force * jnp.cos(rib) / jnp.cos(cup - rib)
@@ -108,13 +111,13 @@ def least_axial_load(scene: TaperedRollerBearing, inertia: Inertia) -> Float[Arr
 
 
 def tips_over(scene: TaperedRollerBearing) -> Bool[Array, ""]:
-    r"""True if given moments lie beyond what the cup can hold: no equilibrium then, whatever the tilt.
+    r"""True if the given moments are larger than the cup can hold. There is then no equilibrium at any tilt.
 
-    M about the apex (`moment` less the radial load times `load_position`) is $\sum\rho Q_o\cos\psi$, each load at a
-    distance $\rho$ between d - l and d from the apex, $F_r = \cos\alpha_o\sum Q_o\cos\psi$ and $F_a =
-    \sin\alpha_o\sum Q_o$; so $|M - (d - l/2)F_r/\cos\alpha_o| \le (l/2)F_a/\sin\alpha_o$. With the lateral load and
-    the moment about the load line this holds of the two together, as a plane vector. What rotation adds cancels round
-    two or more rollers.
+    The moment about the apex (`moment` minus the radial load times `load_position`) is $M = \sum\rho Q_o\cos\psi$,
+    where each load acts at a distance $\rho$ between d - l and d from the apex. The forces are $F_r =
+    \cos\alpha_o\sum Q_o\cos\psi$ and $F_a = \sin\alpha_o\sum Q_o$. Therefore $|M - (d - l/2)F_r/\cos\alpha_o| \le
+    (l/2)F_a/\sin\alpha_o$. If the moment about the load line is given as well, the bound holds for the length of the
+    plane vector of both differences. The centrifugal and gyroscopic loads of two or more rollers cancel.
     """
     ranges = _moment_ranges(scene)
     if scene.geometry.n_rollers < 2 or not ranges:
@@ -126,8 +129,12 @@ def tips_over(scene: TaperedRollerBearing) -> Bool[Array, ""]:
 
 
 class _MomentRange(NamedTuple):
-    """A given moment about the apex, N m, the middle and half width of its range, and what is added to come to the
-    reference point."""
+    """A given moment and the range in which it must lie, N m.
+
+    - `moment`: given moment, about the apex.
+    - `middle`, `most`: middle and half width of the range.
+    - `shift`: difference of the moments about the reference point and about the apex.
+    """
 
     moment: Array
     middle: Array
@@ -136,7 +143,8 @@ class _MomentRange(NamedTuple):
 
 
 def _moment_ranges(scene: TaperedRollerBearing) -> dict[str, _MomentRange]:
-    """Ranges of the given moments by their names, each with the force that moves its azimuth."""
+    """Ranges of the given moments, by their names. The range of `moment` depends on the radial load, that of the moment
+    about the load line on the lateral load."""
     operation, geometry = scene.operation, scene.geometry
     cup, length = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.roller_length)
     most = 0.5 * length * jnp.asarray(operation.axial_load) / jnp.sin(cup)
@@ -176,13 +184,14 @@ def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Failure
 
 
 def _axial_only(system: TaperedSystem) -> Float[Array, " freedom"]:
-    """Loads of the size of the system's that have an equilibrium: along the axis alone."""
+    """Purely axial loads, which have an equilibrium, of the same size as the loads of the system."""
     along = jnp.asarray([1.0 if name == "axial" else 0.0 for name in system.freedoms])
     return along * (system.load_scale() + jnp.sum(jnp.abs(system.ring.load) * (1.0 - along)))
 
 
 def _with_nested(result: NewtonResult, friction: TaperedFriction, options: NewtonOptions) -> NewtonResult:
-    """The residual of the films' nested solves; not converged where that is too large."""
+    """The result with the residual of the nested solves of the films included. It has not converged if this residual is
+    too large."""
     residual = friction.races.residual
     if friction.rib is not None:
         residual = jnp.maximum(residual, friction.rib.residual)
@@ -261,7 +270,7 @@ def _of_friction(friction: TaperedFriction, state: TaperedState) -> dict[str, Ar
             "temperature_rise_outer": races.temperature_rise[1],
         }
     if balance is not None:
-        # without load it is the cage's, not the raceway's
+        # without load, this force comes from the cage, not from the raceway
         traction = jnp.where(state.load > 0, balance.traction, jnp.nan)
         more |= {"traction_inner": traction[0], "traction_outer": -traction[1]}
     if races.asperities is not None:
@@ -321,11 +330,11 @@ def _facts(
 
 
 def line_pressure(scene: TaperedRollerBearing, system: TaperedSystem, state: TaperedState) -> Float[Array, "2 roller"]:
-    r"""Largest Hertz pressure along each raceway contact, Pa: $p_0^2 = qE'/(2\pi R)$ with q and R of the place.
+    r"""Largest Hertz pressure along each raceway contact, Pa: $p_0^2 = qE'/(2\pi R)$, with q and R at each position.
 
-    Straight rollers: R shrinks towards the apex, so that the largest is at an end, or, where the load falls towards the
-    small end, at $s = 10d - 9f/|g|$, where $d\,p_0/ds = 0$. With a profile: the largest of the points that the load is
-    summed over, so that one without load has none.
+    Straight rollers: R decreases towards the apex. The largest pressure is therefore at an end, or, if the load falls
+    towards the small end, at $s = 10d - 9f/|g|$, where $d\,p_0/ds = 0$. Rollers with a profile: the largest pressure at
+    the points over which the load is summed, so that a contact without load has no pressure.
     """
     geometry = scene.geometry
     modulus = scene.materials.race_modulus
@@ -340,13 +349,13 @@ def line_pressure(scene: TaperedRollerBearing, system: TaperedSystem, state: Tap
         place = jnp.broadcast_to(places, (len(places), *state.slope.shape))
     load = system.line.load_per_length(state.approach[None], state.slope[None], place)
     radii = jnp.stack([geometry.race_reduced_radii(place[:, side])[side] for side in (0, 1)], axis=1)
-    # of places, the first axis
+    # positions are the first axis
     contact = LineContact(radii, jnp.ones(()), modulus[None] if jnp.ndim(modulus) else modulus)
     return jnp.max(jnp.where(load > 0, contact.hertz_pressure(load), 0.0), axis=0)
 
 
 def _end_reach(scene: TaperedRollerBearing, state: TaperedState) -> Array:
-    """Length by which the ellipse on the rib reaches beyond the end face, m."""
+    """Length by which the ellipse on the rib reaches beyond the end face, m; negative if it does not."""
     geometry = scene.geometry
     modulus = scene.materials.race_modulus
     below = geometry.sphere_radius * jnp.sin(geometry.flange_tilt)
@@ -356,7 +365,7 @@ def _end_reach(scene: TaperedRollerBearing, state: TaperedState) -> Array:
 
 
 def _port(scene: TaperedRollerBearing, system: TaperedSystem, result: NewtonResult) -> Port:
-    """The reaction and the stiffness of the cone's five degrees of freedom at the reference point, rollers in
+    """Reaction and stiffness of the cone's five degrees of freedom at the reference point, with the rollers in
     equilibrium."""
     full = build_tapered(scene, system.ring.released(system.load_scale()))
     elements = jnp.broadcast_to(result.point.elements, (3, scene.geometry.n_rollers))

@@ -1,8 +1,9 @@
 r"""Equations of the tapered roller bearing without friction on the raceways: one block-arrow system.
 
-Unknowns per roller: u_x along its axis towards the small end, u_z outwards (both of the big end's centre), and the tilt
-phi that moves the small end outwards; globally the displacements of the cone. With the cone's motion at the roller,
-(Da, Dr) of the apex and the tilt t that turns a towards r (source eqs. (44)-(50), coefficients derived):
+The unknowns of a roller are the displacements of the centre of its big end, u_x along its axis towards the small end
+and u_z outwards, and its tilt phi, which moves the small end outwards. The global unknowns are the displacements of the
+cone. Its motion at a roller is (Da, Dr, t): displacements of the apex along a and r, and the tilt t that turns a
+towards r. The approaches are (source eqs. (44)-(50), with coefficients derived here):
 
 - $\delta_k(s) = f_k + g_ks$: $f_i = u_x\sin\epsilon - u_z\cos\epsilon + \phi C + D_a\sin\alpha_i + D_r\cos\alpha_i -
   td$, $g_i = t - \phi$; $f_o = u_x\sin\epsilon + u_z\cos\epsilon - \phi C$, $g_o = \phi$; $C =
@@ -11,18 +12,18 @@ phi that moves the small end outwards; globally the displacements of the cone. W
   tT_f$.
   (Eq. (50) prints D_f for B_f in its second term, and -D_f, +E_f in its ring terms, which contradict eqs. (56)-(57).)
 
-Everything is the gradient of one convex potential, $\Pi = \sum[w_i + w_o + \frac25k_f\delta_{f+}^{5/2} - F_c\,u_r +
-M_g\phi] - F\cdot q$, with $u_r$ outwards at the centre of mass: the rows are those of eqs. (54), (56), (57) with *all*
-moments about the big end's centre (the source takes the contacts' about it and the rib's lever about the centre of
-mass: its moment row is off by $s_c(Q_i - Q_o)$).
+The equations are the gradient of one convex potential, $\Pi = \sum[w_i + w_o + \frac25k_f\delta_{f+}^{5/2} - F_c\,u_r +
+M_g\phi] - F\cdot q$, with the outward displacement $u_r$ of the centre of mass. They are eqs. (54), (56), (57), with
+*all* moments about the centre of the big end. (The source takes the moments of the raceway contacts about this point,
+but the lever of the rib about the centre of mass. Its moment equation is wrong by $s_c(Q_i - Q_o)$.)
 
-A cup that bends moves its raceway outwards by w at a roller, which takes $w\cos\alpha_o$ from $f_o$; the roller presses
-it outwards by $Q_o\cos\alpha_o$. A cone that bends moves with its rib: its deflection is a part of $D_r$ at the
-roller, which presses it outwards by $Q_f\sin\alpha_f - Q_i\cos\alpha_i$. Deviations of the raceways' radii act on
-the raceways only.
+A cup that bends moves its raceway outwards by w at a roller, which subtracts $w\cos\alpha_o$ from $f_o$; the roller
+presses it outwards by $Q_o\cos\alpha_o$. A cone that bends moves with its rib: its deflection is a part of $D_r$ at the
+roller, which presses it outwards by $Q_f\sin\alpha_f - Q_i\cos\alpha_i$. Raceways that are not round change the
+approaches of the raceways only, not that of the rib.
 
-A roller that nothing touches has no place, nor has a cone that touches no roller. Each is held by a spring of `ANCHOR`
-from where it is, which adds to the Jacobian and nothing to the balances.
+The position of a roller without contact is undetermined, and so is that of a cone that touches no roller. Each is
+therefore held where it is by a spring of stiffness `ANCHOR`, which adds to the Jacobian but not to the balances.
 """
 
 import dataclasses
@@ -43,27 +44,27 @@ from ..ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
 from ..row import AbstractRowSystem
 
 LOAD_FLOOR = 1e-3
-"""Added to the scale of loads, N."""
+"""Smallest scale of the loads, N, added in squares."""
 START_TOLERANCE = 1e-11
 """Scaled residual at which the descent of the potential hands over to Newton. With 1e-7, random tapered bearings take a
 fifth more steps in all, and 12 instead of 8 of 1 000 tilted cylindrical ones fail."""
 LONGEST_STEP = 1e-4
 """Largest change of a displacement in one Newton step, m."""
 FARTHEST = 100.0
-"""Displacement of a roller, m, at which an iterate is lost."""
+"""Largest displacement of a roller in the iteration, m."""
 MOST_TILT = 0.1
 """Largest tilt of a ring that is free to tilt, rad. The equations are those of small displacements; they do have roots
 beyond, where rollers carry all load on the last micrometres of their length while the others are millimetres apart."""
 
 
 SEATING = 1e-3
-"""Centrifugal force, over a roller's share of the load, below which rollers that carry nothing hardly find their
-places: forces of 1e-10 of the others bring them there. Where Newton's iteration fails so, it begins with this much and
-walks down."""
+"""Centrifugal force divided by a roller's share of the load, below which unloaded rollers hardly find their positions,
+because the forces on them are as small as 1e-10 of the others. If Newton's iteration fails for this reason, it begins
+again with the centrifugal force increased to this value, and reduces it in steps."""
 
 
 class TaperedForm(NamedTuple):
-    """Geometry as the equations need it; `sine`, `cosine`: of epsilon; angles in rad, lengths in m."""
+    """Geometry in the equations: angles, rad, and lengths, m. `sine`, `cosine`: of the roller half angle epsilon."""
 
     sine: Array
     cosine: Array
@@ -73,15 +74,16 @@ class TaperedForm(NamedTuple):
     flange_angle: Array
     flange_tilt: Array
     offset: Array
-    """C."""
+    """Length C in the approaches of the raceways."""
     apex_distance: Array
     end_height: Array
     flange_arm: Array
-    """T_f."""
+    """Length T_f, the lever of the rib contact about the apex."""
 
 
 class Inertia(NamedTuple):
-    """Centrifugal force, N, at `centre` from the big end along the roller axis, m, and gyroscopic moment, N m."""
+    """Inertia forces on a roller: centrifugal force, N, which acts at the distance `centre`, m, from the big end along
+    the roller axis, and gyroscopic moment, N m."""
 
     force: Array
     centre: Array
@@ -89,7 +91,8 @@ class Inertia(NamedTuple):
 
 
 class TaperedState(NamedTuple):
-    """State of every roller: approaches f (m) and g (rad), loads (N), moments about s = 0 (N m), races first."""
+    """Contacts of every roller; a first axis of length 2 runs over the races (inner, outer). The approach of a raceway
+    is f + g s, with `approach` f, m, and `slope` g, rad. Loads in N, moments about s = 0 in N m."""
 
     approach: Float[Array, "2 roller"]
     slope: Float[Array, "2 roller"]
@@ -100,10 +103,12 @@ class TaperedState(NamedTuple):
 
 
 class TaperedSystem(AbstractRowSystem):
-    """See the module. Unknowns are lengths in units of 10 um: phi times the roller length, ring tilts times d.
+    """Equations of a tapered roller bearing (see the module). All unknowns are lengths in units of 10 um: phi is
+    multiplied by the roller length, and tilts of the ring by d.
 
-    `columns[f]` are (Da, Dr, t) at every roller for a unit of freedom f, `held` those of what the ring
-    is held at.
+    - `columns`: motion (Da, Dr, t) of the cone at every roller, for a unit of each unknown degree of freedom.
+    - `held`: the same motion by given displacements of the ring and by expansion, m and rad.
+    - `multiplicity`: number of rollers for which each modelled roller stands.
     """
 
     form: TaperedForm
@@ -118,13 +123,13 @@ class TaperedSystem(AbstractRowSystem):
     inner: ElasticRing | None
     """The cone if it bends; `None`: it is rigid."""
     out_of_round: Float[Array, "2 roller"] | None
-    """Lobes of the raceways add these lengths to the approaches of inner and outer race, m; `None`: both are round."""
+    """Changes of the approaches of inner and outer race by raceways that are not round, m; `None`: both are round."""
     guess: ArrowPoint | None
     seated: ArrowPoint | None
-    """First guess at parameter 1 of the homotopy."""
+    """First guess at parameter 1 of the homotopy; `None`: there is no homotopy."""
     multiplicity: int = eqx.field(static=True)
     closing: Float[Array, "3"] | None = None
-    """Growth adds these lengths to the approaches of inner race, outer race and rib, m."""
+    """Changes of the approaches of inner race, outer race and rib by growth, m; `None`: there is no growth."""
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -141,7 +146,7 @@ class TaperedSystem(AbstractRowSystem):
         return self.load_scale() / self.roller_count + self.inertia.force
 
     def units(self) -> Float[Array, "3 1"]:
-        """u_x, u_z, phi for a unit of the unknowns."""
+        """Factors that convert the unknowns of a roller to u_x, u_z, m, and phi, rad."""
         return LENGTH_UNIT * jnp.stack([jnp.ones(()), jnp.ones(()), 1.0 / jnp.asarray(self.line.length)])[:, None]
 
     # -- solver contract ------------------------------------------------------------------------------------------
@@ -155,7 +160,8 @@ class TaperedSystem(AbstractRowSystem):
         return ArrowPoint(jnp.full((3, 1), cap), jnp.full(self.ring_unknowns, cap))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        """Limits of the search for an equilibrium; of the rings the apex distance, or the largest tilt."""
+        """Limits of the unknowns: `FARTHEST` for the rollers, the apex distance for displacements of the rings, and
+        `MOST_TILT` for their tilts."""
         away = self.form.apex_distance / LENGTH_UNIT
         ring = self.ring.of_each(lambda name: MOST_TILT * away if name in TILTS else away)
         if self.bent:
@@ -164,11 +170,12 @@ class TaperedSystem(AbstractRowSystem):
         return ArrowPoint(-high.elements, -high.globals), high
 
     def initial(self) -> ArrowPoint:
-        """In contact: the ring pressed in by 20 um or more, rollers in between."""
+        """First guess in contact: the ring is displaced axially by at least 2 um, and each roller follows along its
+        axis by 0.9 of this."""
         if self.guess is not None:
             return self.guess
         if not self.freedoms:
-            # towards each roller, as far as an axial displacement would bring the cone
+            # axial displacement that would bring the cone as near to each roller as the given displacements do
             pressed = self.pressed(self.held) / jnp.sin(self.form.cone_angle)
             axial = jnp.maximum(pressed, 2e-6) / LENGTH_UNIT
             return ArrowPoint(jnp.stack([0.9 * axial, 0.05 * axial, 0.0 * axial]), jnp.zeros(self.ring_unknowns))
@@ -185,7 +192,8 @@ class TaperedSystem(AbstractRowSystem):
         return dataclasses.replace(self, guess=None, seated=None)
 
     def acting(self, unknowns, shared):
-        """See `AbstractConvexArrow`; the energy of a roller is that of its contacts less the work of its inertia, J."""
+        """See `AbstractConvexArrow`. The energy of a roller is the energy of its contacts minus the work of its inertia
+        forces, J."""
         state = self.state(unknowns, shared)
         balance = self.balance(state) + anchored(unknowns, ANCHOR * LENGTH_UNIT)
         force = self.ring_force(state)
@@ -210,7 +218,8 @@ class TaperedSystem(AbstractRowSystem):
         return 0 if self.seated is None else 1
 
     def homotopy(self, parameter, path):
-        """More inertia, where there is some: it brings the rollers that carry nothing to their places."""
+        """Increases the inertia forces if they are small but not 0: they bring the unloaded rollers to their
+        positions."""
         del path
         guess = None
         if self.guess is not None and self.seated is not None:
@@ -221,14 +230,17 @@ class TaperedSystem(AbstractRowSystem):
         return dataclasses.replace(self, inertia=inertia, guess=guess)
 
     def _slowness(self) -> Array:
-        """`SEATING` over the centrifugal force; 0 at rest."""
+        """Centrifugal force that `SEATING` asks for, divided by the actual one; 0 at rest."""
         force = self.inertia.force
         least = SEATING * self.load_scale() / self.roller_count
         return jnp.where(force > 0, least / jnp.where(force > 0, force, 1.0), 0.0)
 
     def started(self, hopeless: Bool[Array, ""]) -> tuple["TaperedSystem", Minimum]:
-        """These equations with the minimum of the potential as first guess, that with more inertia as another one, and
-        how the first was found; `hopeless`: known to have none."""
+        """These equations with the minima of the potential, for the actual and for increased inertia forces, as first
+        guesses; and the result of the search for the first.
+
+        **Arguments:** `hopeless`: True if it is known that there is no minimum.
+        """
         both = in_turn(_minima, jax.lax.stop_gradient((self, hopeless)))
         found, seated = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
         system = dataclasses.replace(self, guess=found.point, seated=seated.point)
@@ -252,7 +264,11 @@ class TaperedSystem(AbstractRowSystem):
         return self._loaded(approach, slope, flange)
 
     def pressed(self, motion: Float[Array, "3 roller"]) -> Float[Array, " roller"]:
-        """Displacement of the cone's raceway towards each roller, in its middle, m; of the cone's (Da, Dr, t)."""
+        """Displacement of the cone's raceway towards each roller at mid length, plus the growth of the raceway
+        approaches, m.
+
+        **Arguments:** `motion`: (Da, Dr, t) of the cone, m and rad.
+        """
         axial, radial, turn = motion
         normal = axial * jnp.sin(self.form.cone_angle) + radial * jnp.cos(self.form.cone_angle)
         normal = normal - turn * (self.form.apex_distance - 0.5 * self.line.length)
@@ -261,7 +277,10 @@ class TaperedSystem(AbstractRowSystem):
     def approaches(
         self, place: Float[Array, "3 roller"], motion: Float[Array, "3 roller"]
     ) -> tuple[Float[Array, "2 roller"], Float[Array, "2 roller"], Float[Array, " roller"]]:
-        """f and g of both races and delta_f, from (u_x, u_z, phi) and the cone's (Da, Dr, t), m and rad."""
+        """Approaches f, m, and slopes g, rad, of both races, and approach delta_f of the rib, m.
+
+        **Arguments:** `place`: (u_x, u_z, phi) of each roller; `motion`: (Da, Dr, t) of the cone; m and rad.
+        """
         form, (along, across, tilt), (axial, radial, turn) = self.form, place, motion
         cone = axial * jnp.sin(form.cone_angle) + radial * jnp.cos(form.cone_angle) - turn * form.apex_distance
         inner = along * form.sine - across * form.cosine + tilt * form.offset + cone
@@ -278,7 +297,8 @@ class TaperedSystem(AbstractRowSystem):
         return TaperedState(approach, slope, flange, load, moment, self.flange_stiffness * positive_power(flange, 1.5))
 
     def balance(self, state: TaperedState) -> Float[Array, "3 roller"]:
-        """Forces along and across a roller and moment (over the roller length) about its big end's centre, N."""
+        """Residuals of the balances of each roller, N: forces along and across its axis, and moment about the centre of
+        its big end, divided by the roller length."""
         form, (inner, outer), (inner_moment, outer_moment) = self.form, state.load, state.moment
         flange, inertia = state.flange_load, self.inertia
         sine, cosine = jnp.sin(form.axis_angle), jnp.cos(form.axis_angle)
@@ -290,29 +310,29 @@ class TaperedSystem(AbstractRowSystem):
         return jnp.stack([along, across, moment / self.line.length])
 
     def ring_force(self, state: TaperedState) -> Float[Array, "3 roller"]:
-        """Force of the cone on each roller, axial and radial, N, and moment about the apex, N m: conjugate to (Da, Dr,
-        t)."""
+        """Axial and radial force of the cone on each roller, N, and moment about the apex, N m. They are conjugate to
+        (Da, Dr, t)."""
         form, inner, flange = self.form, state.load[0], state.flange_load
         axial = inner * jnp.sin(form.cone_angle) + flange * jnp.cos(form.flange_angle)
         radial = inner * jnp.cos(form.cone_angle) - flange * jnp.sin(form.flange_angle)
         return jnp.stack([axial, radial, state.moment[0] - form.apex_distance * inner + form.flange_arm * flange])
 
     def cup_force(self, state: TaperedState) -> Float[Array, "3 roller"]:
-        """Force of each roller on the cup, axial, radial, N, and moment about the apex, N m, conjugate to the cup's
-        (Da, Dr, t): for the closure of the whole."""
+        """Axial and radial force of each roller on the cup, N, and moment about the apex, N m. They are conjugate to
+        (Da, Dr, t) of the cup, and serve to check the balance of the whole bearing."""
         form, outer = self.form, state.load[1]
         axial, radial = outer * jnp.sin(form.cup_angle), outer * jnp.cos(form.cup_angle)
         return jnp.stack([axial, radial, state.moment[1] - form.apex_distance * outer])
 
 
 def _minima(given: tuple[TaperedSystem, Bool[Array, ""]]) -> Minimum:
-    """Finds the minima of a system and of the one with more inertia, along a first axis."""
+    """Minima of the potential for the actual and for increased inertia forces, along a first axis."""
     system, hopeless = given
     start = system.initial()
     nothing = Minimum(start, jnp.asarray(0), jnp.asarray(False))
 
     def search(parameter: Array) -> Minimum:
-        # where it is fast enough the second one is the first
+        # a bearing that turns fast enough needs no second minimum
         there = dataclasses.replace(system.homotopy(parameter, jnp.asarray(0)), guess=start)
         find = lambda: find_minimum(there, tolerance=START_TOLERANCE, hopeless=hopeless)
         return jax.lax.cond((parameter > 0.0) & ((system._slowness() <= 1.0) | hopeless), lambda: nothing, find)

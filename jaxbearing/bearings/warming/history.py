@@ -1,4 +1,4 @@
-"""Results of a run of the temperatures of a bearing, labelled."""
+"""Results of a transient run of the temperatures of a bearing, with labelled fields."""
 
 from collections.abc import Mapping
 from typing import Any, ClassVar
@@ -22,7 +22,7 @@ _Number = Float[Array, ""]
 
 
 class WarmInstant(eqx.Module):
-    """The bearing at one instant; in a `WarmUpHistory` every array has the times in front."""
+    """The bearing at one instant; in a `WarmUpHistory` the first axis of every array is time."""
 
     inner_speed: _Number = eqx.field(metadata=label("rad/s", "inner ring speed"))
     oil_inlet: _Number = eqx.field(metadata=label("K", "temperature of the oil that enters"))
@@ -43,7 +43,7 @@ class WarmInstant(eqx.Module):
 
 
 def play_of(instants: WarmInstant) -> tuple[str, Array | None] | None:
-    """Name and values, m, of the running clearance or of the axial shift of first contact; `None` without seats."""
+    """Name and values, m, of the operating clearance or of the axial shift of first contact; `None` without fits."""
     fit = instants.fit
     if fit is None:
         return None
@@ -51,8 +51,8 @@ def play_of(instants: WarmInstant) -> tuple[str, Array | None] | None:
 
 
 class WarmPeaks(eqx.Module):
-    """The hardest moments of a run, also between its instants. The play is the running clearance, of tapered bearings
-    the axial shift of first contact; it is `None` without seats."""
+    """Extreme values of a run, also between its instants. The play is the operating clearance, or for tapered bearings
+    the axial shift of first contact; it is `None` without fits."""
 
     least_play: _Number | None = eqx.field(metadata=label("m", "least clearance, or axial shift, of the run"))
     least_play_time: _Number | None = eqx.field(metadata=label("s", "time of the least clearance or axial shift"))
@@ -63,7 +63,7 @@ class WarmPeaks(eqx.Module):
 
 
 class WarmEnergy(eqx.Module):
-    """Energies over the run, J: what the losses made is what left and what the nodes stored, up to `error`."""
+    """Energies over the run, J. The balance is `losses` = `to_oil` + `to_ambient` + `stored`, up to `error`."""
 
     losses: _Number = eqx.field(metadata=label("J", "energy of all losses"))
     to_oil: _Number = eqx.field(metadata=label("J", "energy that left with the oil"))
@@ -73,9 +73,10 @@ class WarmEnergy(eqx.Module):
 
 
 class WarmState(eqx.Module):
-    """The state from which another run can go on: `WarmUpHistory.last_state`.
+    """State from which another run can continue: `WarmUpHistory.last_state`.
 
-    **Arguments:** `time`: s; `temperatures`: of the nodes, K, in the order of `nodes`; `identity`: of the bearing.
+    **Arguments:** `time`: time of the state, s; `temperatures`: node temperatures, K, in the order of `nodes`; `nodes`:
+    names of the nodes; `identity`: identity of the bearing, `None` if it is not known.
     """
 
     of: ClassVar[str] = "bearing with [thermal]"
@@ -88,12 +89,11 @@ class WarmState(eqx.Module):
 
 
 class WarmUpHistory(AbstractHistory):
-    """Result of a run of temperatures: all instants up to the last good one, also where it stopped early.
+    """Result of a transient run of temperatures: all instants up to the last good one, even if the run stopped early.
 
-    `instants` holds the results with the times in front: `history.instants.temperatures.inner_ring` has the shape of
-    `time`. `peaks` are the least clearance, the largest contact load and the highest temperature, between the instants
-    too. A run in which a
-    node passes `thermal.limit` has the status `thermal_runaway`, and its last instant is that one.
+    `instants` holds the results, with time as the first axis: `history.instants.temperatures.inner_ring` has the shape
+    of `time`. `peaks` holds the least clearance, the largest contact load and the highest temperature, also between the
+    instants. If a node temperature passes `thermal.limit`, the run ends there with the status `thermal_runaway`.
     """
 
     of: ClassVar[str] = "bearing with [thermal]"
@@ -122,16 +122,16 @@ class WarmUpHistory(AbstractHistory):
         return losses_not_modelled(self.instants.power_loss)
 
     def node_temperatures(self) -> Float[Array, "time node"]:
-        """Temperatures in the order of the nodes, K."""
+        """Node temperatures, K, in the order of `nodes`."""
         return jnp.stack([getattr(self.instants.temperatures, name) for name in self.nodes], axis=-1)
 
     def last_state(self) -> WarmState:
-        """The state of the last instant, for `jaxbearing.simulate(..., restart=...)`."""
+        """State of the last instant, for `jaxbearing.simulate(..., restart=...)`."""
         last = np.asarray(self.node_temperatures())[-1]
         return WarmState(np.asarray(self.time[-1]), last, self.nodes, self.identity)
 
     def at(self, index: int) -> WarmInstant:
-        """One instant. **Arguments:** `index`: from 0; -1 is the last one."""
+        """The results at one instant. **Arguments:** `index`: number of the instant, from 0; -1 is the last one."""
         found: WarmInstant = jax.tree.map(lambda leaf: leaf[index], self.instants)
         return found
 

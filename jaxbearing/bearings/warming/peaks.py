@@ -1,10 +1,10 @@
-"""The hardest moments of a run of temperatures: the least play, the largest contact load and the highest temperature,
-between the instants too.
+"""Extreme values of a run of temperatures: least play, largest contact load and highest temperature, also between the
+instants.
 
-An inner ring that warms before the housing takes the play away for a while: the peak of preload at a start. The
-instants of a history may pass it by, but the steps of the integrator are as short as the temperatures need. So the
-bearing is looked at where its steps end too. The run is then integrated again around the time with the extreme value,
-at times that lie closer together, and once more around the best of these.
+If the inner ring warms before the housing, the play decreases for a while: this is the peak of preload at a start. The
+instants of a history may miss it, but the steps of the integrator are as short as the temperatures need, so the bearing
+is evaluated at the ends of these steps too. The run is then integrated again around the time of the extreme value, with
+times that lie closer together, and once more around the best of these.
 """
 
 from collections.abc import Callable
@@ -17,36 +17,39 @@ from jaxtyping import Float
 from .history import WarmInstant, WarmPeaks, play_of
 
 LEAST_PLAY_DEPTH = 1e-9
-"""Least difference of the play to that at both ends of a run for which an extreme is one, m."""
+"""Difference, m, by which the least play must lie below the play at both ends of a run to count as an extreme."""
 LEAST_LOAD_DEPTH = 1e-6
-"""The same of the largest contact load, relative."""
+"""The same difference for the largest contact load, relative."""
 LEAST_HEAT_DEPTH = 1e-2
-"""The same of the highest temperature, K; the temperatures themselves are right to a third of it."""
+"""The same difference for the highest temperature, K. The error of the temperatures is about a third of it."""
 
 
 class Extreme(NamedTuple):
-    """An extreme value among times: the place, and `inside`: whether it lies below both ends by more than the least
-    depth."""
+    """Index of the lowest of several values, and whether it lies inside, that is below the first and the last value by
+    more than a given depth."""
 
     place: int
     inside: bool
 
 
 Finer = Callable[[np.ndarray, WarmInstant, int], tuple[np.ndarray, WarmInstant]]
-"""Function of times, s, their instants and an index: times and instants from one neighbour of it to the other."""
+"""Function that takes times, s, the instants at these times and an index, and returns closer times and instants between
+the two neighbours of the index."""
 REFINEMENTS = 2
-"""Number of times that the run is integrated again around an extreme."""
+"""Number of repeated integrations around an extreme value."""
 
 
 def lowest(values: Float[np.ndarray, " time"], depth: float) -> Extreme:
-    """The lowest value. **Arguments:** `depth`: in the unit of the values."""
+    """Finds the lowest value. **Arguments:** `depth`: see `Extreme`, in the unit of the values."""
     index = int(np.argmin(values))
     return Extreme(index, float(min(values[0], values[-1]) - values[index]) > depth)
 
 
 def find_peaks(time: Float[np.ndarray, " time"], instants: WarmInstant, finer: Finer | None) -> WarmPeaks:
-    """The peaks of a run. **Arguments:** `time`: of the instants and of the ends of steps, s; `instants`: the bearing
-    there; `finer`: left out: only these are looked at."""
+    """The extreme values of a run.
+
+    **Arguments:** `time`: times of the instants and of the ends of steps, s; `instants`: the bearing at these times;
+    `finer`: function that refines them, `None` to search only these times."""
     play = play_of(instants)
     load = lambda one: -np.asarray(one.largest_load)
     depth = LEAST_LOAD_DEPTH * float(np.max(np.asarray(instants.largest_load)))
@@ -78,7 +81,7 @@ def _peak(
     depth: float,
     finer: Finer | None,
 ) -> tuple[float, float]:
-    """Time and value of the lowest value."""
+    """Time, s, and value of the minimum of `values_of`."""
     values = values_of(instants)
     found = lowest(values, depth)
     place, best = found.place, (float(time[found.place]), float(values[found.place]))

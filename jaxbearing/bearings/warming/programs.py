@@ -1,4 +1,4 @@
-"""The two programs of a run of temperatures: a piece of it, and the bearing at instants."""
+"""The two compiled programs of a run of temperatures: integration of one piece, and the bearing at given instants."""
 
 from typing import NamedTuple
 
@@ -22,10 +22,10 @@ from .settings import WarmUpSimulation, at_instant
 
 
 class Seen(NamedTuple):
-    """The bearing at an instant.
+    """The bearing solved at an instant.
 
-    - `instant`: its results; `status`: of its solve.
-    - `rates`: of the node temperatures, K/s.
+    - `instant`: results; `status`: status of the solve.
+    - `rates`: rates of the node temperatures, K/s.
     - `checks`: text of a warning -> whether it applies.
     """
 
@@ -47,14 +47,14 @@ def _capacity(scene: AbstractBearing) -> Array:
 
 
 def _balance(scene: AbstractBearing, settings: WarmUpSimulation, begin: Scalar) -> Balance:
-    """The equations of a run whose time counts from `begin`, s."""
+    """Equations of a piece of a run. Their time starts at 0, which is the time `begin` of the run, s."""
 
     def network(time: Array) -> Network:
         return bearing_network(at_instant(scene, settings, begin + time))
 
     def losses(temperatures: Array, time: Array) -> NodeHeat:
         found = _heat(at_instant(scene, settings, begin + time), temperatures)
-        # the whole solution is of no use inside the steps
+        # the steps need the heat and the conductances, but not the whole solution
         return NodeHeat(found.heat, found.status, found.between, found.to_ambient)
 
     return Balance(network, losses, _capacity(scene))
@@ -68,7 +68,10 @@ def _advance(
     lengths: Float[Array, " time"],
     step: Float[Array, ""],
 ) -> Reached:
-    """A piece of a run. **Arguments:** `begin`: s; `lengths`: times from there, s; `step`: first that is tried, s."""
+    """Integrates a piece of a run.
+
+    **Arguments:** `temperatures`: node temperatures at the start, K; `begin`: start, s; `lengths`: times after the
+    start, s; `step`: first step that is tried, s."""
     return integrate(
         _balance(scene, settings, begin),
         temperatures,
@@ -88,7 +91,7 @@ def instants_at(
     times: Float[Array, " time"],
     temperatures: Float[Array, "time node"],
 ) -> Seen:
-    """The bearing at each of the times, s, with these node temperatures, K."""
+    """The bearing solved at each of the times, s, with the node temperatures at these times, K."""
     capacity = _capacity(scene)
 
     def one(given: tuple[Array, Array]) -> Seen:
@@ -123,7 +126,7 @@ def _instant(lane: AbstractBearing, network: Network, nodes: Array, heat: NodeHe
         fit=solution.fit,
         largest_load=jnp.max(both("load")),
         largest_pressure=jnp.max(both("pressure")),
-        # where nothing touches there is no film
+        # elements without contact have no film (NaN)
         smallest_film=None if filmless else jnp.nanmin(both("film")),
     )
 

@@ -1,4 +1,4 @@
-"""Runs of the temperatures of a bearing of any family, piece after piece."""
+"""Transient runs of the temperatures of a bearing of any family, computed piece by piece."""
 
 import contextlib
 import dataclasses
@@ -35,9 +35,9 @@ PIECE = 16
 FIRST_STEP = 1e-3
 """First step that the integrator tries, s."""
 MAY_CHANGE = ("operation", "oil", "contact", "drag", "simulation", "rating", "ring_freedom", "thermal")
-"""Parts of a scene that may differ from those of the run that is continued."""
+"""Parts of a scene that may differ from those of the earlier run that is continued."""
 ENERGY_FACTOR = 10.0
-"""A run warns where its energy balance leaves more open than this, in tolerances."""
+"""Error of the energy balance over the tolerance of the run above which a warning is given."""
 ROTATING = (
     "simulation.rotating_load: a run of the temperatures has none; leave it out, or leave [thermal] out for a run of "
     "the rollers"
@@ -47,9 +47,10 @@ Progress = Callable[[float, float], None]
 
 
 def settings_of(scene: AbstractBearing, given: object) -> WarmUpSimulation:
-    """The settings of a run: given, or those of the scene, whose `[simulation]` may be one of rollers.
+    """Settings of a run: those given, or those of the scene. A `Simulation`, which is meant for runs of the rolling
+    elements, is converted.
 
-    **Raises:** `TypeError` for another class; `ValueError` for a load that turns with the shaft.
+    **Raises:** `TypeError` for an object of another class; `ValueError` for a rotating load.
     """
     chosen = getattr(scene, "simulation", None) if given is None else given
     if chosen is None:
@@ -66,7 +67,9 @@ def settings_of(scene: AbstractBearing, given: object) -> WarmUpSimulation:
 
 
 def require_capacities(scene: AbstractBearing) -> None:
-    """**Raises:** `ValueError` that names each heat capacity that is not known."""
+    """Checks that the heat capacities of all nodes are known.
+
+    **Raises:** `ValueError` that names the unknown heat capacities."""
     unknown = unknown_capacities(scene)
     if unknown:
         names = ", ".join(f"thermal.capacity.{name}" for name in unknown)
@@ -79,9 +82,9 @@ def identity(scene: AbstractBearing) -> Identity:
 
 
 def check_restart(scene: AbstractBearing, last: object) -> WarmState:
-    """Returns the state.
+    """Checks that a state belongs to this bearing and its nodes, and returns it.
 
-    **Raises:** `ValueError` where the state is not one of this bearing and its nodes."""
+    **Raises:** `ValueError` that names the difference."""
     if not isinstance(last, WarmState):
         of = getattr(last, "of", type(last).__name__)
         raise ValueError(f"restart: a state of a {of}, for a scene of a bearing with [thermal]")
@@ -96,8 +99,8 @@ def check_restart(scene: AbstractBearing, last: object) -> WarmState:
 
 
 def wanted_times(begin: float, length: float, interval: float | None, instants: int = INSTANTS) -> np.ndarray:
-    """Instants after the first one, s: evenly where an interval is given; else as many as `instants`, closer together
-    at the start."""
+    """Times of the instants after the first one, s. They are equidistant if an interval is given; otherwise their
+    number is `instants`, and they are denser at the start."""
     if interval is None:
         return begin + length * np.square(np.arange(1, instants + 1) / instants)
     count = max(1, round(length / interval))
@@ -109,7 +112,7 @@ def wanted_times(begin: float, length: float, interval: float | None, instants: 
 
 
 class _Piece(NamedTuple):
-    """Beginning and instants of a piece, s; its last one is among those to keep or not."""
+    """Start and instants of a piece, s. `end_wanted` is False if the last instant is not to be kept."""
 
     begin: float
     times: np.ndarray
@@ -117,7 +120,7 @@ class _Piece(NamedTuple):
 
 
 def pieces_of(begin: float, times: np.ndarray, kinks: np.ndarray) -> Iterator[_Piece]:
-    """Pieces of at most `PIECE` instants; each kink of a table ends one."""
+    """Yields pieces of at most `PIECE` instants. A piece also ends at each kink of the functions of time."""
     stops = np.unique(kinks[(kinks > begin) & (kinks < times[-1])])
     for until in [*stops, times[-1]]:
         inside = times[(times > begin) & (times <= until)]
@@ -130,8 +133,8 @@ def pieces_of(begin: float, times: np.ndarray, kinks: np.ndarray) -> Iterator[_P
 
 
 class _Done(NamedTuple):
-    """The contribution of one piece of a run. `step_times`, `step_nodes`: ends of its steps, s, and the temperatures
-    there, K."""
+    """Results of one piece of a run. `step_times`, `step_nodes`: times of the ends of its steps, s, and the node
+    temperatures at these times, K."""
 
     times: np.ndarray
     seen: Seen
@@ -168,7 +171,7 @@ def simulate_warm_up(
     last = None if given is None else check_restart(scene, given)
     begin = 0.0 if last is None else float(last.time)
     kinks = np.concatenate([np.asarray(law.kinks(), dtype=float) for law in chosen.laws])
-    # length, start and number of instants of the run are no part of the program
+    # the compiled program must not depend on duration, start temperature and number of instants of the run
     laws = dataclasses.replace(chosen, duration=None, start=None, instants=INSTANTS)
     bare = scene if getattr(scene, "simulation", None) is None else dataclasses.replace(scene, simulation=None)
     scene, laws = (jax.tree.map(as_float, tree) for tree in (bare, laws))
@@ -176,7 +179,7 @@ def simulate_warm_up(
     pieces = list(pieces_of(begin, wanted_times(begin, length, every, chosen.instants), kinks))
     interrupted = run.follow(pieces, progress)
     history = run.history(begin + length, interrupted)
-    # who interrupts a run wants what there is
+    # a user who interrupts a run wants the results so far
     if throw and not interrupted:
         history.raise_if_failed()
     return history
@@ -191,7 +194,7 @@ def _start(scene: AbstractBearing, chosen: WarmUpSimulation, last: WarmState | N
 
 
 class _Run:
-    """A run that goes on piece after piece."""
+    """A run in progress, which is continued piece by piece."""
 
     def __init__(self, scene: AbstractBearing, settings: WarmUpSimulation, begin: float, start: np.ndarray):
         self.scene, self.settings = scene, settings
@@ -205,7 +208,7 @@ class _Run:
         self.done = [_Done(np.asarray([begin]), seen, np.zeros(3), 0, 0, *nothing)]
 
     def _look(self, times: np.ndarray, temperatures: np.ndarray) -> Seen:
-        """The bearing at some instants, at most `PIECE`."""
+        """The bearing at given times, s, with given node temperatures, K; at most `PIECE` times."""
         count = times.size
         fill = PIECE - count
         padded = np.pad(times, (0, fill), mode="edge"), np.pad(temperatures, ((0, fill), (0, 0)), mode="edge")
@@ -213,14 +216,15 @@ class _Run:
         return jax.tree.map(lambda leaf: np.asarray(leaf)[:count], seen)
 
     def follow(self, pieces: list[_Piece], progress: Progress | None) -> bool:
-        """Goes through the pieces until one stops early. **Returns:** whether the user ended it."""
+        """Computes the pieces until all are done, one stops early or the user interrupts. **Returns:** True if the user
+        interrupted the run."""
         interrupt = Deferral()
         with contextlib.ExitStack() as stack:
             try:
                 for number, piece in enumerate(pieces):
                     self._advance(piece)
                     if number == 0:
-                        # from now on there is something to keep
+                        # from now on an interrupt ends the run but keeps its results
                         interrupt = stack.enter_context(deferred_interrupts())
                     if self.status != Status.CONVERGED:
                         break
@@ -229,7 +233,7 @@ class _Run:
                     if interrupt.seen:
                         break
             except KeyboardInterrupt:
-                # of `progress`, or of a second Ctrl-C
+                # raised by `progress`, or by a second Ctrl-C
                 if len(self.done) == 1:
                     raise
                 interrupt.seen = True
@@ -262,16 +266,17 @@ class _Run:
             self.status = self._failure(found, end, seen)
 
     def _integrated(self, begin: float, nodes: np.ndarray, times: np.ndarray, step: float) -> Reached:
-        """The state that the integrator reaches from a beginning, s. **Arguments:** `times`: at most `PIECE`, s;
-        `step`: first that is tried, s."""
+        """Integrates from the time `begin`, s, with the node temperatures `nodes`, K.
+
+        **Arguments:** `times`: requested times, s, at most `PIECE`; `step`: first step that is tried, s."""
         lengths = np.pad(times - begin, (0, PIECE - times.size), mode="edge")
-        # a table may jump just after the beginning
+        # a table may have a jump at the start, of which the value after the jump is wanted
         begin = np.nextafter(begin, math.inf) if begin > 0.0 else begin
         numbers = (jnp.asarray(one, dtype=float) for one in (nodes, begin, lengths, step))
         return ADVANCE(self.scene, self.settings, *numbers)
 
     def _between(self, time: np.ndarray, instants: WarmInstant, index: int) -> tuple[np.ndarray, WarmInstant]:
-        """The bearing at times from one neighbour of an instant to the other."""
+        """The bearing at close times between the two neighbours of an instant (see `peaks.Finer`)."""
         begin, end = float(time[index - 1]), float(time[index + 1])
         times = np.linspace(begin, end, PIECE + 1)[1:]
         nodes = np.asarray(
@@ -289,7 +294,7 @@ class _Run:
         return np.append(time[index - 1], times[good][solved]), found
 
     def _with_steps(self, time: np.ndarray, instants: WarmInstant) -> tuple[np.ndarray, WarmInstant]:
-        """The instants, and the bearing at the ends of the steps of the integrator between them."""
+        """Joins the instants and the bearing at the ends of the integrator steps between them, in order of time."""
         times = np.concatenate([one.step_times for one in self.done])
         nodes = np.concatenate([one.step_nodes for one in self.done])
         between = ~np.isin(times, time) & (times > time[0]) & (times < time[-1])
@@ -312,7 +317,7 @@ class _Run:
         return Status(int(run_status(found, jnp.asarray(beyond.status[0]))))
 
     def history(self, stop: float, interrupted: bool) -> WarmUpHistory:
-        """All that was computed."""
+        """The history of all computed pieces."""
         scene = self.scene
         instants: WarmInstant = jax.tree.map(
             lambda *leaves: jnp.asarray(np.concatenate(leaves)), *(one.seen.instant for one in self.done)
@@ -350,7 +355,7 @@ class _Run:
         )
 
     def _checks(self, error: float) -> dict[str, Array]:
-        """Warnings: the energy balance, and those of the bearing at any instant."""
+        """Warnings about the energy balance, and about the bearing at any instant."""
         most = ENERGY_FACTOR * float(self.settings.tolerance)
         text = f"the energy balance leaves more than {most:g} of the losses open: choose a smaller tolerance"
         found = {text: jnp.asarray(abs(error) > most)}

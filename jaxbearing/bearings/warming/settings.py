@@ -1,4 +1,4 @@
-"""Settings of a run of the temperatures of a bearing: the same for all families."""
+"""Settings of a transient run of the temperatures of a bearing, for all families."""
 
 from typing import TYPE_CHECKING, ClassVar
 
@@ -17,30 +17,30 @@ if TYPE_CHECKING:
     from ..bearing import AbstractBearing
 
 SOLVERS = ("kvaerno3", "kvaerno4", "kvaerno5")
-"""Methods for runs of temperatures, which are stiff."""
+"""Integration methods for runs of temperatures, whose equations are stiff."""
 SOLVER = "kvaerno5"
-"""The method of a run that does not name one."""
+"""Default integration method."""
 INSTANTS = 192
-"""Number of instants of a run that does not say it."""
+"""Default number of instants of a run."""
 MOST_INSTANTS = 100_000
 """Largest number of instants of a run."""
 
 
 class WarmUpSimulation(Checked):
-    """A run of the temperatures in time.
+    """A transient run of the temperatures.
 
     **Arguments:**
-    - `duration`: s; `None`: it must be given with the run.
+    - `duration`: duration of the run, s; if `None`, it must be passed with the run.
     - `speed`: speeds of both rings over those of the operating point, as a function of time; not 0 at time 0.
     - `load`: all loads and moments over those of the operating point, as a function of time.
-    - `oil_inlet`: what the oil that enters is warmer than the ambient, over that of the operating point, as a function
-      of time: 0 is oil that is as cold as the room.
+    - `oil_inlet`: temperature difference between entering oil and ambient over that of the operating point, as a
+      function of time; 0 means oil at the ambient temperature.
     - `oil_flow`: oil flow over that of the operating point, as a function of time. The heat capacity of the oil in the
-      bearing stays that of the operating point.
-    - `start`: temperature of all nodes at time 0, K; not given: that of the ambient.
-    - `instants`: of a run of temperatures, the number of instants beside the first one, where no interval is given.
+      bearing remains that of the operating point.
+    - `start`: temperature of all nodes at time 0, K; by default the ambient temperature.
+    - `instants`: number of instants of a run of temperatures after the first one, if no interval is given.
     - `solver`: one of kvaerno3, kvaerno4 and kvaerno5.
-    - `tolerance`: relative tolerance, and absolute one in units of 1 K and 1 kJ.
+    - `tolerance`: relative tolerance, also the absolute tolerance in units of 1 K and 1 kJ.
     """
 
     part: ClassVar[str] = "simulation"
@@ -76,7 +76,7 @@ class WarmUpSimulation(Checked):
 
 
 def at_instant(scene: "AbstractBearing", settings: WarmUpSimulation, time: Scalar) -> "AbstractBearing":
-    """The scene with speeds, loads and oil of a time, s. What does not change stays as it is, bit for bit."""
+    """The scene with its speeds, loads and oil at a time, s. Inputs that do not change keep their exact values."""
     operation, thermal = scene.operation, thermal_of(scene)
     changes: dict[str, Scalar] = {}
     if not isinstance(settings.speed, Steady):

@@ -1,20 +1,21 @@
-r"""Energy of the moving ball bearing: losses, works and stored energies, and what balances them.
+r"""Energy balance of the moving ball bearing: losses, works and stored energies.
 
-With the forces f conjugate to the interaction speeds s, $G^Tf\cdot\dot q = f\cdot s$ at every state, hence
+The forces f are conjugate to the interaction speeds s, so that $G^Tf\cdot\dot q = f\cdot s$ in every state. Hence
 
 $$\frac{dE_{kin}}{dt} = P_{drive} + P_{load} - \sum D - P_{damping} - \Pi_{pocket} - \Pi_{race},$$
 
-$E_{kin}$ that of balls, cage and ring (without the given rotation of the ring), and
+with the kinetic energy $E_{kin}$ of balls, cage and ring (without the prescribed rotation of the ring) and
 
-- $P_{drive} = -\sum_k\omega_kG_{\omega k}$: of the torques that keep the rings turning;
-- $P_{load}$: of the loads on the ring, of the imbalance of the cage and of the force that keeps a ball that nothing
-  loads in its place (`FORCE_FLOOR`);
-- D: friction of races, pockets, lands and drag, each force times its own sliding speed; $P_{damping}$: of the contacts,
-  $\sum(N - Q)\dot\delta$, and of the ring from outside;
-- $\Pi_{pocket} = \sum(W_1 - W_2)\dot\sigma$: work that closes the pocket films. A part is stored by the walls,
-  $\sum\frac25W^{5/3}/K_p^{2/3}$, the rest squeezes oil out. Films between balls count here where there is no cage;
-- $\Pi_{race} = \sum Q\,\dot l$: work that brings the centres of balls and grooves apart. It is stored,
-  $\sum\frac25Q^{5/3}/K^{2/3}$, but for what changing films take.
+- $P_{drive} = -\sum_k\omega_kG_{\omega k}$: power of the torques that keep the rings turning;
+- $P_{load}$: power of the loads on the ring, of the imbalance of the cage and of the force that keeps unloaded balls in
+  the outer groove (`FORCE_FLOOR`);
+- D: friction losses of races, pockets, lands and drag, each force times its own sliding speed; $P_{damping}$: losses by
+  the damping of the contacts, $\sum(N - Q)\dot\delta$, and by the external damping of the ring;
+- $\Pi_{pocket} = \sum(W_1 - W_2)\dot\sigma$: power of closing the pocket films. The walls store the part that belongs
+  to their energy $\sum\frac25W^{5/3}/K_p^{2/3}$; the rest squeezes out oil. Without a cage, this term contains the
+  films between the balls;
+- $\Pi_{race} = \sum Q\,\dot l$: power of moving the centres of balls and grooves apart. It is stored as
+  $\sum\frac25Q^{5/3}/K^{2/3}$, except for the work on films of changing thickness.
 """
 
 from typing import TYPE_CHECKING
@@ -32,13 +33,13 @@ if TYPE_CHECKING:
     from .rates import BallDynamics, MovingBalls
 
 WORKS = ("drive", "dissipation", "damping", "pocket_films", "raceways", "load")
-"""Works that are integrated beside the motion, in their order in the state."""
+"""Works that are integrated together with the motion, in their order in the state."""
 
 
 def race_losses(now: "MovingBalls") -> tuple[Float[Array, "2 ball"], Float[Array, "2 ball"] | None]:
     """Losses of every ball on both races by sliding and spin, and by rolling resistance (`None`: not modelled), W."""
     on, at = now.forces.races, now.speeds.races
-    # the laws' rolling resistance stands apart; the rest of the moment against the roll is sliding
+    # the rolling resistance of the law is a separate loss; the rest of the moment against the roll is sliding
     all_together = -(on.rolling * at.rolling + on.transverse * at.transverse + on.spin * at.spin + on.roll * at.roll)
     if now.friction.resistance is None:
         return all_together, None
@@ -55,7 +56,7 @@ def pocket_losses(now: "MovingBalls") -> Float[Array, " ball"] | None:
 
 
 def power_by_location(dynamics: "BallDynamics", now: "MovingBalls") -> BallPowerLoss:
-    """Losses by friction, W."""
+    """Friction losses by location, W."""
     forces, speeds = now.forces, now.speeds
     sliding, rolled = race_losses(now)
     inner, outer = jnp.sum(sliding, axis=1)
@@ -89,13 +90,13 @@ def drive_power(now: "MovingBalls") -> Float[Array, ""]:
 
 
 def damping_power(dynamics: "BallDynamics", now: "MovingBalls") -> Float[Array, ""]:
-    """Loss by the damping of the raceway contacts and of the ring, W."""
+    """Power loss by the damping of the raceway contacts and of the ring, W."""
     contacts = jnp.sum((now.load - now.pressed.load) * now.speeds.apart)
     return contacts - jnp.sum(dynamics.ring.damping_force(now.rates.ring) * now.rates.ring)
 
 
 def powers(dynamics: "BallDynamics", time: Scalar, now: "MovingBalls") -> Float[Array, " work"]:
-    """Rates of `WORKS`, W."""
+    """Powers whose integrals over time are the `WORKS`, W."""
     loss = power_by_location(dynamics, now).total
     assert loss is not None
     films = jnp.zeros(())
@@ -113,7 +114,7 @@ def powers(dynamics: "BallDynamics", time: Scalar, now: "MovingBalls") -> Float[
 
 
 def kinetic_energy(dynamics: "BallDynamics", now: "MovingBalls") -> Float[Array, ""]:
-    """Kinetic energy of balls, cage and ring, without the given rotation of the ring, J."""
+    """Kinetic energy of balls, cage and ring, without the prescribed rotation of the ring, J."""
     rates, radius = now.rates, now.places.radius
     centre = jnp.square(radius * rates.orbit) + jnp.sum(jnp.square(rates.centre), axis=0)
     w_x, w_r, w_t = rates.spin
@@ -123,7 +124,7 @@ def kinetic_energy(dynamics: "BallDynamics", now: "MovingBalls") -> Float[Array,
 
 
 def pocket_energy(dynamics: "BallDynamics", now: "MovingBalls") -> Float[Array, ""]:
-    """Elastic energy of the pocket walls, or of balls that meet, J."""
+    """Elastic energy of the pocket walls or, without a cage, of the ball-to-ball contacts, J."""
     if dynamics.neighbours is not None and now.met is not None:
         return jnp.sum(dynamics.neighbours.law.elastic_energy(now.met.load))
     if dynamics.cage is None or now.walls is None:
@@ -138,7 +139,9 @@ def raceway_energy(dynamics: "BallDynamics", now: "MovingBalls") -> Float[Array,
 
 
 def energy_of(dynamics: "BallDynamics", state: ArrowPoint, first: BallInstant, last: BallInstant) -> BallEnergy:
-    """The works of the run up to a state, and how well they balance."""
+    """The works of a run up to a state, the changes of the stored energies, and the error of the energy balance.
+
+    **Arguments:** `state`: last state; `first`, `last`: results at the start and at the end."""
     works: dict[str, Array] = dict(zip(WORKS, jnp.asarray(dynamics.unscaled(state)[2]), strict=True))
     gain = lambda name: jnp.asarray(getattr(last, name)) - jnp.asarray(getattr(first, name))
     kinetic = gain("kinetic_energy")

@@ -1,4 +1,4 @@
-"""Motion of the ball bearing, as `motion.family` asks for it."""
+"""Transient runs of the ball bearing, with the interface of `motion.family`."""
 
 from typing import ClassVar
 
@@ -15,7 +15,7 @@ from .start import QuasiStatic
 
 
 class BallBearingMotion(AbstractMotion):
-    """Motion of balls, cage and inner ring in space."""
+    """Motion of balls, cage and inner ring in three dimensions."""
 
     instant: ClassVar[type[Instant]] = BallInstant
 

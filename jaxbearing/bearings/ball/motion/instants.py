@@ -1,4 +1,4 @@
-"""Results of a moving ball bearing at one time."""
+"""Results of a transient run of a ball bearing at one time."""
 
 import dataclasses
 from typing import Any, NamedTuple
@@ -33,11 +33,11 @@ from .results import BallInstant
 from .speeds import PocketPlace
 
 STILL = 1e-6
-"""Mean speed of the surfaces, m/s, added in squares, below which sliding has no ratio to rolling."""
+"""Floor of the mean speed of the surfaces in the slide-to-roll ratio, m/s, added as a square."""
 
 
 class _Seen(NamedTuple):
-    """State that the functions of `BallResults` take, as a steady bearing has it."""
+    """State for the computed fields of `BallResults`, with the names that the state of a steady bearing has."""
 
     angle: Float[Array, "2 ball"]
     motion: BallMotion
@@ -101,14 +101,14 @@ def observe(dynamics: BallDynamics, time: Scalar, state: ArrowPoint) -> BallInst
 
 
 def _rolling_speed(dynamics: BallDynamics, now: MovingBalls) -> Float[Array, " ball"]:
-    """Orbital speed of every ball if it rolled without sliding at its angles and attitude, rad/s."""
+    """Orbital speed at which every ball would roll without sliding at its contact angles and attitude, rad/s."""
     motion = dataclasses.replace(dynamics.kinematics, inner_speed=now.rates.races[0])
     angle, (w_x, w_r, _) = jnp.arctan2(now.meridian.sine, now.meridian.cosine), now.rates.spin
     return motion.rolling(angle[0], angle[1], jnp.arctan2(w_r, w_x)).orbital_speed
 
 
 def slip_below(dynamics: BallDynamics, free: Array, speed: Array) -> Array:
-    """1 - `speed`/`free`, which has no pole where `free`, the speed of rolling, is 0."""
+    """Slip, 1 - `speed`/`free`, with the speed `free` of rolling without sliding; finite if `free` is 0."""
     least = 1e-8 * dynamics.kinematics.orbit_scale(free)
     return (free - speed) * free / (jnp.square(free) + jnp.square(least))
 
@@ -121,9 +121,9 @@ def _gaps(dynamics: BallDynamics, now: MovingBalls) -> Float[Array, " ball"] | N
 
 
 def front_and_rear(pocket: PocketPlace, ahead: Array, behind: Array) -> Float[Array, "2 ball"]:
-    """Values of the front and the rear half of every pocket, in the sense of orbit.
+    """Values on the front and the rear half of every pocket, in the direction of the orbit.
 
-    **Arguments:** `ahead`, `behind`: values of the walls that the offset of the ball has ahead and behind."""
+    **Arguments:** `ahead`, `behind`: values on the wall towards which the ball is offset, and on the opposite wall."""
     forward = pocket.direction[0] >= 0
     return jnp.stack([jnp.where(forward, ahead, behind), jnp.where(forward, behind, ahead)])
 
@@ -170,7 +170,8 @@ def _ball_results(dynamics: BallDynamics, now: MovingBalls) -> BallResults:
 
 
 def _cage_motion(dynamics: BallDynamics, now: MovingBalls) -> CageMotion | None:
-    """In the plane with Y along the load line and X a quarter turn behind it."""
+    """Motion of the cage in the plane of the bearing, with Y along the load line and X a quarter turn behind it; `None`
+    without a cage."""
     if now.lands is None:
         return None
     speed = now.rates.cage[5]
@@ -188,10 +189,11 @@ def _cage_motion(dynamics: BallDynamics, now: MovingBalls) -> CageMotion | None:
 
 
 def pocket_peaks(dynamics: BallDynamics, times: Float[Array, "interval part"], states: ArrowPoint) -> PocketPeaks:
-    """Largest loads on the front and the rear half of every pocket, shape (interval, ball), and on every land, shape
-    (interval, land), in each interval, of states at several times within it.
+    """Largest loads in each time interval on the front and the rear half of every pocket, shape (interval, ball), and
+    on every land, shape (interval, land).
 
-    **Arguments:** `states`, with `interval * part` in front.
+    **Arguments:** `times`: several times within each interval, s; `states`: the states at these times, with a first
+    axis of length `interval * part`.
     """
 
     def at_once(time: Array, state: ArrowPoint) -> PocketPeaks:

@@ -1,9 +1,10 @@
-r"""Balls that meet the next ones, where no cage keeps them apart.
+r"""Ball-to-ball contacts of neighbouring balls without a cage.
 
-With the centres $p_j$ in space, the distance $d_j = |p_{j+1} - p_j|$ and its direction $n_j$, the interaction speeds of
-each pair are the rate of the distance, $n_j\cdot(\dot p_{j+1} - \dot p_j)$, and the sliding where the balls are
-nearest, $\dot p_j - \dot p_{j+1}$ across $n_j$ plus $\tfrac12d_j(\Omega_j + \Omega_{j+1})\times n_j$. They are linear
-in the generalised speeds, and 0 for two balls that turn about each other as one body: their forces have no moment.
+The centres $p_j$ in space have the distance $d_j = |p_{j+1} - p_j|$ in the direction $n_j$. The interaction speeds of
+each pair are the rate of the distance, $n_j\cdot(\dot p_{j+1} - \dot p_j)$, and the sliding speed at the point where
+the balls are closest, which is the part of $\dot p_j - \dot p_{j+1}$ perpendicular to $n_j$ plus
+$\tfrac12d_j(\Omega_j + \Omega_{j+1})\times n_j$. They are linear in the generalised speeds, and 0 for two balls that
+move together as a rigid body; the forces of the contact therefore have no resultant moment on the pair.
 """
 
 from typing import NamedTuple
@@ -17,28 +18,28 @@ from ....numerics.series import cosine_and_sine
 from .layout import Places, Rates
 
 STILL = 1e-9
-"""Floor of the entraining speed's size, m/s, where no direction is defined."""
+"""Floor of the magnitude of the entrainment speed, m/s, added as a square: at 0 its direction is undefined."""
 
 
 class NeighbourSpeeds(NamedTuple):
-    """Relative motion of each ball and the next one: rate of the distance of their centres, m/s, and sliding, m/s, in
-    space (along the axis, along azimuths 0 and 90 degrees)."""
+    """Relative motion of each ball and the next one: rate of the distance of their centres, m/s, and sliding velocity,
+    m/s, with components along the axis and along azimuths 0 and 90 degrees."""
 
     apart: Float[Array, " ball"]
     sliding: Float[Array, "3 ball"]
 
 
 class NeighbourPlace(NamedTuple):
-    """Distance of the centres of each ball and the next one, m, and its direction in space."""
+    """Distance between the centres of each ball and the next one, m, and its direction (unit vector in space)."""
 
     distance: Float[Array, " ball"]
     normal: Float[Array, "3 ball"]
 
 
 class Neighbours(eqx.Module):
-    """The contacts of balls with each other.
+    """The ball-to-ball contacts.
 
-    **Arguments:** `law`: of the film between two balls; `viscosity`: of the oil there, Pa s.
+    **Arguments:** `law`: law of the film between two balls; `viscosity`: viscosity of the oil in this film, Pa s.
     """
 
     law: MeetingBalls
@@ -63,7 +64,7 @@ def neighbour_place(places: Places) -> NeighbourPlace:
 
 
 def neighbour_speeds(places: Places, place: NeighbourPlace, rates: Rates) -> NeighbourSpeeds:
-    """See the module; linear in `rates`."""
+    """Interaction speeds of all pairs of balls (see the module), linear in `rates`."""
     moving, turning = _in_space(places, rates)
     parting = _next(moving) - moving
     apart = jnp.sum(parting * place.normal, axis=0)
@@ -72,7 +73,7 @@ def neighbour_speeds(places: Places, place: NeighbourPlace, rates: Rates) -> Nei
 
 
 def _in_space(places: Places, rates: Rates) -> tuple[Float[Array, "3 ball"], Float[Array, "3 ball"]]:
-    """Speed of the centre and angular velocity of each ball, m/s and rad/s."""
+    """Velocity of the centre, m/s, and angular velocity, rad/s, of each ball, as vectors in space."""
     cosine, sine = cosine_and_sine(places.azimuth)
     (w_x, w_r, w_t), (x, r) = rates.spin, rates.centre
     along = places.radius * rates.orbit
@@ -83,5 +84,5 @@ def _in_space(places: Places, rates: Rates) -> tuple[Float[Array, "3 ball"], Flo
 
 
 def _next(values: Array) -> Array:
-    """Values of the next ball, around the circle."""
+    """Values of the next ball around the circle, for every ball."""
     return jnp.roll(values, -1, axis=-1)

@@ -1,15 +1,15 @@
-r"""Moving balls whose places in the plane of the groove, and the inner ring's, follow from the balance of forces.
+r"""Equations of motion with quasi-static axial and radial positions of the balls and quasi-static inner ring.
 
-Orbit, spin and cage are states, as in `rates`. The place of each ball along the axis and outward and the displacements
-of the ring are solved for inside the rates:
+Orbit, spin and cage are states with inertia, as in `rates`. The axial and the outward position of each ball and the
+displacements of the ring are not: whenever rates are evaluated, they are solved for from the balances of forces
 
-$$0 = G_x,\qquad 0 = G_r + mR\dot\psi^2 + F_0,\qquad 0 = F + \sum G_{ring},$$
+$$0 = G_x,\qquad 0 = G_r + mR\dot\psi^2 + F_0,\qquad 0 = F + \sum G_{ring}.$$
 
-with the forces G of the races, friction included, from the same list of interaction speeds, at speeds of the centres of
-0 and with the ball on the pitch circle. Forces of pockets and lands are left out of these balances, so that the loads
-are a function of the state alone.
+The forces G of the races, with friction, come from the same interaction speeds as in `rates`, but with the speeds of
+the ball centres and of the ring set to 0 and the balls on the pitch circle. Forces of pockets and lands are left out of
+these balances, so that the loads depend on the state only.
 
-It leaves out the oscillations of balls and ring in their contacts, of 3e3 to 1e5 rad/s, and the inertia of the ring.
+Left out are the oscillations of balls and ring in their contacts, of 3e3 to 1e5 rad/s, and the inertia of the ring.
 """
 
 import dataclasses
@@ -32,27 +32,29 @@ from .layout import PLACE, Places, Rates, tilt_levers
 from .rates import BallDynamics
 
 OWN, CAGE = 5, 12
-"""Number of components of a ball's and of the cage's state that are states here, the first ones of the layout."""
+"""Number of components of the state of a ball and of the cage that are states here: the first ones of the layout."""
 LOAD_TOLERANCE = 0.3
-"""Scaled residual of the balances before the last step, which squares it, over the root of the integration's
-tolerance."""
+"""Tolerance of the scaled residual of the balances before the last Newton step, which squares it, over the square root
+of the integration tolerance."""
 STEPS = 40
-"""Newton steps that one solve may take."""
+"""Largest number of Newton steps of one solve."""
 FAILURE = 2.0
-"""The rates are NaN if the residual is larger than its tolerance times this factor; the step is then shortened."""
+"""Factor on the tolerance of the residual above which the rates are NaN; the integrator then shortens its step."""
 FINE = 1e-11
-"""Tolerance for which the balances are solved where none is given."""
+"""Integration tolerance assumed for the solution of the balances if none is given."""
 
 
 class MeridianBalance(AbstractArrowSystem):
-    """Balances of the balls in the plane of the groove and of the ring, at given orbits and spins; unknowns: places of
-    each ball from those of a free ball, and displacements of the ring along its free degrees of freedom, as lengths."""
+    """Force balances of the balls (axial and outward) and of the ring, at given orbits and spins.
+
+    Unknowns are the displacements of each ball from the position of a free ball, and the displacements of the ring
+    along its free degrees of freedom, all as lengths in units of `PLACE`."""
 
     dynamics: BallDynamics
     places: Places
     rates: Rates
     load: Float[Array, "5"]
-    """On the ring, N and N m."""
+    """Loads on the five degrees of freedom of the ring, N and N m."""
 
     @property
     def free(self) -> np.ndarray:
@@ -60,18 +62,18 @@ class MeridianBalance(AbstractArrowSystem):
 
     @property
     def ball_scale(self) -> Array:
-        """Size of the load of a ball, N."""
+        """Scale of the force balances of a ball, N."""
         return self.ring_scale / self.places.azimuth.shape[0]
 
     @property
     def ring_scale(self) -> Array:
-        """Size of the forces on all balls and on the ring, N."""
+        """Scale of the force balances of the ring, N: the loads on it and the centrifugal forces of all balls."""
         forces = self.load / tilt_levers(self.dynamics.ring.lever)
         return jnp.sqrt(jnp.sum(jnp.square(forces))) + jnp.sum(self.outward)
 
     @property
     def outward(self) -> Float[Array, " ball"]:
-        """Centrifugal force of each ball, N."""
+        """Centrifugal force of each ball plus `FORCE_FLOOR`, N."""
         return self.dynamics.centrifugal(self.rates.orbit) + FORCE_FLOOR
 
     def equation_names(self) -> tuple[str, ...]:
@@ -89,7 +91,8 @@ class MeridianBalance(AbstractArrowSystem):
         return ArrowPoint(jnp.zeros((2, self.places.azimuth.shape[0])), jnp.zeros(len(self.free)))
 
     def element(self, unknowns, shared):
-        """See `AbstractArrowSystem`; the ring's forces come apart ball by ball, as every ball has a ring of its own."""
+        """See `AbstractArrowSystem`. Each ball gets its own copy of the ring, so that the forces on the ring are
+        obtained for each ball separately."""
         dynamics, count = self.dynamics, unknowns.shape[1]
         own = self.moved(unknowns, shared)
         meridian = dynamics.levers.meridian(own)
@@ -102,7 +105,7 @@ class MeridianBalance(AbstractArrowSystem):
         (pulled,) = transpose((-pressed.load, on))
         balance = pulled.centre + jnp.stack([jnp.zeros(count), self.outward])
         levers = tilt_levers(dynamics.ring.lever)[:, None]
-        # as a stiff spring resists: each balance grows with its own unknown
+        # the signs are those of spring forces: each balance grows with its own unknown
         return -balance / self.ball_scale, -(pulled.ring / levers)[self.free], jnp.zeros(())
 
     def global_residual(self, globals_, totals):
@@ -110,7 +113,7 @@ class MeridianBalance(AbstractArrowSystem):
         return (totals - load) / self.ring_scale, jnp.zeros(())
 
     def moved(self, unknowns: Float[Array, "2 ball"], shared: Float[Array, "freedom ball"]) -> Places:
-        """The places for given unknowns, the ring's displacements for each ball."""
+        """The positions for given unknowns, with a copy of the displacements of the ring for each ball."""
         dynamics, count = self.dynamics, unknowns.shape[1]
         offset, outward = PLACE * unknowns
         lengths = jnp.zeros((5, count)).at[self.free].set(PLACE * shared)
@@ -123,8 +126,9 @@ class QuasiStaticBallDynamics(AbstractDynamics):
     """Equations of motion of balls on the pitch circle and of the cage; see the module.
 
     **Arguments:**
-    - `full`: the laws and parts, with `on_pitch_circle`, without contact damping and without a mass of the ring.
-    - `guess`: of the unknowns of the balance, where nothing is known about a state.
+    - `reference_speed`: speed of the frame in which positions are counted, at the operating point, rad/s.
+    - `full`: the full equations, with `on_pitch_circle`, without contact damping and without a mass of the ring.
+    - `guess`: first guess of the unknowns of the balances if no better one is given.
     """
 
     works: ClassVar[tuple[str, ...]] = WORKS
@@ -136,12 +140,12 @@ class QuasiStaticBallDynamics(AbstractDynamics):
     # -- state ----------------------------------------------------------------------------------------------------
 
     def of_whole(self, state: ArrowPoint) -> ArrowPoint:
-        """The part of a state of the full equations that is a state here."""
+        """The components of a state of the full equations that are states here."""
         balls, shared = state.elements[:OWN], state.globals
         return ArrowPoint(balls, jnp.concatenate([shared[:CAGE], shared[-len(WORKS) :]]))
 
     def whole(self, state: ArrowPoint, solved: ArrowPoint) -> ArrowPoint:
-        """The state of the full equations, at rest in the plane of the grooves, with what was solved for."""
+        """The state of the full equations: the state here, the positions `solved` for, and speeds of 0 for them."""
         places, count = solved.elements, state.elements.shape[1]
         ring = jnp.zeros(5).at[np.flatnonzero(self.full.ring.free)].set(solved.globals)
         balls = jnp.concatenate([state.elements, places, jnp.zeros((2, count))])
@@ -155,7 +159,7 @@ class QuasiStaticBallDynamics(AbstractDynamics):
     def solved(
         self, time: Scalar, state: ArrowPoint, guess: ArrowPoint | None = None, tolerance: Scalar = FINE
     ) -> tuple[ArrowPoint, Float[Array, ""]]:
-        """Places and ring in balance, and the scaled residual over its limit."""
+        """Solution of the balances (positions of balls and ring), and its scaled residual over the tolerance."""
         limit = LOAD_TOLERANCE * jnp.sqrt(tolerance)
         found = plain_newton(
             self.balance(time, state), self.guess if guess is None else guess, tolerance=limit, max_steps=STEPS
@@ -165,7 +169,7 @@ class QuasiStaticBallDynamics(AbstractDynamics):
     # -- rates ----------------------------------------------------------------------------------------------------
 
     def rates(self, time: Scalar, state: ArrowPoint) -> ArrowPoint:
-        """d state / d time, 1/s; NaN where no balance is found."""
+        """Derivatives of the state by time, 1/s; NaN if no solution of the balances is found."""
         return self.nested_rates(time, state, self.guess, FINE)[0]
 
     def nested_rates(
@@ -192,9 +196,10 @@ class QuasiStaticBallDynamics(AbstractDynamics):
 
 
 def quasi_static_dynamics(full: BallDynamics, state: ArrowPoint) -> tuple[QuasiStaticBallDynamics, ArrowPoint]:
-    """The equations without inertia in the plane of the grooves, and their state, from full ones and their state.
+    """The quasi-static equations and their state, from the full equations and their state.
 
-    **Arguments:** `state`: places and ring in it are the guess from which the search for a balance begins.
+    **Arguments:** `full`: the full equations; `state`: their state, whose positions of balls and ring are the first
+    guess for the balances.
     """
     ring = dataclasses.replace(full.ring, body=None)
     parts = dataclasses.replace(full, ring=ring, contact_damping=jnp.zeros(()), on_pitch_circle=True)

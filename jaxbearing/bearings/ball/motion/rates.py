@@ -1,19 +1,21 @@
-r"""The moving ball bearing: rate of change of balls, cage and inner ring.
+r"""Equations of motion of a ball bearing: rates of the states of balls, cage and inner ring.
 
-Every ball is free in the plane of its groove: orbit, three components of its spin, place along the axis and outward.
+Every ball has six degrees of freedom: the orbit, three components of its spin, and the axial and the outward position.
 Forces follow by transposition of the interaction speeds (`speeds`). With the generalised forces G on a ball,
 
 $$m(r\ddot\psi + 2\dot r\dot\psi) = (G_\psi + G_{wx})/r,\quad \dot w_x = \ddot\psi + G_{wx}/J,\quad
 \dot w_r = G_{wr}/J + \dot\psi w_t,\quad \dot w_t = G_{wt}/J - \dot\psi w_r,$$
 $$m\ddot x = G_x,\qquad m\ddot r = G_r + mr\dot\psi^2 + F_0.$$
 
-The gyroscopic terms are Euler's equations: they do no work. The normal load is that of the elastic contact times
-$\max(1 + \chi\dot\delta, 0)$. The displaced inner groove also pushes the balls along the orbit, as it is a part of the
-same list of speeds. Drag acts at the pitch circle. Ring and cage tilt little and turn fast (`bodies`).
+The gyroscopic terms are those of Euler's equations; they do no work. The normal load is that of the elastic contact
+times $\max(1 + \chi\dot\delta, 0)$. The displaced inner groove also pushes the balls along the orbit, because its
+motion enters the interaction speeds. Drag acts at the pitch circle. Ring and cage have small tilts and turn fast
+(`bodies`).
 
-The frame of positions turns at $w = w_{ref}\,\omega_i(t)/\omega_i$: $q = R(\psi - \psi^0 - \int w)$, $v = R(\dot\psi -
-w)$; $u = r_bw$. All are in units (`layout`) with which one tolerance serves for all. `energy` has the balance of
-energy that follows from these equations.
+Positions along the orbit are counted in a frame that turns at $w = w_{ref}\,\omega_i(t)/\omega_i$:
+$q = R(\psi - \psi^0 - \int w)$, $v = R(\dot\psi - w)$. The states of the spin are the surface speeds $u = r_bw$ with
+the components w of the spin. The units of the states are such that one tolerance suits all (`layout`). The energy
+balance that follows from these equations is in `energy`.
 """
 
 from typing import ClassVar, NamedTuple
@@ -43,7 +45,7 @@ from .races import AbstractRaceLaw, Pressed, RaceFriction
 from .speeds import Levers, Meridian, PocketPlace, PocketSpeeds, Speeds
 
 WORK_PART = 0.1
-"""Unit of the works that are integrated beside the state, over the balls' kinetic energy at the operating point."""
+"""Unit of the works that are integrated with the state, over the kinetic energy of the balls at the operating point."""
 LEAST_WORK = 1e-9
 """Lower limit of the unit of the works, J."""
 SHARED = 22
@@ -51,12 +53,12 @@ SHARED = 22
 
 
 class MovingBalls(NamedTuple):
-    """Places, speeds and forces at one instant.
+    """Positions, speeds and forces at one instant. Fields that are not listed are described by their classes.
 
-    - `load`: normal loads with contact damping, N; `pressed.load` without.
-    - `forces`: on the side of the balls, conjugate to `speeds`; `generalised`: conjugate to `rates`.
-    - `met`: film between each ball and the next one; `None` with a cage.
-    - The other fields have classes that say what they hold; `walls` and `lands` are `None` without a cage.
+    - `load`: normal loads with contact damping, N; `pressed.load` is without damping.
+    - `friction`: friction on the races; `pocket`, `walls`, `lands`: `None` without a cage.
+    - `forces`: interaction forces, conjugate to `speeds`; `generalised`: generalised forces, conjugate to `rates`.
+    - `met`: contact between each ball and the next one; `None` with a cage.
     """
 
     places: Places
@@ -75,21 +77,22 @@ class MovingBalls(NamedTuple):
 
 
 class BallDynamics(AbstractDynamics):
-    """Equations of motion of balls, cage and inner ring; a part that is `None` is not modelled.
+    """Equations of motion of balls, cage and inner ring; parts that are `None` are not modelled.
 
     **Arguments:**
-    - `kinematics`: sizes and speeds of the rings at the operating point.
-    - `levers`: lengths that speeds depend on; `azimuth`: of each ball in the frame at time 0, rad.
-    - `mass`, kg, and `inertia`, kg m^2, of a ball.
-    - `races`: law of the raceway contacts; `contact_damping`: chi, s/m.
-    - `free_offset`: axial place of a free ball from the plane of the outer groove's centres, m, and `free_radius`: its
-      distance outward from the circle of these centres, m.
-    - `ring`, `cage`: the bodies; `neighbours`: contacts of balls with each other.
-    - `drag`: on the orbiting balls, in oil of the viscosity `drag_viscosity`, Pa s.
+    - `kinematics`: diameters, and speeds of the rings at the operating point.
+    - `levers`: lengths that speeds depend on; `azimuth`: azimuth of each ball in the frame at time 0, rad.
+    - `mass`: mass of a ball, kg; `inertia`: moment of inertia of a ball, kg m^2.
+    - `races`: law of the raceway contacts; `contact_damping`: contact damping chi, s/m.
+    - `free_offset`: axial distance of a free ball from the plane of the outer groove centres, m; `free_radius`: outward
+      distance of a free ball from the circle of these centres, m.
+    - `ring`, `cage`: the bodies; `neighbours`: ball-to-ball contacts.
+    - `drag`: drag on the orbiting balls; `drag_viscosity`: viscosity of the oil for the drag, Pa s.
     - `reference_speed`: speed of the frame in which positions are counted, at the operating point, rad/s.
-    - `speed`, `load`: speed of the inner ring, and all loads on it, over those of the operating point.
-    - `rotating_load`: a further, turning load.
-    - `on_pitch_circle`: whether the distance of a ball from the axis counts as the pitch radius (`quasi_static`).
+    - `speed`, `load`: time laws of the speed of the inner ring and of all loads on it, over those of the operating
+      point.
+    - `rotating_load`: an additional rotating load.
+    - `on_pitch_circle`: whether the pitch radius replaces the distance of a ball from the axis (`quasi_static`).
     """
 
     works: ClassVar[tuple[str, ...]] = WORKS
@@ -117,7 +120,7 @@ class BallDynamics(AbstractDynamics):
     # -- operating point ------------------------------------------------------------------------------------------
 
     def frame(self, time: Scalar) -> tuple[Float[Array, ""], Float[Array, ""], Float[Array, ""]]:
-        """Angle, rad, speed and acceleration of the frame in which positions are counted."""
+        """Angle, rad, speed, rad/s, and acceleration, rad/s^2, of the frame in which positions are counted."""
         return turning_frame(self.reference_speed, self.speed, time)
 
     def race_speeds(self, time: Scalar) -> Float[Array, "2"]:
@@ -133,12 +136,12 @@ class BallDynamics(AbstractDynamics):
 
     @property
     def arcs(self) -> Arcs:
-        """Rings of moving balls have one groove arc each."""
+        """Groove arcs of the rings; in transient runs each ring has one arc."""
         return Arcs()
 
     @property
     def work_unit(self) -> Float[Array, ""]:
-        """Unit of the works, J, see `WORK_PART`."""
+        """Unit of the works, J (see `WORK_PART`)."""
         motion, speed = self.kinematics, self.reference_speed
         orbit = self.mass * jnp.square(self.levers.pitch_radius * speed)
         spin = self.inertia * jnp.square(speed / motion.ratio)
@@ -147,19 +150,19 @@ class BallDynamics(AbstractDynamics):
     # -- state ----------------------------------------------------------------------------------------------------
 
     def scaled(self, balls: Float[Array, "9 ball"], shared: Float[Array, "22"]) -> ArrowPoint:
-        """State, with works of 0, from the components of `BALL_STATE` and of `GLOBAL_STATE`, SI."""
+        """Scaled state from the components of `BALL_STATE` and `GLOBAL_STATE` in SI units; the works are 0."""
         works = jnp.zeros(len(WORKS))
         return ArrowPoint(
             balls / jnp.asarray(BALL_UNITS)[:, None], jnp.concatenate([shared / jnp.asarray(GLOBAL_UNITS), works])
         )
 
     def unscaled(self, state: ArrowPoint) -> tuple[Float[Array, "9 ball"], Float[Array, "22"], Float[Array, " work"]]:
-        """Components of `BALL_STATE` and of `GLOBAL_STATE`, SI, and works, J."""
+        """Components of `BALL_STATE` and `GLOBAL_STATE` in SI units, and works, J, from the scaled state."""
         shared, works = state.globals[:SHARED] * jnp.asarray(GLOBAL_UNITS), state.globals[SHARED:] * self.work_unit
         return state.elements * jnp.asarray(BALL_UNITS)[:, None], shared, works
 
     def moving(self, time: Scalar, state: ArrowPoint) -> tuple[Places, Rates]:
-        """Places and speeds of all bodies."""
+        """Positions and speeds of all bodies."""
         balls, shared, _ = self.unscaled(state)
         turned, turning, _ = self.frame(time)
         pitch, ball = self.levers.pitch_radius, self.levers.ball_radius
@@ -186,7 +189,7 @@ class BallDynamics(AbstractDynamics):
         return places, rates
 
     def at(self, time: Scalar, state: ArrowPoint) -> MovingBalls:
-        """Speeds, loads and forces of one state."""
+        """Positions, speeds, loads and forces in a given state."""
         places, rates = self.moving(time, state)
         meridian = self.levers.meridian(places)
         speeds, transpose = jax.vjp(lambda given: self.levers.speeds(places, meridian, given), rates)
@@ -232,7 +235,7 @@ class BallDynamics(AbstractDynamics):
         )
 
     def at_cage(self, time: Scalar, state: ArrowPoint) -> tuple[PocketPlace, BallPocketFace, Lands]:
-        """The part of `at` that pockets and lands of the cage need."""
+        """The part of `at` that belongs to the cage: offsets of the balls in their pockets, pocket walls and lands."""
         assert self.cage is not None
         places, rates = self.moving(time, state)
         pocket = self.levers.pocket_place(places)
@@ -241,7 +244,7 @@ class BallDynamics(AbstractDynamics):
         return pocket, walls, lands
 
     def centrifugal(self, orbital_speed: Array) -> Array:
-        """N, of balls on the pitch circle."""
+        """Centrifugal force of balls on the pitch circle, N."""
         return self.mass * self.levers.pitch_radius * jnp.square(orbital_speed)
 
     def couple(self, motion: BallMotion) -> Array:
@@ -249,7 +252,7 @@ class BallDynamics(AbstractDynamics):
         return self.inertia * motion.orbital_speed * motion.radial_spin
 
     def drag_force(self, speed: Array) -> Array:
-        """On the orbiting balls, N, of the sign of their speed, m/s."""
+        """Drag on the orbiting balls, N, with the sign of their speed, m/s."""
         if self.drag is None or self.drag_viscosity is None:
             return jnp.zeros_like(speed)
         return self.drag.force(speed, self.drag_viscosity)
@@ -257,7 +260,7 @@ class BallDynamics(AbstractDynamics):
     # -- rates ----------------------------------------------------------------------------------------------------
 
     def rates(self, time: Scalar, state: ArrowPoint) -> ArrowPoint:
-        """d state / d time, 1/s."""
+        """Derivatives of the scaled state by time, 1/s."""
         now = self.at(time, state)
         balls, shared, _ = self.unscaled(state)
         pitch, frame = self.levers.pitch_radius, self.levers.pitch_radius * self.frame(time)[2]
@@ -294,7 +297,7 @@ class BallDynamics(AbstractDynamics):
         return turning, spin, pulled.centre / self.mass + jnp.stack([zero, centrifugal])
 
     def _cage_rates(self, now: MovingBalls, shared: Float[Array, "22"], frame: Array) -> tuple[Array, Array]:
-        """Rates of the cage's places and of their rates; without a cage its state stands still."""
+        """Speeds and accelerations of the components of `CAGE_STATE`; 0 without a cage."""
         if self.cage is None:
             return jnp.zeros(6), jnp.zeros(6)
         pitch = self.levers.pitch_radius

@@ -1,4 +1,4 @@
-"""Results of a transient run that only the ball bearing has, labelled (see `motion.history`)."""
+"""Results of transient runs that only the ball bearing has, with their labels (see `motion.history`)."""
 
 from typing import ClassVar
 
@@ -14,7 +14,7 @@ from .layout import BALL_STATE, GLOBAL_STATE
 
 
 class LooseBallPowerLoss(BallPowerLoss):
-    """Dissipated power by location, W, of balls that no cage keeps apart."""
+    """Dissipated power by location, W, of a ball bearing without a cage."""
 
     between_balls: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "balls sliding on each other"))
 
@@ -95,8 +95,9 @@ class BallInstant(Instant):
 
 
 class BallEnergy(Energy):
-    """Works and energies over the run, J (see `energy`). `drive` + `load_on_ring` = `kinetic` + `dissipation` +
-    `damping` + `pocket_films` + `raceways`, up to `error`."""
+    """Works and changes of energies over the run, J (see `energy`). The balance is `drive` + `load_on_ring` =
+    `kinetic` + `dissipation` + `damping` + `pocket_films` + `raceways`; `error` is the difference of its sides over
+    `drive`."""
 
     damping: Float[Array, ""] = eqx.field(
         metadata=label("J", "dissipated by the damping of the raceway contacts and of the ring")

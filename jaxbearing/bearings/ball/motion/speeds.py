@@ -1,27 +1,31 @@
-r"""Speeds of all interactions of a moving ball bearing, as linear functions of the generalised speeds.
+r"""Interaction speeds of a moving ball bearing, as linear functions of its generalised speeds.
 
-Each speed $s = G(\text{place})\,\dot q$ is written once. An interaction law gives the force f(s), and the generalised
-forces are $G^Tf$, by transposition. The power of every interaction is then $f\cdot s$, and the energy balance is exact.
+Each interaction speed $s = G(\text{position})\,\dot q$ is defined once. An interaction law gives the force f(s), and
+transposition gives the generalised forces $G^Tf$. The power of every interaction is then $f\cdot s$, and the energy
+balance is exact.
 
-Frames and signs are those of `kinematics`; spin relative to the orbiting frame $-w_xe_x + w_re_r + w_te_t$. A tilt
-$t_1$ of ring or cage moves azimuth 0 along $+e_x$, $t_2$ azimuth 90 degrees: the rotation vector is
+Frames and signs are those of `kinematics`. The spin relative to the orbiting frame is $-w_xe_x + w_re_r + w_te_t$. A
+tilt $t_1$ of ring or cage moves azimuth 0 along $+e_x$, a tilt $t_2$ azimuth 90 degrees; the rotation vector is
 $t_2e_y - t_1e_z$.
 
-Races (ball and race at contact angle $\alpha$; $r$ distance of the ball from the axis, $r_b$ its radius, $g_i$ the
-speed of the inner groove centre, $\tau = \dot t_2\cos\psi - \dot t_1\sin\psi$ the rotation of the ring about $e_r$):
+Races. A ball with the distance $r$ from the axis and the radius $r_b$ touches a race at the contact angle $\alpha$. The
+inner groove centre has the speed $g$, and $\tau = \dot t_2\cos\psi - \dot t_1\sin\psi$ is the rotation rate of the ring
+about $e_r$. The interaction speeds are
 
-- along the orbit $u_{to} = (\dot\psi - \omega_o)(r + r_b\cos\alpha_o) - r_b(w_x\cos\alpha_o + w_r\sin\alpha_o)$,
+- sliding along the orbit:
+  $u_{to} = (\dot\psi - \omega_o)(r + r_b\cos\alpha_o) - r_b(w_x\cos\alpha_o + w_r\sin\alpha_o)$,
   $u_{ti} = r_b(w_x\cos\alpha_i + w_r\sin\alpha_i) - (\omega_i - \dot\psi)(r - r_b\cos\alpha_i) - g_t
   - f_iD\sin\alpha_i\,\tau$;
-- across $u_{bo} = -r_bw_t + \dot x\cos\alpha_o - \dot r\sin\alpha_o$,
+- sliding across rolling: $u_{bo} = -r_bw_t + \dot x\cos\alpha_o - \dot r\sin\alpha_o$,
   $u_{bi} = -r_bw_t - (\dot x - g_x)\cos\alpha_i + (\dot r - g_r)\sin\alpha_i
   - f_iD(\dot t_1\cos\psi + \dot t_2\sin\psi)$;
-- spin $(\dot\psi - \omega_o)\sin\alpha_o - (w_x\sin\alpha_o - w_r\cos\alpha_o)$ and
+- spin: $(\dot\psi - \omega_o)\sin\alpha_o - (w_x\sin\alpha_o - w_r\cos\alpha_o)$ and
   $(\omega_i - \dot\psi)\sin\alpha_i + (w_x\sin\alpha_i - w_r\cos\alpha_i) + \tau\cos\alpha_i$.
 
-Pockets. The offset of a ball from the axis of its pocket at $\psi_c$ is
-$s_t = R(\psi - \psi_c) + Y\sin\psi_c - Z\cos\psi_c$ and $s_x = x - X - R(t_1\cos\psi_c + t_2\sin\psi_c)$. With
-$\psi_c$ and not $\psi$ the moment of its force about the centre of the cage comes out.
+Pockets. The offset of a ball from the axis of its pocket at the azimuth $\psi_c$ has the components
+$s_t = R(\psi - \psi_c) + Y\sin\psi_c - Z\cos\psi_c$ along the orbit and
+$s_x = x - X - R(t_1\cos\psi_c + t_2\sin\psi_c)$ along the axis. The azimuth is $\psi_c$ and not $\psi$, so that the
+force has the right moment about the centre of the cage.
 """
 
 from typing import NamedTuple
@@ -38,12 +42,12 @@ from .layout import Places, Rates
 from .neighbours import NeighbourSpeeds, neighbour_place, neighbour_speeds
 
 OFFSET_FLOOR = 1e-9
-"""Length of the offset of a ball in the middle of its pocket, m, where no direction is defined."""
+"""Floor of the offset of a ball from the axis of its pocket, m: at 0 its direction is undefined."""
 
 
 class Meridian(NamedTuple):
-    """Contacts of every ball in its half-plane, the inner race first: sine and cosine of the contact angles, distance
-    of the centres of ball and groove, m, and the derivative of the inner distance over the azimuth, m."""
+    """Contacts of every ball in its half-plane, inner race first: sine and cosine of the contact angles, distances
+    between ball and groove centres, m, and `wedge`, the derivative of the inner distance by the azimuth, m/rad."""
 
     sine: Float[Array, "2 ball"]
     cosine: Float[Array, "2 ball"]
@@ -52,35 +56,36 @@ class Meridian(NamedTuple):
 
 
 class PocketPlace(NamedTuple):
-    """Offset of every ball from its pocket's axis: its size, m, and direction (along the orbit, axial); and the parts
-    of the offset along the orbit, m."""
+    """Offset of every ball from the axis of its pocket: magnitude, m, and direction (along the orbit, axial)."""
 
     size: Float[Array, " ball"]
     direction: Float[Array, "2 ball"]
 
 
 class PocketSpeeds(NamedTuple):
-    """`opening`: rate of the offset's size, m/s; `surface`: of the ball over the wall ahead of the offset and the
-    opposite one, (outward, around), m/s."""
+    """Relative motion of every ball and its pocket.
+
+    `opening`: rate of the magnitude of the offset, m/s; `surface`: sliding speeds of the ball (outward, around) on the
+    wall towards which it is offset and on the opposite wall, m/s."""
 
     opening: Float[Array, " ball"]
     surface: Float[Array, "wall 2 ball"]
 
 
 class LandSpeeds(NamedTuple):
-    """`offset`: rate of the journal's offset from the bush in each land, m/s; `turning`: speeds of journal and bush,
-    rad/s."""
+    """Relative motion in the cage lands. `offset`: rate of the offset of the journal from the bush in each land, m/s;
+    `turning`: speeds of journal and bush, rad/s."""
 
     offset: Float[Array, "2 land"]
     turning: Float[Array, "2"]
 
 
 class Speeds(NamedTuple):
-    """Speeds of all interactions; arrays over (race, ball) where both races.
+    """All interaction speeds; arrays over both races have the shape (race, ball).
 
-    - `apart`: rates of the distances of the centres, m/s: positive in compression.
+    - `apart`: rates of the distances between ball and groove centres, m/s, positive in compression.
     - `races`: relative motion on the races; `drag`: orbital speed, m/s.
-    - `pocket`, `lands`: `None` without a cage; `neighbours`: `None` where balls do not meet.
+    - `pocket`, `lands`: `None` without a cage; `neighbours`: `None` with a cage.
     """
 
     apart: Float[Array, "2 ball"]
@@ -92,13 +97,13 @@ class Speeds(NamedTuple):
 
 
 class Levers(eqx.Module):
-    """Lengths of the bearing that speeds depend on.
+    """Lengths of the bearing on which the interaction speeds depend.
 
     **Arguments:**
-    - `grooves`: of the races; `ball_radius`, `pitch_radius`: m.
-    - `land_places`: axial places of the cage's lands, m; `None` without a cage.
-    - `on_outer`: True if the outer ring guides the cage, whose lands are the journals then.
-    - `balls_meet`: True if nothing keeps the balls apart.
+    - `grooves`: grooves of the races; `ball_radius`, `pitch_radius`: radii of the balls and of the pitch circle, m.
+    - `land_places`: axial positions of the cage lands, m; `None` without a cage.
+    - `on_outer`: True if the outer ring guides the cage; the lands of the cage are then the journals.
+    - `balls_meet`: True if there is no cage and neighbouring balls can touch.
     """
 
     grooves: Grooves
@@ -136,7 +141,8 @@ class Levers(eqx.Module):
         return self._across_lands(places.ring, places.cage)
 
     def _across_lands(self, ring: Array, cage: Array) -> Array:
-        """Difference of the displacements of journal and bush in the planes of the lands."""
+        """Displacement of the journal relative to the bush in the plane of each land, from the displacements of ring
+        and cage, m; likewise for their rates."""
         places = self.land_places
         assert places is not None
         at_lands = lambda body: body[1:3, None] - body[3:5, None] * places[None, :]
@@ -145,7 +151,7 @@ class Levers(eqx.Module):
     # -- speeds ---------------------------------------------------------------------------------------------------
 
     def speeds(self, places: Places, meridian: Meridian, rates: Rates) -> Speeds:
-        """Speeds of all interactions; linear in `rates`."""
+        """All interaction speeds; linear in `rates`."""
         apart, races = self.race_speeds(places, meridian, rates)
         return Speeds(
             apart=apart,
@@ -157,13 +163,14 @@ class Levers(eqx.Module):
         )
 
     def land_speeds(self, rates: Rates) -> LandSpeeds:
-        """Part of `speeds`."""
+        """The part `lands` of `speeds`."""
         cage, inner, outer = rates.cage[5], rates.races[0], rates.races[1]
         turning = jnp.stack([cage, outer] if self.on_outer else [inner, cage])
         return LandSpeeds(self._across_lands(rates.ring, rates.cage[:5]), turning)
 
     def race_speeds(self, places: Places, meridian: Meridian, rates: Rates) -> tuple[Array, RaceMotion]:
-        """The parts `apart` and `races` of `speeds`. Ring and its rates may have an axis of the balls behind."""
+        """The parts `apart` and `races` of `speeds`. The displacements of the ring and their rates may have a last axis
+        over the balls."""
         cosine, sine = cosine_and_sine(places.azimuth)
         (sin_i, sin_o), (cos_i, cos_o) = meridian.sine, meridian.cosine
         (w_x, w_r, w_t), (x, r) = rates.spin, rates.centre
@@ -203,7 +210,7 @@ class Levers(eqx.Module):
         return apart, RaceMotion(race, surface, rolling, transverse, spin, roll)
 
     def pocket_speeds(self, places: Places, rates: Rates) -> PocketSpeeds:
-        """Part of `speeds`."""
+        """The part `pocket` of `speeds`."""
         cosine, sine = cosine_and_sine(places.pockets)
         n_t, n_x = self.pocket_place(places).direction
         _, y, z, t1, t2 = places.cage
@@ -212,7 +219,7 @@ class Levers(eqx.Module):
         pitch, ball = self.pitch_radius, self.ball_radius
         along = pitch * (rates.orbit - cage) + v_y * sine - v_z * cosine + cage * (y * cosine + z * sine)
         axial = x - v_x - pitch * (v_1 * cosine + v_2 * sine + cage * (t2 * cosine - t1 * sine))
-        # spin relative to the cage: about the axis, the radius and the orbit
+        # spin relative to the cage: about the axis, the radius and the tangent of the orbit
         about_x = rates.orbit - w_x - cage
         about_r = w_r - (v_2 * cosine - v_1 * sine)
         about_t = w_t + (v_2 * sine + v_1 * cosine)
@@ -224,5 +231,6 @@ class Levers(eqx.Module):
 
 
 def about_radius(ring: Float[Array, "5"], cosine: Array, sine: Array) -> Array:
-    """Rotation of the tilting ring about the radius of each ball, rad/s. **Arguments:** `ring`: its rates."""
+    """Rotation rate of the tilting ring about the radius through each ball, rad/s. **Arguments:** `ring`: rates of the
+    displacements of the ring, m/s and rad/s."""
     return ring[4] * cosine - ring[3] * sine

@@ -1,4 +1,4 @@
-"""Equations of motion of a ball bearing from its scene, and the state that a run begins with."""
+"""Equations of motion of a ball bearing scene, and the initial state of a transient run."""
 
 import dataclasses
 from typing import NamedTuple
@@ -39,7 +39,7 @@ from .rates import BallDynamics
 from .speeds import Levers
 
 CONTACT_DAMPING = 0.05
-"""Contact damping where the settings give none, s/m."""
+"""Contact damping if the settings give none, s/m."""
 IMMOBILE = "contact.traction: nothing drives the balls of a bearing without traction on its raceways; simulate needs it"
 NO_NETWORK = (
     "thermal: a transient run of the balls has no thermal network (simulate runs the temperatures of such a scene); "
@@ -58,15 +58,16 @@ COUPLED = (
 
 
 class QuasiStatic(NamedTuple):
-    """Steady state as places and speeds; arrays over all balls.
+    """Steady state as positions and speeds; arrays are over all balls.
 
-    - `orbit`: speed of each ball, and `cage_orbit`: of the cage (without one the mean of the balls), rad/s.
-    - `spin`: axial, radial and transverse part of the spin of each ball, rad/s.
-    - `centre`: of each ball from the outer groove centre (axial, outward), m.
-    - `position`: distance of each ball along the pitch circle from its place at equal spacing, m.
-    - `cage`: centre of the cage across the axis, along azimuths 0 and 90 degrees, m.
+    - `orbit`: orbital speed of each ball, rad/s; `cage_orbit`: speed of the cage (without a cage, mean of the balls),
+      rad/s.
+    - `spin`: axial, radial and transverse component of the spin of each ball, rad/s.
+    - `centre`: centre of each ball from the outer groove centre (axial, outward), m.
+    - `position`: distance of each ball along the pitch circle from its position at equal spacing, m.
+    - `cage`: displacement of the centre of the cage along azimuths 0 and 90 degrees, m.
     - `ring`: displacements of the inner ring as lengths, m, in the order of `RING_FREEDOMS`.
-    - `status`, `residual`: how the solve ended.
+    - `status`, `residual`: status and residual of the solve.
     """
 
     orbit: Float[Array, " ball"]
@@ -81,8 +82,10 @@ class QuasiStatic(NamedTuple):
 
 
 def require_moving(scene: BallBearing) -> None:
-    """**Raises:** `ValueError` for a scene whose balls nothing drives, with a thermal network, or whose rings bend or
-    are not round."""
+    """Checks that a scene allows a transient run.
+
+    **Raises:** `ValueError` for a scene without traction on the raceways, with a thermal network, or with rings that
+    are flexible or not round."""
     if not scene.slips:
         raise ValueError(IMMOBILE)
     if scene.thermal is not None:
@@ -91,8 +94,10 @@ def require_moving(scene: BallBearing) -> None:
 
 
 def free_freedoms(scene: BallBearing, simulation: Simulation) -> tuple[bool, ...]:
-    """True for each freedom along which the ring moves. These are the unknown ones of the steady state. The lateral one
-    goes with the radial one, because moving balls are not symmetric about the load line."""
+    """For each degree of freedom, whether the ring moves along it in a transient run. It moves along the unknown
+    degrees of freedom of the steady state, along the lateral one if the radial one is unknown, because moving balls are
+    not symmetric about the load line, and along both under a rotating load, except where a displacement is prescribed.
+    """
     free = set(scene.unknown_freedoms)
     if simulation.rotating_load is not None:
         free |= {name for name in ("radial", "lateral") if scene.operation.held_at(name) is None}
@@ -102,33 +107,36 @@ def free_freedoms(scene: BallBearing, simulation: Simulation) -> tuple[bool, ...
 
 
 def require_mass(scene: BallBearing, simulation: Simulation) -> None:
-    """**Raises:** `ValueError` for a ring that moves by its inertia and has no mass."""
+    """Checks that a ring that moves with inertia has a mass. **Raises:** `ValueError` if it has none."""
     moves = any(free_freedoms(scene, simulation)) and simulation.meridian == "dynamic"
     if moves and simulation.ring_mass is None:
         raise ValueError(NO_MASS)
 
 
 def require_explicit(scene: BallBearing, simulation: Simulation) -> None:
-    """**Raises:** `ValueError` for balls that meet with a solver that takes each ball as coupled to the cage alone."""
+    """Checks that the solver allows ball-to-ball contacts.
+
+    **Raises:** `ValueError` for an implicit solver without a cage, because implicit solvers assume that the balls are
+    coupled through the cage and the ring only."""
     if scene.cage is None and simulation.solver in IMPLICIT:
         raise ValueError(COUPLED)
 
 
 def build_dynamics(scene: BallBearing, simulation: Simulation, reference_speed: Array) -> BallDynamics:
-    """Equations of motion, with everything prepared that does not depend on the state.
+    """Equations of motion, with all quantities prepared that do not depend on the state.
 
     **Arguments:** `reference_speed`: speed of the frame in which positions are counted, at the operating point, rad/s.
 
-    **Raises:** `ValueError` for a scene that nothing drives, and for a ring under loads without a mass.
+    **Raises:** `ValueError` for a scene that `require_moving` refuses, and for a ring under loads without a mass.
     """
     require_moving(scene)
     running, _, _ = running_scene(scene)
     assert isinstance(running, BallBearing)
-    # the motion obeys Euler's equations, whatever carries the gyroscopic couple in the steady bearing
+    # the motion obeys Euler's equations, whatever law carries the gyroscopic couple in the steady state
     resolved = dataclasses.replace(running, kinematics=BallAttitude("equilibrium", ResolvedCouple()))
     core = build_core(resolved, exact=False)
     zero = jnp.zeros_like(core.azimuth)
-    # its equations are not solved, so that it needs no place to start from
+    # its equations are not solved, so any first guess will do
     system = build_lubricated(resolved, core, BallGuess(zero, zero, zero, jnp.zeros(len(core.freedoms))))
     assert isinstance(system, LubricatedBallSystem)
     geometry, grooves = running.geometry, core.grooves
@@ -173,7 +181,7 @@ def _levers(scene: BallBearing, core: BallCore) -> Levers:
 
 
 def _neighbours(scene: BallBearing, system: LubricatedBallSystem) -> Neighbours:
-    """Balls that meet in oil at the temperature of the bearing's inlet."""
+    """Ball-to-ball contacts, in the oil of the pockets (at the inlet temperature if none is given for them)."""
     radius, balls = 0.5 * jnp.asarray(scene.geometry.ball_diameter), scene.materials.balls
     contact = PointContact(0.5 * radius, 0.5 * radius, reduced_modulus(balls, balls))
     viscosity = jnp.asarray(oil_of(system.inlet, system.elsewhere, "pocket").viscosity)
@@ -198,8 +206,8 @@ def _moving_cage(scene: BallBearing, system: LubricatedBallSystem) -> MovingCage
 
 
 def _moving_ring(scene: BallBearing, simulation: Simulation) -> MovingRing:
-    r"""The ring: a cylinder as large as the circle of its groove centres and as heavy as ring and shaft, $I_p =
-    \tfrac12mR_i^2$, $I_t = \tfrac12I_p$ and more for its length, which is left out."""
+    r"""The inner ring, as a cylinder with the mass of ring and shaft and the radius of the circle of groove centres:
+    $I_p = \tfrac12mR_i^2$, $I_t = \tfrac12I_p$. The increase of $I_t$ with the length of the cylinder is left out."""
     free, lever = free_freedoms(scene, simulation), jnp.asarray(scene.ring_lever)
     ring = inner_ring(scene, lever, tuple(name for name, moves in zip(RING_FREEDOMS, free, strict=True) if moves))
     levers, body = tilt_levers(lever), None
@@ -220,7 +228,7 @@ def _moving_ring(scene: BallBearing, simulation: Simulation) -> MovingRing:
 
 
 def quasi_static(scene: BallBearing, options: NewtonOptions | None = None) -> QuasiStatic:
-    """Steady state of the operating point, with the attitude of the scene; pure."""
+    """Steady state at the operating point, with the attitude law of the scene; pure."""
     scene, _, _ = running_scene(scene)
     count = scene.geometry.n_balls
     core, _ = build_core(scene, exact=False).started()
@@ -238,7 +246,7 @@ def quasi_static(scene: BallBearing, options: NewtonOptions | None = None) -> Qu
         if solved.multiplicity == 1:
             centre = _cage_centre(solved, result.point, found, moved, cage_orbit)
         azimuth = jnp.asarray(azimuths(scene.geometry, count))
-        # the place along the orbit of the pocket of a cage that is not in the middle
+        # displacement of the pockets along the orbit by the eccentricity of the cage
         aside = centre[0] * jnp.sin(azimuth) - centre[1] * jnp.cos(azimuth)
         position = 0.5 * solved.cage.pocket.clearance - every(found.pocket.film_front) - aside
     return QuasiStatic(
@@ -257,7 +265,7 @@ def quasi_static(scene: BallBearing, options: NewtonOptions | None = None) -> Qu
 def _cage_centre(
     solved: LubricatedBallSystem, point: ArrowPoint, found: BallsState, ring: Float[Array, "5"], orbit: Array
 ) -> Float[Array, "2"]:
-    """Centre of the cage whose lands carry the pull of the pockets, m."""
+    """Displacement of the centre of the cage at which its lands carry the sum of the pocket forces, m."""
     parts, motion, land = solved.cage, solved.kinematics, solved.land_at(point, found)
     assert parts is not None
     assert found.cage_force is not None
@@ -272,10 +280,12 @@ def _cage_centre(
 
 
 def begin(scene: BallBearing, simulation: Simulation, found: QuasiStatic) -> Start:
-    """Equations of motion, and the state in which the steady bearing of time 0 holds balls, cage and ring; pure.
+    """Equations of motion, and the initial state, in which balls, cage and ring are as in the steady state at time 0;
+    pure.
 
-    Its accelerations are 0 only where the scene resolves the gyroscopic couple, and but for what the steady bearing
-    neglects: walls of pockets that give way, spins relative to the cage, and forces of pockets along the axis.
+    The accelerations of this state are not exactly 0. They are if the scene resolves the gyroscopic couple, except for
+    the effects that the steady state neglects: elastic pocket walls, spin relative to the cage, and axial pocket
+    forces.
     """
     factor = simulation.speed.factor(jnp.zeros(()))
     dynamics = build_dynamics(scene, simulation, found.cage_orbit / factor)
@@ -294,16 +304,16 @@ def begin(scene: BallBearing, simulation: Simulation, found: QuasiStatic) -> Sta
 
 
 def _by(simulation: Simulation, dynamics: BallDynamics, state: ArrowPoint) -> tuple[AbstractDynamics, ArrowPoint]:
-    """The equations that the settings ask for, and their state."""
+    """The equations chosen by the settings (`meridian`), and their state."""
     if simulation.meridian == "quasi_static":
         return quasi_static_dynamics(dynamics, state)
     return dynamics, state
 
 
 def resume(scene: BallBearing, simulation: Simulation, last: LastState) -> Resumed:
-    """Equations of motion and state that an earlier run ended with; pure.
+    """Equations of motion, and the state in which an earlier run ended; pure.
 
-    Speeds and loads over time may differ from those of that run: positions and speeds in space stay as they were."""
+    The time laws of speeds and loads may differ from those of that run; positions and speeds in space are kept."""
     dynamics = build_dynamics(scene, simulation, jnp.asarray(last.reference_speed))
     turned, turning, _ = dynamics.frame(jnp.asarray(last.time))
     pitch = dynamics.levers.pitch_radius

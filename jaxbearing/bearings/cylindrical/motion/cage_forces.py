@@ -73,7 +73,7 @@ def pocket_state(
     ahead = (q_c - q) - (x * cosine + y * sine)
     rate = (v_c - v) - (v_x * cosine + v_y * sine) + (x * sine - y * cosine) * orbit
     half = 0.5 * clearance
-    # both walls in one search: half as many loops
+    # one search for both walls needs half as many loops
     found = face.face(jnp.stack([half + ahead, half - ahead]), jnp.stack([rate, -rate]), jnp.stack([u, u]), viscosity)
     front, rear = (jax.tree.map(lambda leaf, i=i: leaf[i], found) for i in (0, 1))
     return PocketState(front, rear, rate)

@@ -5,7 +5,7 @@ the cage is its centre X, Y, $q_c = R_m(\Psi_c - \int w)$ and the speeds $V_x, V
 at $w = w_{ref}\,\omega_i(t)/\omega_i$, in proportion to the shaft, so that positions stay small and are resolved. The
 units of the components (`ROLLER_UNITS`, `CAGE_UNITS`) let one tolerance serve for all of them. Loads and ring
 displacement are not part of the state; they follow from it (`loads.distributed_loads`). Frames and signs: see
-`cylindrical.scene`.
+`cylindrical.scene`. The equations of motion of a roller are
 
 $$m\dot v = Q_2 - Q_1 - F_{OL} + F_i - F_o + F_E + F_{Ec} + F_P,\qquad
 J(\dot v/R_m - \dot u/R_R) = R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} + \tfrac12R_R(P_i + P_o)$$

@@ -51,8 +51,7 @@ class QuasiStatic(NamedTuple):
 
 
 def require_moving(scene: CylindricalRollerBearing) -> None:
-    """Checks that a scene can run in time.
-
+    """Checks that rollers and cage of a scene can be simulated in motion.
     **Raises:** `ValueError` for a scene without traction on the raceways, with a thermal network or with flexible
     rings.
     """
@@ -71,8 +70,8 @@ def build_dynamics(
     **Arguments:** `reference_speed`: speed at the operating point of the frame in which positions are counted, rad/s;
     left out: orbital speed of rolling without slip.
 
-    **Raises:** `ValueError` for a scene that cannot run in time (`require_moving`) and for an operating point with
-    given displacements, an axial load or no radial load.
+    **Raises:** `ValueError` for a scene that cannot be simulated in motion (`require_moving`), and for an operating
+    point with given displacements, an axial load or no radial load; and for settings that only ball bearings have.
     """
     require_moving(scene)
     check_run(scene.operation)
