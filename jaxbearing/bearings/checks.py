@@ -33,7 +33,7 @@ extrapolated."""
 EDGE_LOADED = 1.5
 """Load per length at a roller end over the mean, above which a warning is given."""
 LARGEST_TILT = 10e-3
-"""Largest tilt without a warning, rad. The second-order displacement, which the linear equations neglect, is 5 um over
+"""Largest tilt without a warning, rad. The second-order displacement, which linear equations neglect, is 5 um over
 100 mm at this tilt."""
 ROUGH, HEAVY = 0.01, 0.5e9
 """Load share of asperities, and Hertz pressure, Pa; if both are exceeded, the load share is known only to a factor

@@ -96,8 +96,8 @@ class DragSettings(Checked):
     """Oil drag on the orbiting rolling elements (windage and churning).
 
     **Arguments:**
-    - `coefficient`: drag coefficient of one rolling element in its row, >= 0; if not given, that of an isolated element
-      at its Reynolds number.
+    - `coefficient`: drag coefficient of one rolling element in its row, by default that of an isolated element at its
+      Reynolds number, >= 0.
     - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1 = under-race supply.
     """
 

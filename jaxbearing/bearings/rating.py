@@ -48,7 +48,7 @@ class Rating(Checked):
     - `static_capacity`: basic static load rating C0, computed from the geometry if not given, N.
     - `fatigue_load_limit`: fatigue load limit C_u, computed from C0 if not given, N.
     - `grooves`: conformities with which C and C0 of a ball bearing are computed (structure): "catalogue", 0.52 for both
-      races as in catalogues, or "scene", those of the bearing. ISO 281 gives no higher rating to closer grooves; with
+      races as in catalogues, or "scene", those of the bearing. ISO 281 gives no higher rating to closer grooves. With
       "scene" a closer groove of the inner race alone adds 9 %.
     - `tilt`: motion of a tilted inner ring in a ball bearing (structure): "exact", or "iso", the equations of ISO
       16281, for comparison with software based on the standard. These are linear in the tilt, use half the pitch
@@ -61,13 +61,13 @@ class Rating(Checked):
       ratio the modified life (a_ISO) is computed.
     - `contamination_factor`: contamination factor e_C (eta_c in catalogues), instead of the class: 1 without particles,
       0.8 to 0.6 clean, 0.3 to 0.1 contaminated.
-    - `viscosity_ratio`: viscosity ratio kappa, > 0; if not given, it is computed from the oil, its temperature and the
-      speed, if the scene has them.
-    - `roughness_rings`: root mean square roughness of the raceways, m; together with `roughness_elements` and a film it
-      gives the lambda ratio.
+    - `viscosity_ratio`: viscosity ratio kappa, by default computed from the oil, its temperature and the speed if the
+      scene has them, > 0.
+    - `roughness_rings`: root mean square roughness of the raceways, m. With `roughness_elements` and a film it gives
+      the lambda ratio.
     - `roughness_elements`: root mean square roughness of the rolling elements, m.
-    - `n_laminae`: number of laminae of each roller in the reference life (structure); if not given, that of the
-      profile, or 30.
+    - `n_laminae`: number of laminae of each roller in the reference life, by default that of the profile or else 30
+      (structure).
     - `edge_factor`: whether loads of laminae near the ends count more, by the estimate of the standard for calculations
       without pressures. If not given: yes for straight rollers, no for rollers with a profile.
     """

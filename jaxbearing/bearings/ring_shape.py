@@ -88,8 +88,7 @@ class AbstractBendingRing(_Lists):
     **Arguments:**
     - `thickness`: radial height of the section, measured from the raceway, in ball bearings from the bottom of the
       groove, m, > 0.
-    - `width`: axial width of the section, m, > 0; if not given, the width of the bearing or else the length of a
-      roller.
+    - `width`: axial width of the section, by default the width of the bearing or else the length of a roller, m, > 0.
     - `harmonics`: highest order of the deflection, 0 for a rigid ring (structure: another number recompiles).
     - `shear`: whether shear strain of the section is modelled.
     """
@@ -126,7 +125,7 @@ class FlexibleRing(AbstractBendingRing):
     elements, as on a planet gear whose rim is the ring.
 
     **Arguments:** those of `AbstractBendingRing`, and
-    - `shear`: whether shear strain of the section is modelled; it changes the largest load by less than 0.4 %.
+    - `shear`: whether shear strain of the section is modelled, which changes the largest load by less than 0.4 %.
     - `housing_stiffness`: stiffness of a housing all around the ring, as radial force per length of circumference and
       deflection, N/m^2, > 0. If not given, nothing surrounds the ring. About 5e10 for a massive steel housing, 1e9 to
       1e10 for thin or light housings: the largest uncertainty of the model.

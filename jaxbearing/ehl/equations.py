@@ -27,14 +27,14 @@ class Fluid(eqx.Module):
     compressible: bool = eqx.field(static=True)
 
     def log_ratio(self, pressure: Float[Array, " node"]) -> Float[Array, " node"]:
-        """ln of the viscosity over that at ambient pressure; that of 0 where the pressure is negative."""
+        """Logarithm of viscosity over viscosity at ambient pressure; negative pressures count as 0."""
         pressure = self._pascal(pressure)
         ambient = self.viscosity.log_viscosity(0.0, self.temperature)
         ratio = self.viscosity.log_viscosity(pressure, self.temperature) - ambient
         return jnp.minimum(ratio, LARGEST_LOG_RATIO)
 
     def density_ratio(self, pressure: Float[Array, " node"]) -> Float[Array, " node"]:
-        """Density over that at ambient pressure; 1 where the pressure is negative."""
+        """Density over density at ambient pressure; 1 where the pressure is negative."""
         if not self.compressible:
             return jnp.ones_like(pressure)
         return dowson_higginson_ratio(self._pascal(pressure))
@@ -45,7 +45,7 @@ class Fluid(eqx.Module):
 
 
 class Equations(eqx.Module):
-    r"""Parameters of the equations of one solve besides mesh and unknowns, all dimensionless except those of the fluid.
+    r"""Parameters of Reynolds' equation in one solve, all dimensionless except those of the fluid.
 
     X = x/a, P = p/p_h, H = h R'/a^2, time t u_0/a; $\varepsilon = \bar\rho H^3 e^{-\ln(\eta/\eta_0)}/\lambda$,
     $m = \bar\rho H$, $\lambda = 12\eta_0 u_0 R'^2/(a^3 p_h)$, u_0 a fixed reference speed:
@@ -84,12 +84,12 @@ def mass(fluid: Fluid, pressure: Float[Array, " node"], film: Float[Array, " nod
 def face_fluxes(
     equations: Equations, pressure: Float[Array, " node"], film: Float[Array, " node"], mesh: Mesh
 ) -> Float[Array, " face"]:
-    r"""$\varepsilon\,\partial_X P - \bar u m^*$ at the n - 1 faces between nodes, against the flow.
+    r"""$\varepsilon\,\partial_X P - \bar u m^*$ at the n - 1 faces between nodes: the mass flow in -X.
 
-    The mean of the neighbours' $\varepsilon$; $m^*$ by upwind differences of second order,
+    $\varepsilon$ is the mean of both neighbours; $m^*$ follows from upwind differences of second order,
     $m_i + \frac{h_i}{2h_{i-1}}(m_i - m_{i-1})$ for flow in +X and mirrored for flow in -X, of first order at the first
-    face. (A central difference decouples odd from even nodes where $\varepsilon \to 0$.) Both flows vanish together at
-    $\bar u = 0$, so the switch does no harm there.
+    face. (A central difference decouples odd from even nodes where $\varepsilon \to 0$.) Both upwind terms
+    vanish at $\bar u = 0$, so the switch between them makes no jump.
     """
     fluid, step = equations.fluid, jnp.asarray(mesh.step)
     m = mass(fluid, pressure, film)
@@ -121,5 +121,5 @@ def steady_equations(fluid: Fluid, wedge: Scalar, speed: Scalar, nodes: int) -> 
 
 
 def held(equations: Equations) -> Equations:
-    """The same equations, held constant in differentiation."""
+    """The same equations, treated as constants in differentiation."""
     return jax.lax.stop_gradient(equations)

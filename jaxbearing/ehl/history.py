@@ -16,7 +16,7 @@ SOLVER = "bdf2"
 
 
 class FilmHistory(eqx.Module):
-    """Film over time. The minimum is the lowest value at a node: a parabola may undershoot 0 at the kink of a stop."""
+    """Film over time. The minimum is the lowest value at a node: a parabola may fall below 0 at the kink after a stop."""
 
     central: Float[Array, " time"] = eqx.field(metadata=label("m", "film at the centre"))
     minimum: Float[Array, " time"] = eqx.field(metadata=label("m", "smallest film"))
@@ -41,12 +41,12 @@ class ProfileHistory(eqx.Module):
 class LineContactHistory(AbstractHistory):
     """Result of a transient run: the steady start and every accepted step, also where the run ended early.
 
-    A run whose film falls below `contact.film_limit` has come to the end of what the model describes: it is completed,
-    and a warning says so. `last_state` is where it stands: `simulate(scene, ..., restart=history)` goes on from there.
+    A run ends where its film falls below `contact.film_limit`, the limit of the model: it counts as completed, with a
+    warning. `last_state` is its final state: `simulate(scene, ..., restart=history)` continues from there.
     """
 
     of: ClassVar[str] = "line contact"
-    """Kind of the scenes that have this state, for messages."""
+    """Kind of scene that has this result, for messages."""
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the run ended"))
     time: Float[Array, " time"] = eqx.field(metadata=label("s", "time"))

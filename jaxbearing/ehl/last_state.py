@@ -16,22 +16,22 @@ from .mesh import Mesh, MeshKey, mesh
 from .stepping import Motion
 
 ALIKE = 1e-6
-"""Largest relative difference of loads and films between a state and its scene."""
+"""Relative difference of load or film up to which a state fits its scene."""
 _SAME_PLACE = 1e-9
-"""Largest difference between nodes, half widths."""
+"""Distance up to which two nodes count as the same place, half widths."""
 
 
 class FilmState(eqx.Module):
-    """The state from which another run can go on: `LineContactHistory.last_state`, or that of a file.
+    """State from which another run can continue: `LineContactHistory.last_state`, or read from a file.
 
     **Arguments:** `x`: places of the nodes, m; values at the last three times, newest first: `pressure`, Pa, `offset`
     of the film, m, and `mass`, density over that at ambient pressure times film, m; `steps` between these times, s;
-    `known`: how many of them are there; `proposal`: the step to try next, s; `identity`: which contact it is (`None`:
+    `known`: number of these times that are known; `proposal`: the step to try next, s; `identity`: which contact it is (`None`:
     not known, as in files of earlier versions).
     """
 
     of: ClassVar[str] = "line contact"
-    """Kind of the scenes that have this state, for messages."""
+    """Kind of scene that has this state, for messages."""
 
     x: Float[Array | np.ndarray, " node"] = eqx.field(metadata=label("m", "place of the node along rolling"))
     time: Float[Array | np.ndarray, ""] = eqx.field(metadata=label("s", "time from which a run can go on"))
@@ -51,8 +51,8 @@ class FilmState(eqx.Module):
 
 
 MAY_CHANGE = ("operation", "oil", "simulation", "contact.film_limit")
-"""Parts of a scene that may be others than those of the run from whose end another one goes on; a state itself tells
-whether the load is the same."""
+"""Parts of a scene that may differ from those of the run that is continued; the load is compared with the state
+itself."""
 UNKNOWN = (
     "restart: the state does not say of which contact it is (an earlier version wrote it); only its mesh, its load and "
     "its film have been compared"
@@ -61,7 +61,7 @@ UNKNOWN = (
 
 
 def state_of(motion: Motion, scales: Scales, key: MeshKey, scene: EHLLineContact) -> FilmState:
-    """A motion in SI units."""
+    """The state, in SI units, of a dimensionless motion."""
     unit = scales.half_width / scales.reference_speed
     return FilmState(
         x=jnp.asarray(mesh(key).x) * scales.half_width,
@@ -77,7 +77,7 @@ def state_of(motion: Motion, scales: Scales, key: MeshKey, scene: EHLLineContact
 
 
 def motion_of(state: FilmState, scales: Scales) -> Motion:
-    """The motion from a state in SI units, also for another reference speed, which is the unit of time."""
+    """The dimensionless motion of a state in SI units; the reference speed, and so the unit of time, may differ."""
     unit = scales.half_width / scales.reference_speed
     return Motion(
         jnp.asarray(state.time) / unit,
@@ -116,7 +116,7 @@ def mesh_of_state(scene: EHLLineContact, state: FilmState, backwards: bool) -> M
 
 
 def _check_contact(scene: EHLLineContact, scales: Scales, motion: Motion, grid: Mesh) -> None:
-    """Load and film of the newest point."""
+    """Checks that the newest point has the load and the film of the scene."""
     point = Point(motion.points.pressure[0], motion.points.offset[0])
     carried = float(jnp.sum(jnp.asarray(grid.weight) * point.pressure[1:-1])) / (0.5 * np.pi)
     if abs(carried - 1.0) > ALIKE:

@@ -49,17 +49,17 @@ class ContactBodies(eqx.Module):
 
 
 class FilmModel(Checked):
-    """Parts that are modelled, and their resolution.
+    """Model of the film and its mesh.
 
     **Arguments:**
     - `compressible`: whether the density follows Dowson and Higginson; else it is constant.
-    - `nodes`: number of nodes of the mesh; error of the film about 0.9 % at 201 and M < 50, a quarter of that for each
-      doubling, and more under heavier loads (`resolution.mesh_error`).
+    - `nodes`: number of nodes of the mesh; the film's error is about 0.9 % at 201 nodes and M < 50, a quarter of that for
+      each doubling, and more under heavier loads (`resolution.mesh_error`).
     - `inlet`: length of the domain upstream of the centre, half widths; light loads need more than 4
       (`resolution.cut_error`); below 2 the contact is starved, with its meniscus there.
-    - `film_limit`: a transient run ends where the film is thinner, m: below about 0.5 nm a continuum means nothing.
-    - `accuracy`: relative error of the steady films that was asked for, > 0: where mesh or inlet leave more, a warning
-      says so. `None`: it warns from 5 % by the mesh, and from 0.5 % by the inlet.
+    - `film_limit`: film at which a transient run ends, m: below about 0.5 nm oil is no continuum.
+    - `accuracy`: requested relative error of the steady films, > 0: a warning is given where mesh or inlet cause more.
+      `None`: it is given above 5 % by the mesh, and above 0.5 % by the inlet.
     """
 
     part: ClassVar[str] = "contact"
@@ -76,8 +76,8 @@ class ContactOperation(Checked):
 
     **Arguments:**
     - `entrainment_speed`: (u1 + u2)/2, m/s, any sign: a negative one enters the contact from the other side.
-    - `oil_temperature`: of the contact, K, > 0.
-    - `load_per_length`: N/m, > 0, or `pressure`; one of the two.
+    - `oil_temperature`: temperature of the oil in the contact, K, > 0.
+    - `load_per_length`: load per length, N/m, > 0; give either this or `pressure`.
     - `pressure`: Hertz (peak) pressure, Pa, > 0.
     """
 
@@ -121,7 +121,7 @@ class EHLLineContact(AbstractScene):
     smooth; cavitation as P >= 0 with the Swift-Stieber condition (oil that cavitates is not conserved there).
 
     **Arguments:** `geometry`; `materials`; `oil`, whose law of viscosity counts; `contact`: model and mesh;
-    `operation`; `simulation`: what a transient run does.
+    `operation`; `simulation`: settings of a transient run.
     """
 
     kind: ClassVar[str] = "line_contact"
@@ -159,7 +159,7 @@ class EHLLineContact(AbstractScene):
 
     @property
     def load_per_length(self) -> Scalar:
-        """N/m."""
+        """Load per length, N/m, given or from the Hertz pressure."""
         operation = self.operation
         if operation.load_per_length is not None:
             return operation.load_per_length
@@ -194,7 +194,7 @@ class EHLLineContact(AbstractScene):
         return Fluid(self.oil.viscosity, temperature, scales.hertz_pressure, self.contact.compressible)
 
     def formulas(self, speed: Scalar | None = None) -> dict[str, Float[Array, ""]]:
-        """Film formulas beside the solution, m. **Arguments:** `speed`: m/s; the operation's where not given."""
+        """Film thicknesses by formulas, for comparison, m. **Arguments:** `speed`: m/s; the operation's where not given."""
         inlet = self.oil.at(self.operation.oil_temperature)
         speed = jnp.abs(jnp.asarray(self.operation.entrainment_speed if speed is None else speed, dtype=float))
         laws: dict[str, AbstractLineFilm] = {
@@ -213,17 +213,17 @@ class EHLLineContact(AbstractScene):
         return Steady(self.fluid(scales), scales.wedge, speed, guess, self.solvable(scales, speed))
 
     def film_ratio(self, scales: Scales, film: Any = None) -> Float[Array, ""]:
-        """M/H of Moes' numbers, by which the errors of mesh and inlet go (`resolution`). **Arguments:** `film`: Moes'
-        central one, m, where it is known."""
+        """Moes' M/H, on which the errors of mesh and inlet depend (`resolution`). **Arguments:** `film`: Moes'
+        central film, m, if it is known."""
         film = self.formulas()["moes_central"] if film is None else film
         return 0.125 * jnp.pi * scales.film / film
 
     def solvable(self, scales: Scales, speed: Scalar) -> Bool[Array, ""]:
-        """True if there is a film at this speed that this model describes."""
+        """True if there is a film at this speed and the model applies to it."""
         return existing(scales.wedge, speed) & self.described(scales)
 
     def described(self, scales: Scales) -> Bool[Array, ""]:
-        """True if the cylinders are soft enough for this model."""
+        """True if the cylinders deform enough for this elastic model."""
         return scales.moes_load >= SMALLEST_MOES_LOAD
 
     @property
@@ -236,7 +236,7 @@ class EHLLineContact(AbstractScene):
         return MeshKey(self.contact.nodes, self.contact.inlet, outlet, stop=True)
 
     def assumptions(self) -> tuple[str, ...]:
-        """Notes for the user: uses for which the scene's data were not made, and assumptions."""
+        """Notes for the user: assumptions, and limits of the oil's data."""
         # the notes of the oil on conductivity and rheology are about what is not used here
         notes = tuple(f"oil: {note}" for note in self.oil.viscosity.notes)
         if self.contact.compressible:

@@ -41,13 +41,13 @@ class Linearized(NamedTuple):
 
 @functools.lru_cache(maxsize=64)
 def _static(nodes: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Seeds of the colours, and for each offset of the band: the colour of the column, and whether there is one."""
+    """Seed vectors of the colours; for each band offset: colour of the column, 1 inside the mesh, 1 at an unknown."""
     columns = np.arange(nodes)
     seeds = (columns[None, :] % BAND == np.arange(BAND)[:, None]).astype(float)
     inner = np.arange(1, nodes - 1)
     column = inner[None, :] + np.arange(-REACH, REACH + 1)[:, None]
     inside = (column >= 0) & (column < nodes)
-    # the pressures at both ends are no unknowns
+    # the pressures at both ends are not unknown
     unknown = (column >= 1) & (column < nodes - 1)
     return seeds, column % BAND, inside.astype(float), unknown.astype(float)
 
@@ -104,7 +104,7 @@ def as_point(values: Float[Array, " row"]) -> Point:
 
 
 class Equilibrium(eqx.Module):
-    """Rows of the equations at a point with the set of cavitated nodes given: what an implicit derivative needs."""
+    """Rows of the equations at a point for a given set of cavitated nodes, as implicit differentiation needs them."""
 
     cavitated: Bool[Array, " inner"]
     scale: Float[Array, " inner"]

@@ -6,17 +6,17 @@ from typing import NamedTuple
 import numpy as np
 
 INLET = 4.0
-"""Half widths from the centre to the end of the inlet: costs 0.1 % of the central film of `satellite_contact_1`."""
+"""Length of the inlet from the centre, half widths; lowers the central film of `satellite_contact_1` by 0.1 %."""
 OUTLET = 1.5
-"""Half widths from the centre to the end of the outlet, steady running."""
+"""Length of the outlet from the centre in steady running, half widths."""
 STOP_OUTLET = 2.5
-"""The same for transient runs: the pressure of a stop becomes symmetric, and the outlet must not cut it."""
+"""The same for transient runs: after a stop the pressure becomes symmetric, and the outlet must not cut it off."""
 FINE = 2_000
-"""Intervals a half width in the cumulative integral of the node density."""
+"""Number of intervals per half width in the cumulative integral of the node density."""
 
 
 class Mesh(NamedTuple):
-    """Nodes X_1 < ... < X_n (in half widths) and what is constant on them. Hashable by `key`: see `mesh`."""
+    """Nodes X_1 < ... < X_n (in half widths) and the constants that follow from them. Built by `mesh` from a hashable key."""
 
     x: np.ndarray
     """Nodes, shape (n,)."""
@@ -55,7 +55,7 @@ def mesh(key: MeshKey) -> Mesh:
 
 
 def mesh_of(x: np.ndarray) -> Mesh:
-    """The mesh of any increasing nodes, four or more."""
+    """The mesh on the given nodes, at least four, in increasing order."""
     step = np.diff(x)
     return Mesh(x, step, 0.5 * (x[2:] - x[:-2]), -hat_kernel(x) / np.pi, 0.5 * (step[1:] + step[:-1]))
 
@@ -65,8 +65,8 @@ def graded_nodes(key: MeshKey) -> np.ndarray:
 
     $w(X) = \frac{1 + 6e^{-((X - X_l)/s)^2} + 6e^{-((X - 1)/s)^2}}{1 + \max(-1.2 - X, 0)}$,
 
-    $X_l = -1.05$, s = 0.15 for steady running; $X_l = -1$, s = 0.2 for stops, where the divisor is mirrored so that a
-    long outlet (a reversal's inlet) is coarsened as the inlet is.
+    $X_l = -1.05$, s = 0.15 for steady running; $X_l = -1$, s = 0.2 for transient runs. The divisor is mirrored where
+    the outlet is long (the inlet after a reversal), so that it is coarsened like the inlet.
     """
     left, width = (-1.0, 0.2) if key.stop else (-1.05, 0.15)
     fine = np.linspace(-key.inlet, key.outlet, int(FINE * (key.inlet + key.outlet)) + 1)

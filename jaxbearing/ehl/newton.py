@@ -1,4 +1,4 @@
-"""Semismooth Newton of a line contact: one active set a step, limited steps, a status, never an exception."""
+"""Semismooth Newton's method for a line contact: a new active set in each step, limited steps, a status and no exception."""
 
 from typing import NamedTuple
 
@@ -22,8 +22,8 @@ ROUNDING = 1e-14
 
 
 class Root(NamedTuple):
-    """End of the iteration; of a lane that failed, the last finite point. `step`: largest change of an unknown in
-    the last step; `residual`: largest row before it."""
+    """Result of the iteration; after a failure, the last finite point. `step`: largest change of an unknown in
+    the last step; `residual`: largest row before that step."""
 
     point: Point
     status: Int[Array, ""]
@@ -31,7 +31,7 @@ class Root(NamedTuple):
     step: Float[Array, ""]
     residual: Float[Array, ""]
     cavitated: Bool[Array, " inner"]
-    """Nodes, in the last step."""
+    """Nodes that cavitate, in the last step."""
 
     @property
     def converged(self) -> Bool[Array, ""]:
@@ -44,7 +44,7 @@ def newton(
     """Newton steps until the largest change of an unknown by a full step is below `tolerance` and the set of cavitated
     nodes is that of the step before.
 
-    `guess`: the film must be > 0 everywhere; `wanted`: nothing is done, and nothing converges, where it is not.
+    `guess`: its film must be > 0 everywhere; `wanted`: where False, no step is made and the status is not converged.
     """
 
     def go_on(root: Root) -> Bool[Array, ""]:
@@ -65,7 +65,7 @@ def newton(
         empty = jnp.concatenate([jnp.ones(1, bool), found.cavitated, jnp.ones(1, bool)]) & usable & (fraction >= 1.0)
         point = Point(jnp.where(empty, 0.0, point.pressure), point.offset)
         iterations = root.iterations + 1
-        # pressures at the rim of the film are below any tolerance: there, the set itself must have come to rest
+        # pressures at the edge of the film are below any tolerance: there the set itself must no longer change
         resting = jnp.all(found.cavitated == root.cavitated) | (change <= ROUNDING)
         done = usable & (change <= tolerance) & resting
         status = jnp.where(iterations >= max_steps, int(Status.NOT_CONVERGED), -1)

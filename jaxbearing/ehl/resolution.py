@@ -1,9 +1,9 @@
-"""Nodes and inlet of a line contact for an accuracy of its steady films.
+"""Number of nodes and inlet length of a line contact for a required accuracy of its steady films.
 
-Both errors follow the group $x = M/H = \\frac{\\pi}{8}a^2/(Rh)$ of Moes' numbers, h by Moes' formula: the sweep at the
-inlet is about $x^{-2/3}$ half widths long. They were measured against Richardson's extrapolation of 801 and 1601 nodes
-and against an inlet of 32 half widths (`tests/benchmarks/accuracy.py`): the worse one of central and minimum film, both
-of which err low, for Barus' oil, whose films are the hardest.
+Both errors follow the group $x = M/H = \\frac{\\pi}{8}a^2/(Rh)$ of Moes' numbers, h by Moes' formula: the inlet
+zone is about $x^{-2/3}$ half widths long. They were measured against Richardson's extrapolation of 801 and 1601 nodes
+and against an inlet of 32 half widths (`tests/benchmarks/accuracy.py`): the larger of the errors of central and minimum
+film, both of which come out too low, for Barus' oil, whose films are the hardest to compute.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ from .mesh import INLET
 INLETS = (INLET, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0)
 NODES = (201, 301, 401, 501, 651, 801, 1101, 1601, 2201, 3201)
 FILM_SHARE = 0.5
-"""Share of the accuracy that the cut inlet may take."""
+"""Share of the permitted error that the cut inlet may cause."""
 
 
 def mesh_error(nodes: int, ratio: Values, material: Values) -> Values:
@@ -31,16 +31,16 @@ def mesh_error(nodes: int, ratio: Values, material: Values) -> Values:
 
 
 def cut_error(inlet: float, ratio: Values) -> Values:
-    r"""Relative error of the films by an inlet that begins so many half widths before the centre,
-    $0.017x^{-1.3}(4/X)^{3.1}$, within a factor of 2 for x from 0.4 to 25. **Arguments:** `ratio` x."""
+    r"""Relative error of the films by an inlet of X half widths, $0.017x^{-1.3}(4/X)^{3.1}$, within a factor of 2
+    for x from 0.4 to 25. **Arguments:** `inlet`: X; `ratio`: x."""
     return 0.017 * ratio**-1.3 * (4.0 / inlet) ** 3.1
 
 
 def chosen(accuracy: float, fewest: int, ratio: float, material: float, inlet: float | None) -> tuple[int, float]:
-    """Nodes and inlet for which both errors together are below the accuracy, or the finest mesh there is.
+    """Number of nodes and inlet length that keep the sum of both errors below `accuracy`, else the finest mesh.
 
     **Arguments:** `accuracy`, relative, of the films; `fewest` nodes; `ratio`, `material`: x and L; `inlet`, half
-    widths, or None: chosen too (then it takes its part of the error).
+    widths, or None: chosen too (then it uses its share of the error).
     """
     left = accuracy
     if inlet is None:

@@ -70,7 +70,7 @@ def _steady_start(scene: EHLLineContact, simulation: FilmSimulation, key: MeshKe
     return Begun(scales, drive, at_rest(root.point, drive.fluid, mesh(key)), root)
 
 
-# solved once a run: to compile takes longer than to run
+# called once per run: compiling takes longer than running
 _begin = quickly_compiled(_steady_start)
 
 
@@ -106,7 +106,7 @@ def _see(points: Point, scales: Scales, key: MeshKey) -> Seen:
 
 
 def enters_behind(scene: EHLLineContact, simulation: FilmSimulation, begin: float, stop: float) -> bool:
-    """True if oil enters from +x at some time between two, s."""
+    """True if oil enters from +x at some time from `begin` to `stop`, s."""
     factors = np.asarray(jax.vmap(simulation.speed.factor)(jnp.linspace(begin, stop, LOOKS)))
     return bool((float(scene.operation.entrainment_speed) * factors).min() < 0.0)
 
@@ -191,7 +191,7 @@ def simulate_film(
                 if interrupt.seen:
                     raise KeyboardInterrupt
         except KeyboardInterrupt:
-            # also of `progress`, or of a second Ctrl-C
+            # raised by `progress` or by a second Ctrl-C, too
             if len(kept) < 2:
                 raise
             status, interrupted = Status.NOT_CONVERGED, True

@@ -11,10 +11,10 @@ DEFAULT_TOLERANCE = 1e-4
 
 
 class FilmSimulation(Checked):
-    """A transient run, from the steady film of the speed at its start.
+    """Settings of a transient run, which starts from the steady film at its initial speed.
 
     **Arguments:**
-    - `duration`: s; `None`: it must be given with the run.
+    - `duration`: length of the run, s; `None`: to be given to `simulate`.
     - `speed`: entrainment speed over that of the operation, as a function of time; it may change sign.
     - `tolerance`: largest local error of the film in one step, relative.
     """

@@ -22,7 +22,7 @@ from .steady import SMALLEST_WEDGE, judged, steady_root
 THIN = "minimum film below contact.film_limit: a continuum means little"
 
 LARGEST_MESH_ERROR, LARGEST_CUT_ERROR = 0.05, 0.005
-"""Relative errors of the films by mesh and inlet beyond which a warning says so."""
+"""Relative errors of the films by mesh and by inlet above which a warning is given."""
 
 
 class FilmResult(eqx.Module):
@@ -57,7 +57,7 @@ class FormulaResult(eqx.Module):
 
 
 class LineContactSolution(AbstractSolution):
-    """Steady film of a line contact. What a failed solve gives is NaN, but for Hertz and the formulas."""
+    """Steady film of a line contact. After a failed solve the results are NaN, except Hertz contact and formulas."""
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
     iterations: Int[Array, ""] = eqx.field(metadata=label("1", "Newton steps on all meshes"))
@@ -85,7 +85,7 @@ class LineContactSolution(AbstractSolution):
         return self.status == Status.CONVERGED
 
     def solver_failure(self) -> str:
-        """One sentence on a solve that failed (one solution only)."""
+        """Why the solve failed, in one sentence (for a single solution, not a batch)."""
         status, speed, load = Status(int(self.status)).text, float(self.speed_number), float(self.moes_load)
         if not speed >= SMALLEST_WEDGE:
             return (
@@ -107,7 +107,7 @@ class LineContactSolution(AbstractSolution):
 
 
 def central_weights(grid: Mesh) -> tuple[int, np.ndarray]:
-    """First of three nodes about X = 0, and their weights in the parabola's value there."""
+    """Index of the first of three nodes around X = 0, and the weights of their values in the parabola's value there."""
     i = int(np.clip(np.argmin(np.abs(grid.x)), 1, grid.size - 2)) - 1
     a, b, c = grid.x[i : i + 3]
     return i, np.asarray([b * c / ((a - b) * (a - c)), a * c / ((b - a) * (b - c)), a * b / ((c - a) * (c - b))])
@@ -133,13 +133,13 @@ def parabola_minimum(values: Float[Array, " node"], grid: Mesh) -> tuple[Float[A
 
 
 def solve_line_contact(scene: EHLLineContact, options: NewtonOptions | None = None) -> LineContactSolution:
-    """The steady film. `options` is there for the other scenes' sake: tolerances are the solver's own
-    (`steady.TOLERANCE`)."""
+    """The steady film. `options` is ignored (other scenes use it): the solver has its own tolerance,
+    `steady.TOLERANCE`."""
     scales, key = scene.scales(), scene.steady_mesh
     # solved for flow in +X and mirrored: the mesh is finer and longer on the inlet's side
     speed = jnp.abs(jnp.asarray(scene.operation.entrainment_speed, dtype=float)) / scales.reference_speed
     problem = scene.steady(scales, speed)
-    # a lane that is not solved needs numbers that can be differentiated
+    # a failed lane, too, must have numbers that can be differentiated
     root = steady_root(problem, key=key)
     grid = mesh(key)
     shape = film_shape(root.point, grid)

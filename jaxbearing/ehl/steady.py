@@ -21,18 +21,18 @@ from .newton import newton
 TOLERANCE = 1e-9
 """Largest change of an unknown by the last Newton step; the error left is about its square."""
 MAX_STEPS = 60
-"""Newton steps on one mesh."""
+"""Largest number of Newton steps on one mesh."""
 COARSEST = 100
 """Least number of nodes of the first mesh of a nested start."""
 SMALLEST_WEDGE = 1e-8
 """Smallest speed number lambda |u| of a steady solve. At rest there is no film: H is 0 in the whole contact and the
 Jacobian singular."""
 LOW_PRESSURE_SIDE = 1.2
-"""Region of the smallest film of the first guess: half widths from the centre."""
+"""Distance from the centre within which the first guess has its smallest film, half widths."""
 
 
 class Steady(eqx.Module):
-    """A steady contact. **Arguments:** `fluid`; `wedge`: lambda at the reference speed; `speed`: over the reference
+    """Steady problem of a line contact. **Arguments:** `fluid`; `wedge`: lambda at the reference speed; `speed`: over the reference
     speed, any sign; `start`: smallest film of the first guess, dimensionless; `wanted`: whether to solve at all."""
 
     fluid: Fluid
@@ -46,7 +46,7 @@ class Steady(eqx.Module):
 
 
 class SteadyRoot(NamedTuple):
-    """End of the iteration on the last mesh; `iterations` of all meshes; see `newton.Root`."""
+    """Result on the finest mesh, as in `newton.Root`; `iterations`: sum over all meshes."""
 
     point: Point
     solved: Bool[Array, ""]
@@ -65,7 +65,7 @@ def hertz_guess(start: Scalar, grid: Mesh) -> Point:
 
 
 def _prolonged(point: Point, coarse: Mesh, fine: Mesh) -> Point:
-    """Linear interpolation of a coarser mesh's pressure."""
+    """Point on a finer mesh, its pressure interpolated linearly."""
     return Point(jnp.interp(jnp.asarray(fine.x), jnp.asarray(coarse.x), point.pressure), point.offset)
 
 
@@ -95,10 +95,11 @@ def _solve(problem: Steady, key: MeshKey) -> SteadyRoot:
 
 @eqx.filter_custom_jvp
 def _root(problem: Steady, *, key: MeshKey) -> SteadyRoot:
-    """Solve; the derivative is that of the implicit function with the set of cavitated nodes held, in both modes.
+    """Solves the problem; its derivative, in both modes, follows from the implicit function theorem with the set of
+    cavitated nodes fixed.
 
-    Where a node changes sides the true derivative jumps (a mesh effect of second order); nothing is differentiated
-    through the iteration, and a lane that failed passes no derivative.
+    Where a node changes between film and cavitation the true derivative jumps (a mesh effect of second order). The
+    iteration is not differentiated, and a failed lane has derivative 0.
     """
     return _solve(jax.lax.stop_gradient(problem), key)
 
@@ -111,7 +112,7 @@ def _steady_root_jvp(primals, tangents, *, key: MeshKey):
 
 @eqx.filter_custom_jvp
 def _known_root(problem: Steady, *, root: SteadyRoot, key: MeshKey) -> SteadyRoot:
-    """The root of a problem that was found before, with the derivatives of a root that is searched for."""
+    """A root found before, with the derivatives that `_root` would give it."""
     return root
 
 
@@ -124,7 +125,7 @@ def _known_root_jvp(primals, tangents, *, root: SteadyRoot, key: MeshKey):
 def _implicit(problem: Any, problem_dot: Any, root: SteadyRoot, key: MeshKey) -> tuple[SteadyRoot, SteadyRoot]:
     """A root and its directional derivative, by the implicit function theorem."""
     grid = mesh(key)
-    # on the tangent that comes in, so that NaN of a failed lane reaches no parameter that lanes share
+    # mask the incoming tangent, so that NaN of a failed lane reaches no parameter that lanes share
     problem_dot = jax.tree.map(lambda t: jnp.where(root.solved, t, 0.0), problem_dot)
     found = linearize(problem.equations(key.nodes), root.point, grid)
     held = Equilibrium(found.cavitated, found.scale)
@@ -142,7 +143,7 @@ def _directional(function: Callable, primals: tuple, tangents: tuple) -> Any:
 
 
 def steady_root(problem: Steady, *, key: MeshKey) -> SteadyRoot:
-    """The root of `_root`, or one that is known."""
+    """Root of the problem: a known one if there is one, else that of `_root`."""
     return at_known_root(lambda: _root(problem, key=key), lambda root, _: _known_root(problem, root=root, key=key))
 
 
@@ -152,7 +153,7 @@ def existing(wedge: Scalar, speed: Scalar) -> Bool[Array, ""]:
 
 
 def judged(status: Int[Array, ""], exists: Bool[Array, ""], described: Bool[Array, ""]) -> Int[Array, ""]:
-    """The status, `NO_EQUILIBRIUM` where there is no film to be found, `OUTSIDE_VALIDITY` where it is none that the
-    model describes."""
+    """The status of a solve; `NO_EQUILIBRIUM` where there is no film, `OUTSIDE_VALIDITY` where the model does not
+    apply."""
     status = jnp.where(described, status, int(Status.OUTSIDE_VALIDITY))
     return jnp.where(exists, status, int(Status.NO_EQUILIBRIUM))

@@ -28,18 +28,18 @@ from .mesh import Mesh
 from .newton import newton
 
 FIRST_STEP = 1e-4
-"""First step that is tried, in a/u_0. Steps far below 1e-7 would show the rounding of m in the
-balance of mass (1e-8)."""
+"""First trial step, in a/u_0. In steps far below 1e-7 the round-off of m would show in the mass
+balance (1e-8)."""
 SHORTEST_STEP = 1e-13
 """Shortest step, in a/u_0; a run that would need a shorter one has failed."""
 LARGEST_GROWTH, SMALLEST_GROWTH = 2.0, 0.2
 CLOSEST_KINK = 1e-6
 """Distance in time within which a kink of the speed is skipped, in a/u_0."""
 JUMP = 1e-9
-"""Change of the speed at one time, over the reference speed, that is more than rounding."""
+"""Change of the speed, over the reference speed, above which it counts as a jump and not as round-off."""
 SAFETY = 0.85
 AFTER_FAILURE = 0.3
-"""Length of the next trial, over that of a step whose equations were not solved."""
+"""Length of the next trial step over that of a step whose equations could not be solved."""
 NEWTON_TOLERANCE = 1e-9
 """Largest change of an unknown by the last Newton step."""
 NEWTON_STEPS = 12
@@ -64,7 +64,7 @@ class Motion(NamedTuple):
 
 
 class Drive(eqx.Module):
-    """Constants of a run. **Arguments:** `fluid`; `wedge`; `speed`: over that of the operation, over time;
+    """Constants of a run. **Arguments:** `fluid`; `wedge`; `speed`: over that of the operation, as a function of time;
     `unit`: s, one unit of the dimensionless time; `base`: the operation's speed over the reference speed (its
     sign); `tolerance`: largest relative error of m in one step; `film_limit`: dimensionless."""
 
@@ -77,7 +77,7 @@ class Drive(eqx.Module):
     film_limit: Scalar
 
     def speed_at(self, time: Float[Array, ""]) -> Float[Array, ""]:
-        """**Arguments:** `time`, in a/u_0."""
+        """Entrainment speed over the reference speed. **Arguments:** `time`, in a/u_0."""
         return jnp.asarray(self.base * self.speed.factor(time * self.unit))
 
     def next_halt(self, time: Float[Array, ""], stop: Float[Array, ""]) -> Float[Array, ""]:
@@ -97,7 +97,7 @@ class Record(NamedTuple):
 
 
 class Advanced(NamedTuple):
-    """A segment. `status`: -1 while the run goes on; `thin`: ended below the film limit."""
+    """Result of a segment. `status`: -1 while the run goes on; `thin`: it ended below the film limit."""
 
     motion: Motion
     record: Record
@@ -109,7 +109,7 @@ class Advanced(NamedTuple):
 
 
 def at_rest(point: Point, fluid: Fluid, mesh: Mesh, time: Scalar = 0.0) -> Motion:
-    """A run that begins at a point, with nothing known of what was before."""
+    """Start of a run at a point, without any earlier history."""
     m = mass(fluid, point.pressure, film_shape(point, mesh))
     three = lambda leaf: jnp.broadcast_to(leaf, (3, *leaf.shape))
     time = jnp.asarray(time, dtype=float)
@@ -119,7 +119,7 @@ def at_rest(point: Point, fluid: Fluid, mesh: Mesh, time: Scalar = 0.0) -> Motio
 
 
 def _extrapolation(step: Array, steps: Array, known: Array) -> Float[Array, "3"]:
-    """Weights of the last three values in the constant, line or parabola through them, a step ahead."""
+    """Weights of the last three values in their extrapolation by one step: as a constant, a line or a parabola."""
     h, h1, h2 = step, steps[0], steps[1]
     nothing = jnp.zeros_like(h)
     constant = jnp.stack([nothing + 1.0, nothing, nothing])
@@ -135,7 +135,7 @@ def _extrapolation(step: Array, steps: Array, known: Array) -> Float[Array, "3"]
 
 
 def _derivative(step: Array, steps: Array, masses: Array, known: Array) -> tuple[Array, Array]:
-    """c_0, and the part of the time derivative that is known."""
+    """Factor c_0 of the new m in its time derivative, and the part of the derivative from earlier m."""
     h, h1 = step, steps[0]
     first = known == 1
     rate = jnp.where(first, 1.0 / h, 1.0 / h + 1.0 / (h + h1))
@@ -192,11 +192,11 @@ def advance(drive: Drive, motion: Motion, stop: Float[Array, ""], mesh: Mesh) ->
         halt = drive.next_halt(now.time, stop)
         left = halt - now.time
         halts = now.proposal >= left
-        # no sliver before the halt
+        # avoid a tiny step just before the halt
         step = jnp.where(halts, left, jnp.minimum(now.proposal, 0.5 * left))
         last_one = halts & (halt >= stop)
         time = jnp.where(halts, halt, now.time + step)
-        # where it jumps at the halt, the speed until then
+        # where the speed jumps at the halt, its value just before
         then, until = drive.speed_at(time), drive.speed_at(time * (1.0 - 4.0 * jnp.finfo(float).eps))
         speed = jnp.where(halts & (jnp.abs(then - until) > JUMP), until, then)
         weights = _extrapolation(step, now.steps, now.known)
@@ -219,7 +219,7 @@ def advance(drive: Drive, motion: Motion, stop: Float[Array, ""], mesh: Mesh) ->
         growth = SAFETY * jnp.maximum(error, 1e-12) ** (-1.0 / order)
         growth = jnp.clip(growth, SMALLEST_GROWTH, LARGEST_GROWTH)
         proposal = step * jnp.where(sound, growth, AFTER_FAILURE)
-        # a step to a halt, or half the way there, may be short for no reason of its own
+        # a step cut short by a halt says nothing against the step proposed before it
         proposal = jnp.where(accept & (step < now.proposal), jnp.maximum(proposal, now.proposal), proposal)
         shifted = lambda new, old: jnp.concatenate([new[None], old[:-1]])
         moved = Motion(

@@ -224,7 +224,10 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
         return self.balls(point.elements, seen_by_elements(self, point))
 
     def land(self, orbit: Array, force_x: Array, force_y: Array) -> LandState:
-        """State of the lands (the surfaces of a ring that guide the cage), which carry the sum of the pocket forces."""
+        """State of the cage lands (cylinders of a ring that guide the cage), which carry the sum of the pocket forces.
+
+        **Arguments:** `orbit`: speed of the cage, rad/s; `force_x`, `force_y`: sums of the pocket forces along and
+        across the load line, N."""
         cage, motion = self.cage, self.kinematics
         assert cage is not None
         return guided_land(

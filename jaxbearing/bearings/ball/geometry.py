@@ -198,7 +198,7 @@ class BallGeometry(AbstractGeometry):
         radius, cosine = 0.5 * self.pitch_diameter, self.free_cosine
         if self.free_clearance is None:
             return radius + self.inner_offset * cosine
-        # with radial preload the balls stand in the bottoms of the grooves, and the inner ring is larger
+        # with radial preload the balls touch the bottoms of the grooves, and the inner ring is larger by the overlap
         pressed = self.centre_distance * jnp.maximum(cosine - 1.0, 0.0)
         return radius + self.inner_offset * jnp.minimum(cosine, 1.0) + pressed
 

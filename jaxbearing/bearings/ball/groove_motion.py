@@ -146,11 +146,11 @@ class GrooveArm(NamedTuple):
 
 
 def inner_arm(frame: RingFrame, centre: Float[Array, "2 ball"], lever: Values, side: Values = 0.0) -> GrooveArm:
-    r"""The arms from ball centres to the nearest inner groove centres of a displaced and tilted ring; exact.
+    r"""The exact arms from the ball centres to the nearest inner groove centres of a displaced and tilted ring.
 
     **Arguments:**
-    - `centre`: of the balls along the axis, from the middle plane of the ring without displacement, and distance from
-      the axis less $R_i$, m. Both are small, so that no digits are lost.
+    - `centre`: ball centres, m: axial position from the middle plane of the ring without displacement, and distance
+      from the axis minus $R_i$. Both are small, so that no digits are lost.
     - `lever`: $R_i$, m.
     - `side`: s, distance of the circle from the centre of the ring along its axis, m.
     """
@@ -200,7 +200,7 @@ class RingMotion(NamedTuple):
         return ring_frame(self.held + LENGTH_UNIT * jnp.sum(self.directions * shift[None], axis=1))
 
     def on_freedoms(self, loads: Float[Array, "5 ball"]) -> Float[Array, "freedom ball"]:
-        """Contributions of every ball to the forces that hold the unknown degrees of freedom, N, from
+        """Contributions of every ball to the forces on the unknown degrees of freedom, N, from the loads of
         `conjugate_loads`."""
         return jnp.sum(self.directions * loads[:, None], axis=0)
 

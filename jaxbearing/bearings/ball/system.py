@@ -52,12 +52,13 @@ class Grooves(NamedTuple):
     """Axial displacement of the ring at which the planes of the grooves coincide, m: 0, or less than 0 where
     displacements count from first contact."""
     lever: Float[Array, ""]
-    """Radius R_i of the circle of inner groove centres, m; with a tilt by the standard half the pitch diameter."""
+    """Radius R_i of the circle of inner groove centres, m; half the pitch diameter if the tilt is that of the standard
+    (`Rating.tilt`)."""
     groove_arm: Float[Array, ""]
-    """f_i D, radius of the inner groove: arm of the friction at the inner race about the circle of groove centres."""
+    """Radius f_i D of the inner groove, m: arm of the friction at the inner race about the circle of groove centres."""
 
     expansion: Float[Array, ""] | None = None
-    """See `InnerRing.expansion`."""
+    """Expansion of the radius of the inner raceway minus that of the outer raceway, m (see `InnerRing.expansion`)."""
     arcs: Arcs = Arcs()
 
     @property
@@ -73,7 +74,7 @@ class Grooves(NamedTuple):
 
     @property
     def rest(self) -> Float[Array, "2 1"]:
-        """Inner groove centre (axial, radial) from the outer one, of the ring without displacement, m."""
+        """Vector (axial, radial) from the outer to the inner groove centre of the ring without displacement, m."""
         radial = self.centre_distance * self.free_cosine
         radial = radial if self.expansion is None else radial + self.expansion
         return jnp.stack([-self.aligned, radial])[:, None]
@@ -145,7 +146,7 @@ class Touch(NamedTuple):
 class Push(NamedTuple):
     """Forces of the contacts, N.
 
-    - `net`: of the ball on the outer ring less those of the inner ring on the ball, axial and outward.
+    - `net`: forces of each ball on the outer ring minus those of the inner ring on the ball, axial and outward.
     - `on_ring`: contributions to the forces that hold the rings: the degrees of freedom of the inner one, and the
       radial forces on flexible rings (`AbstractBetweenRings`).
     """
@@ -192,7 +193,7 @@ class AbstractBallSystem(AbstractBetweenRings):
     inertia: Float[Array, ""]
     gyroscopic: AbstractGyroscopic | None
     couple_share: Float[Array, ""]
-    """Part of the gyroscopic couple that acts: 1, and less in the easier systems of a homotopy."""
+    """Factor on the gyroscopic couple: 1, or less in the easier systems of a homotopy."""
     out_of_round: Float[Array, " ball"] | None
     outer: ElasticRing | None
     inner: ElasticRing | None
@@ -214,8 +215,8 @@ class AbstractBallSystem(AbstractBetweenRings):
         return self.grooves.arcs
 
     def free_centre(self) -> Float[Array, "2 1"]:
-        """Centre of an unloaded ball, on the line between the groove centres of the ring without displacement, from the
-        outer groove centre, m."""
+        """Centre of an unloaded ball, from the outer groove centre, m. It lies on the line between the groove centres
+        of the ring without displacement."""
         return self.grooves.offset[1] * self.grooves.free_normal
 
     def groove_centres(self, shift: Float[Array, "freedom ball"]) -> Float[Array, "p ball"]:

@@ -17,23 +17,23 @@ class Simulation(Checked):
     """A transient run that starts from the quasi-static state of the operating point.
 
     **Arguments:**
-    - `duration`: duration of the run, s; if `None`, it must be passed with the run.
+    - `duration`: duration of the run, which must be passed with the run if it is not given here, s.
     - `speed`: inner ring speed over that of the operating point, as a function of time.
     - `load`: radial and lateral load over those of the operating point, as a function of time. In ball bearings it
       applies to all loads and moments.
     - `rotating_load`: additional load whose direction rotates. With it the ring can also move across the load line.
-    - `solver`: one of `numerics.integrator.SOLVERS`; tsit5 for a run of the rolling elements if not given. "auto"
+    - `solver`: one of `numerics.integrator.SOLVERS`, by default tsit5 for a run of the rolling elements. "auto"
       chooses between tsit5 and kvaerno5 by the stiffness that it measures.
     - `tolerance`: relative tolerance, also the absolute tolerance in the units of the state.
     - `entrainment_smoothing`: speed by which the absolute value of the mean surface speed in the raceway films is
       smoothed, m/s. It determines the film that remains where the surface of a roller passes through rest.
     - `ring_mass`: mass of the inner ring and its share of the shaft for a ball bearing whose ring moves under loads,
       kg.
-    - `ring_damping`: external damping of the moving inner ring, N s/m; 0 for ball bearings if not given.
+    - `ring_damping`: external damping of the moving inner ring, by default 0 for ball bearings, N s/m.
     - `meridian`: motion of balls and inner ring in the planes through the axis: "dynamic", with their inertia, or
       "quasi_static", in balance at every instant, so that masses and damping have no effect.
-    - `contact_damping`: damping factor of the ball contacts, s/m; 0.05 s/m if not given. The normal load is the elastic
-      load times 1 + this factor times the rate of approach.
+    - `contact_damping`: damping factor of the ball contacts, by default 0.05 s/m. The normal load is the elastic load
+      times 1 + this factor times the rate of approach.
     """
 
     part: ClassVar[str] = "simulation"

@@ -30,11 +30,11 @@ class WarmUpSimulation(Checked):
     """A transient run of the temperatures.
 
     **Arguments:**
-    - `duration`: duration of the run, s; if `None`, it must be passed with the run.
+    - `duration`: duration of the run, which must be passed with the run if it is not given here, s.
     - `speed`: speeds of both rings over those of the operating point, as a function of time; not 0 at time 0.
     - `load`: all loads and moments over those of the operating point, as a function of time.
     - `oil_inlet`: temperature difference between entering oil and ambient over that of the operating point, as a
-      function of time; 0 means oil at the ambient temperature.
+      function of time. 0 means oil at the ambient temperature.
     - `oil_flow`: oil flow over that of the operating point, as a function of time. The heat capacity of the oil in the
       bearing remains that of the operating point.
     - `start`: temperature of all nodes at time 0, K; by default the ambient temperature.

@@ -46,7 +46,7 @@ class Neighbours(eqx.Module):
     viscosity: Float[Array, ""]
 
     def contacts(self, place: NeighbourPlace, places: Places, rates: Rates) -> MetBalls:
-        """Load, film and friction between each ball and the next one."""
+        """Load, film and friction of the contact between each ball and the next one."""
         _, turning = _in_space(places, rates)
         entraining = 0.5 * place.distance[None] * jnp.cross(turning - _next(turning), place.normal, axis=0)
         gap = place.distance - 2.0 * self.law.ball_radius

@@ -270,7 +270,7 @@ def _cage_centre(
     assert parts is not None
     assert found.cage_force is not None
     inner, pull = parts.guidance == "inner_ring", jnp.sum(found.cage_force, axis=1)
-    # the film of the lands passes the pull on to the ring
+    # the land films transmit the sum of the pocket forces to the ring
     toward = pull if inner else -pull
     mean_speed = 0.5 * ((motion.inner_speed if inner else motion.outer_speed) + orbit)
     offset = jnp.stack(
