@@ -197,8 +197,8 @@ def with_films(scene: BallBearing, core: BallCore) -> BallCore:
     """The bearing without friction, with balls enlarged by the film thicknesses: a better first guess if the unknowns
     are the positions of the balls.
 
-    The films are those at the mean load of a ball plus the load by which the films alone press a ball between its
-    rings (`_pressed_load`), if they are thicker than the clearance.
+    The film thicknesses are those at the mean load of a ball. If the films are thicker than the clearance, the load by
+    which they press a ball between its rings (`_pressed_load`) is added to the mean load.
     """
     whole = core
     stop = lambda leaf: jax.lax.stop_gradient(leaf) if eqx.is_inexact_array(leaf) else leaf

@@ -74,7 +74,7 @@ class CappedCouple(AbstractGyroscopic):
     The ball would then start to turn about $e_t$, which this law leaves out.
 
     **Arguments:**
-    - `friction_coefficient`: coefficient of friction mu that limits the friction force of a race to mu Q_k, > 0.
+    - `friction_coefficient`: coefficient of friction mu that caps what a race carries (a force of mu Q_k), > 0.
     - `sign`: sign of the friction forces, 1 or -1.
     """
 

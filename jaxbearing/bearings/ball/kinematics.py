@@ -66,6 +66,11 @@ class BallKinematics(eqx.Module):
     $(e_t, b_k, n_k)$ is right-handed. Elastic changes of the rolling radii are neglected.
 
     **Reference:** Jones (1959), Trans. ASME D 81, 1; Harris, *Rolling Bearing Analysis*; source eqs. (3)-(12).
+
+    **Arguments:**
+    - `inner_speed`, `outer_speed`: speeds of the rings, rad/s.
+    - `pitch_diameter`: $d_m$, m.
+    - `ball_diameter`: D, m.
     """
 
     inner_speed: Float[Array, ""]

@@ -91,8 +91,8 @@ def free_centres(
 
 
 def _resting(problem: CentrifugalProblem, compliance: Array) -> Float[Array, " ball"]:
-    """Outward distance from the outer groove centre, m, of a ball that touches the outer ring only. For an outer ring
-    with two arcs it is of first order in the deformation."""
+    """Outward distance of a ball that touches the outer ring only from the outer groove centre, m. For an outer ring
+    with two arcs it is approximated to first order in the deformation."""
     offset, force, apart = problem.offset[1], problem.centrifugal, problem.arcs.outer
     if apart is None:
         return offset + compliance * force ** (2.0 / 3.0)

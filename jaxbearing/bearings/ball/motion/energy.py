@@ -11,11 +11,11 @@ with the kinetic energy $E_{kin}$ of balls, cage and ring (without the prescribe
   the outer groove (`FORCE_FLOOR`);
 - D: friction losses of races, pockets, lands and drag, each force times its own sliding speed; $P_{damping}$: losses by
   the damping of the contacts, $\sum(N - Q)\dot\delta$, and by the external damping of the ring;
-- $\Pi_{pocket} = \sum(W_1 - W_2)\dot\sigma$: power of closing the pocket films. The walls store the part that belongs
-  to their energy $\sum\frac25W^{5/3}/K_p^{2/3}$; the rest squeezes out oil. Without a cage, this term contains the
-  films between the balls;
-- $\Pi_{race} = \sum Q\,\dot l$: power of moving the centres of balls and grooves apart. It is stored as
-  $\sum\frac25Q^{5/3}/K^{2/3}$, except for the work on films of changing thickness.
+- $\Pi_{pocket} = \sum(W_1 - W_2)\dot\sigma$: power that closes the pocket films. A part of the work is stored as
+  elastic energy of the walls, $\sum\frac25W^{5/3}/K_p^{2/3}$; the rest squeezes out oil. Without a cage, this term is
+  that of the films between the balls;
+- $\Pi_{race} = \sum Q\,\dot l$: power that moves the centres of balls and grooves apart. The work is stored as elastic
+  energy $\sum\frac25Q^{5/3}/K^{2/3}$, except for the work on films of changing thickness.
 """
 
 from typing import TYPE_CHECKING

@@ -57,7 +57,8 @@ class MovingBalls(NamedTuple):
 
     - `load`: normal loads with contact damping, N; `pressed.load` is without damping.
     - `friction`: friction on the races; `pocket`, `walls`, `lands`: `None` without a cage.
-    - `forces`: interaction forces, conjugate to `speeds`; `generalised`: generalised forces, conjugate to `rates`.
+    - `forces`: interaction forces on the side of the balls, conjugate to `speeds`; `generalised`: generalised forces,
+      conjugate to `rates`.
     - `met`: contact between each ball and the next one; `None` with a cage.
     """
 

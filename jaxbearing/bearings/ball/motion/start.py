@@ -283,9 +283,9 @@ def begin(scene: BallBearing, simulation: Simulation, found: QuasiStatic) -> Sta
     """Equations of motion, and the initial state, in which balls, cage and ring are as in the steady state at time 0;
     pure.
 
-    The accelerations of this state are not exactly 0. They are if the scene resolves the gyroscopic couple, except for
-    the effects that the steady state neglects: elastic pocket walls, spin relative to the cage, and axial pocket
-    forces.
+    If the scene resolves the gyroscopic couple, the accelerations of this state are 0, except for effects that the
+    steady state neglects: elastic pocket walls, spin relative to the cage, and axial pocket forces. With other laws for
+    the couple they are not 0.
     """
     factor = simulation.speed.factor(jnp.zeros(()))
     dynamics = build_dynamics(scene, simulation, found.cage_orbit / factor)
