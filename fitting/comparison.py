@@ -15,12 +15,12 @@ from .result import FitResult
 from .search import Search
 
 DISPLACED = np.array([0.7, -1.0, -0.5, -0.7, 0.5, 0.2])
-"""Distance of the start of a fit without one curve from the fit of all, in natural coordinates."""
+"""Displacement of the start of each leave-one-out fit from the fit of all curves, in natural coordinates."""
 
 
 class ModelRow(NamedTuple):
-    """One model: `rms` of the fit, `parameters` fitted, `aic`, `bic` (the lowest is best; a difference of 10 is
-    strong), `cross_validated_rms`: of each curve predicted from the others, None with one curve only."""
+    """Figures of merit of one model: `rms` of the fit, number of fitted `parameters`, `aic` and `bic` (the lowest is
+    best; a difference of 10 is strong evidence), and `cross_validated_rms`, see the function of that name."""
 
     model: str
     converged: bool
@@ -51,9 +51,9 @@ def compare(results: Mapping[str, FitResult]) -> list[ModelRow]:
 def cross_validated_rms(result: FitResult) -> float | None:
     """Root mean square of model minus measurement when every curve is predicted from a fit of the others.
 
-    The same parameters are fitted as in the result, from displaced values: what the others do not tell must not be
-    known from the curve left out. None where there is one curve only, or where the other curves have one pressure or
-    one temperature less than the fit needs. Infinite where a fit without one of the curves does not converge.
+    The same parameters are fitted as in the result. The start is displaced from the result, because the result already
+    contains the curve that is left out. None for a single curve, or where the remaining curves do not have enough
+    different pressures or temperatures for the fit. Infinite where a fit without one of the curves does not converge.
     """
     curve = np.asarray(result.measurements.curve)
     if len(result.measurements.curve_names) < 2 or not result.fitted:

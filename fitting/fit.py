@@ -29,25 +29,26 @@ from .viscous import held_misfit, plain_rheology, with_viscous_function
 OUTLIER = 4.0
 """Robust standard deviations beyond which a point is named an outlier."""
 FEW_DEGREES = 3
-"""Degrees of freedom below which the intervals are said to lean on little."""
+"""Informative points minus parameters below which a note says that the intervals rest on too few points."""
 FEWEST_DEGREES = 10
-"""Degrees of freedom below which no point is called an outlier."""
+"""Informative points minus parameters below which no point is called an outlier."""
 SAME_LOSS = 1e-6
-"""Relative difference of losses that count as the same minimum."""
+"""Relative difference of losses up to which two starts count as ended at the same minimum."""
 EXACT = 1e-6
-"""Residual, in assumed standard deviations, that is no residual at all."""
+"""Root mean square residual, in assumed standard deviations, below which the curves count as met exactly."""
 
 
 @rare_garbage_collection()
 def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None = None) -> FitResult:
     """Shear modulus and characteristic stress of the scene's oil from measured traction curves.
 
-    The model is that of `jaxbearing.solve(scene)` with the exponential law of the rheology. An oil with another law, as
-    standard oils have it, gives first values: those of the exponential law that touches its law in the middle of the
-    data (`start.exponential_about`). Start: stress and modulus from the shape of the curves
-    (`start.estimated_start`), the best of a scan over the modulus, and random ones about them. Parameters that the data
-    cannot tell are held at the scene's values and said so: by rule before (one pressure, one temperature, viscous
-    only), by their uncertainty after. Several starts run at once; everything is compiled once for a number of points.
+    The model is that of `jaxbearing.solve(scene)` with the exponential law of the rheology. If the oil has another law,
+    as standard oils have, the first values are those of the exponential law that is tangent to it in the middle of the
+    data (`start.exponential_about`). Starting points: stress and modulus from the shape of the curves
+    (`start.estimated_start`), the best of a scan over the modulus, and random points about them. Parameters that the
+    data do not determine are held at the scene's values, and a note says so: before the fit by rule (one pressure, one
+    temperature, viscous data only), after it by their uncertainty. The starts run together; the program is compiled
+    once for each (rounded) number of points.
 
     **Raises:** `TypeError` for arguments of another kind; `ValueError` for options that make no sense, and where the
     scene's oil has no rheology.

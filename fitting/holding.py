@@ -1,5 +1,5 @@
-"""Which parameters are fitted and which are held: at a bound, or because the data cannot tell them. One loop for the
-fit of an oil and for the calibration of scenes."""
+"""Choice of the parameters that are fitted and of those that are held, at a bound or because the data do not determine
+them. The fit of an oil and the calibration of scenes use the same loop."""
 
 import abc
 from typing import Any, Generic, NamedTuple, Protocol, TypeVar, runtime_checkable
@@ -10,42 +10,44 @@ from jaxtyping import Array
 from .loss import influence
 
 MOST_TURNS = 12
-"""Times that parameters may be held or released."""
+"""Largest number of rounds, each of which holds or releases one parameter."""
 SLACK = 1e-6
-"""Correlation of residual and a column of the Jacobian below which a bound does not bind."""
+"""Correlation of the residual with a column of the Jacobian above which a parameter at its bound is released, because
+the loss falls towards the inside."""
 
 
 @runtime_checkable
 class HasNaturalCoordinates(Protocol):
-    """A problem of an estimation, as the loop sees it."""
+    """The part of an estimation problem that the loop uses."""
 
     def natural(self, u: Any) -> Array | np.ndarray:
-        """Natural coordinates of unknowns."""
+        """Natural coordinates that belong to the unknowns `u`."""
         ...
 
 
 Problem = TypeVar("Problem", bound=HasNaturalCoordinates)
 Estimate = TypeVar("Estimate")
-"""Ends of all optimisations of a problem."""
+"""Results of all optimisations of a problem, one for each start."""
 Unknowns = TypeVar("Unknowns", Array, np.ndarray)
 
 
 class Held(NamedTuple):
-    """Flags of the fitted parameters, reasons why others cannot be told, natural coordinates of those at a bound."""
+    """State of the parameters: `free` flags the fitted ones; `reasons` says why others are held; `pinned` has the
+    natural coordinates of those held at a bound."""
 
     free: np.ndarray
     reasons: dict[int, str]
     pinned: dict[int, float]
 
     def without(self, index: int, reason: str, at: float | None = None) -> "Held":
-        """The same with one parameter held, at a bound if `at` gives one."""
+        """A copy with one more parameter held, at the bound `at` if that is given."""
         free = self.free.copy()
         free[index] = False
         pinned = self.pinned if at is None else {**self.pinned, index: at}
         return Held(free, {**self.reasons, index: reason}, pinned)
 
     def released(self, index: int) -> "Held":
-        """The same with one parameter fitted again."""
+        """A copy with one parameter fitted again."""
         free = self.free.copy()
         free[index] = True
         drop = lambda mapping: {i: value for i, value in mapping.items() if i != index}
@@ -53,7 +55,8 @@ class Held(NamedTuple):
 
 
 class AbstractSearch(abc.ABC, Generic[Problem, Estimate, Unknowns]):
-    """Methods of an estimation that the loop calls. A `problem` is what its own methods take; `u` are its unknowns."""
+    """Methods of an estimation that the loop calls. `problem` makes the problems that the other methods take; `u` are
+    the unknowns of a problem."""
 
     limits: tuple[np.ndarray, np.ndarray]
     """Bounds in natural coordinates, infinite where there is none."""
@@ -62,7 +65,8 @@ class AbstractSearch(abc.ABC, Generic[Problem, Estimate, Unknowns]):
 
     @abc.abstractmethod
     def problem(self, free: np.ndarray, pinned: dict[int, float], base: np.ndarray | None = None) -> Problem:
-        """The problem with these parameters free, from these natural coordinates."""
+        """The problem with these parameters free and those pinned, about the natural coordinates `base` (None: the
+        search's own first values)."""
 
     @abc.abstractmethod
     def starts(self, problem: Problem, free: np.ndarray) -> np.ndarray:
@@ -91,8 +95,8 @@ class AbstractSearch(abc.ABC, Generic[Problem, Estimate, Unknowns]):
 
 
 class Settled(NamedTuple, Generic[Problem, Estimate, Unknowns]):
-    """End of the loop: the problem, all estimates, unknowns of the best, and what is held; `ended` is False where the
-    loop was cut off."""
+    """Result of the loop: last problem, all estimates, unknowns of the best one, and the held parameters; `ended` is
+    False where the loop stopped at `MOST_TURNS`."""
 
     problem: Problem
     estimate: Estimate
@@ -115,7 +119,7 @@ def settled(search: AbstractSearch[Problem, Estimate, Unknowns], held: Held) -> 
         moved = revised.pinned != held.pinned
         held = revised
         problem = search.problem(held.free, held.pinned, search.within_bounds(np.asarray(problem.natural(u))))
-        # a parameter moved to its bound may lie far off, and the others must find their way anew
+        # a parameter moved to its bound may have changed much, so the others get new starting points
         starts = search.starts(problem, held.free) if moved else np.zeros_like(starts)
         if len(starts) > 1:
             starts[-1] = 0.0

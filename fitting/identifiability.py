@@ -1,4 +1,5 @@
-"""Identifiability: parameters that the data can tell, by rule before a fit, by their uncertainty after it; in words."""
+"""Identifiability: which parameters the data determine, by rule before a fit and by uncertainty after it; and the
+sentences about it."""
 
 import numpy as np
 
@@ -6,17 +7,17 @@ from .parameters import GROUPS, SCALES, SYMBOLS, Centre
 from .uncertainty import UNKNOWN, Spread
 
 HUGE = 20.0
-"""Half-width of an interval of ln G or ln tau beyond which its number says nothing."""
+"""Half-width of an interval of ln G or ln tau above which a message no longer quotes the factor of uncertainty."""
 VISCOUS = 0.3
 """Deborah number below which the shear modulus cannot be seen."""
 OIL_MODULUS = (3e6, 3e10)
-"""Shear moduli, Pa, beyond which an oil under contact pressure is not believed to lie."""
+"""Plausible range of the shear modulus, Pa, of an oil under contact pressure."""
 OIL_STRESS = (1e5, 1e9)
-"""The same for the characteristic stress."""
+"""Plausible range of the characteristic stress, Pa, of an oil under contact pressure."""
 SAME_PRESSURE = 0.02
 """Relative span of the pressures below which they count as one."""
 TOGETHER = 0.9
-"""Correlation of pressure and 1/temperature beyond which their effects are not told apart."""
+"""Correlation of pressure and 1/temperature from which their effects cannot be separated."""
 SAME_TEMPERATURE = 5.0
 """Span of the temperatures, K, below which they count as one."""
 
@@ -30,8 +31,10 @@ def viscous_only(deborah: np.ndarray) -> str:
 
 
 def elastic_conditions(pressure: np.ndarray, temperature: np.ndarray, deborah: np.ndarray) -> dict[int, str]:
-    """Index of alpha_G or beta_G -> why the data cannot tell it: the shear modulus shows only where the Deborah number
-    is not small, and there at one pressure or one temperature only. **Arguments:** of the points, for the fitted oil.
+    """Reasons why the data do not determine alpha_G or beta_G, by index of the parameter: the shear modulus shows only
+    where the Deborah number is not small, and those points have a single pressure or temperature.
+
+    **Arguments:** pressure, Pa, temperature, K, and Deborah number of each point with the fitted oil.
     """
     elastic = deborah >= VISCOUS
     if np.all(elastic) or not np.any(elastic):
@@ -64,10 +67,11 @@ def implausible(modulus: float, stress: float) -> list[str]:
 
 
 def frozen_by_rule(pressure: np.ndarray, temperature: np.ndarray, given: tuple[bool, bool]) -> dict[int, str]:
-    """Index of a parameter -> why the data cannot tell it, before any fit.
+    """Reasons, known before any fit, why the data do not determine a parameter, by index of the parameter.
 
-    **Arguments:** mean pressure, Pa, and temperature, K, of the points; `given`: whether G0, and tau0, are held by the
-    user: then one pressure or one temperature (not both) tells the coefficient.
+    **Arguments:** mean pressure, Pa, and temperature, K, of the points; `given`: whether the user holds G0, and tau0.
+    With a held value, data at a single pressure determine the pressure coefficient if the temperature varies, and data
+    at a single temperature the temperature coefficient if the pressure varies.
     """
     reasons: dict[int, str] = {}
     one_pressure = np.ptp(pressure) < SAME_PRESSURE * np.mean(pressure)
@@ -95,10 +99,10 @@ def confounded(pressure: np.ndarray, temperature: np.ndarray) -> str:
 
 
 def not_determined(spread: Spread, directions: np.ndarray, free: np.ndarray, centre: Centre) -> dict[int, str]:
-    """Index of a free parameter -> why its interval says nothing: ln G or ln tau is uncertain by more than a factor of
-    3 at the centre of the data, or, for a coefficient, across their range.
+    """Reasons why a fit does not determine a free parameter, by its index: G or tau is uncertain by more than a factor
+    of 3 at the centre of the data or, for a coefficient, over half their range.
 
-    **Arguments:** `directions`: from centred to natural coordinates, as fitted.
+    **Arguments:** `directions`: matrix from centred to natural coordinates of the fit.
     """
     reasons: dict[int, str] = {}
     # covariance at the centre: ln G_c = ln G0 + arm . (alpha, beta)
@@ -133,5 +137,5 @@ def _quadratic(covariance: np.ndarray, row: np.ndarray) -> float:
 
 
 def in_words(index: int, reason: str) -> str:
-    """One sentence for the report."""
+    """One sentence for the report on a parameter that is not determined."""
     return f"{SYMBOLS[index]} cannot be determined: {reason}."

@@ -1,9 +1,9 @@
 r"""Levenberg and Marquardt's method as a trust region: each step $p$ minimises $|r + Jp|^2$ with $|Dp|\le\Delta$.
 
-$p(\lambda) = -(J^TJ + \lambda D^2)^{-1}J^Tr$, with the $\lambda$ at which $|Dp| = \Delta$; $D$ holds the largest norms
-that the columns of $J$ had, so the method does not depend on the units of the unknowns. The steps are functions of
-arrays: `minimised` runs them inside a program, and a caller whose model is a program of its own runs them one by one
-(`begun`, `trial`, `judged`).
+$p(\lambda) = -(J^TJ + \lambda D^2)^{-1}J^Tr$, with the $\lambda$ at which $|Dp| = \Delta$; $D$ holds the largest norm so
+far of each column of $J$, so the method does not depend on the units of the unknowns. The parts of an iteration are
+functions of arrays: `minimised` runs them inside a compiled program; `minimised_outside` calls them one by one
+(`begun`, `trial`, `judged`) for a model that is a program of its own.
 
 **Reference:** More (1978), *The Levenberg-Marquardt algorithm: implementation and theory*, Lecture Notes in
 Mathematics 630; the measure of convergence is that of Bates and Watts (1981), Technometrics 23, 179.
@@ -22,16 +22,16 @@ from jaxbearing.numerics.batching import in_turn
 from jaxbearing.programs import KeptProgram
 
 OFFSET = 1e-7
-"""Part of the residual in the tangent plane, over the residual, at which a minimum is reached: the next step would
-lower the sum of squares by its square, 1e-14."""
+"""Norm of the residual's projection on the tangent plane, over that of the residual, up to which a minimum is reached:
+the next step would lower the sum of squares by the square of this, a part of 1e-14."""
 SMALL_STEP = 1e-9
-"""Length of the Gauss-Newton step, in standard deviations of one residual, at which a minimum is reached."""
+"""Scaled length $|Dp|$ of the Gauss-Newton step up to which a minimum is reached, in units of a residual."""
 FLAT = 1e-14
-"""Eigenvalue of the scaled normal matrix, over the largest, below which a direction is not searched."""
+"""Eigenvalue of the scaled normal matrix, relative to the largest, up to which its direction is left out of a step."""
 SMALLEST_RADIUS = 1e-12
-"""Radius over the first one at which the search ends without success."""
+"""Radius of the region, relative to the first one, at which the search ends without success."""
 GOOD, BAD = 0.75, 0.25
-"""Parts of the expected decrease above which the region grows, and below which it shrinks."""
+"""Actual over expected decrease of the loss, above which the region grows, and below which it shrinks."""
 GROWTH, SHRINKAGE = 3.0, 0.25
 FURTHEST = 1.0
 """Largest change of an unknown in the first region: a parameter that is searched by its logarithm changes at most by a
@@ -41,8 +41,9 @@ SECULAR_STEPS = 8
 
 
 class State(NamedTuple):
-    """One search: unknowns `u`, half the sum of squares `loss`, normal matrix and gradient there, the scales `size` of
-    the unknowns (D), radius of the region, first radius, evaluations, and whether it has ended and converged."""
+    """State of one search: unknowns `u`; `loss`, half the sum of squares, with its normal matrix and gradient; scales
+    `size` of the unknowns (D); radius of the region now and at first; number of evaluations, `steps`; and whether the
+    search has ended (`done`) and converged."""
 
     u: Float[Array, " parameter"]
     loss: Float[Array, ""]
@@ -71,7 +72,8 @@ def begun(
     jacobian: Float[Array, "point parameter"],
     offset: Scalar = OFFSET,
 ) -> State:
-    """The state at the first unknowns. The first region holds the Gauss-Newton step of a linear model."""
+    """The state at the first unknowns, with a first region that is large enough for the Gauss-Newton step of a linear
+    model, within `FURTHEST`."""
     columns = jnp.linalg.norm(jacobian, axis=0)
     loss = 0.5 * jnp.sum(jnp.square(residual))
     radius = jnp.maximum(jnp.sqrt(2.0 * loss), 1.0)
@@ -134,8 +136,8 @@ def judged(
     jacobian: Float[Array, "point parameter"],
     offset: Scalar = OFFSET,
 ) -> State:
-    """The state after a step, whose residual and Jacobian are known; a step that makes the loss larger, or for which
-    the model has no value, is not taken."""
+    """The state after a trial step, from the residual and Jacobian at its end; the step is rejected if it does not
+    lower the loss or if the model has no finite value there."""
     loss = 0.5 * jnp.sum(jnp.square(residual))
     usable = jnp.isfinite(loss) & jnp.all(jnp.isfinite(jacobian))
     ratio = jnp.where(usable, (state.loss - loss) / jnp.where(step.decrease > 0, step.decrease, 1.0), -1.0)
@@ -168,7 +170,8 @@ def minimised(
 ) -> State:
     """The end of a search from `u` inside a program.
 
-    **Arguments:** `evaluate`: residual and its Jacobian at unknowns; `most`: evaluations; `offset`: see `OFFSET`.
+    **Arguments:** `evaluate`: function from unknowns to residual and Jacobian; `most`: largest number of evaluations;
+    `offset`: see `OFFSET`.
     """
     first = begun(u, *evaluate(u), offset)
 
@@ -180,8 +183,8 @@ def minimised(
 
 
 def _spectrum(state: State) -> tuple[Array, Array, Array, Array]:
-    """Eigenvalues and eigenvectors of the scaled normal matrix, the scaled gradient along these, and which of them are
-    searched."""
+    """Eigenvalues and eigenvectors of the scaled normal matrix, components of the scaled gradient along the
+    eigenvectors, and a mask of those that are searched."""
     scaled = state.normal / jnp.outer(state.size, state.size)
     eigenvalues, vectors = in_turn(jnp.linalg.eigh, scaled)  # see `numerics.lapack`
     along = vectors.T @ (state.gradient / state.size)
@@ -189,7 +192,7 @@ def _spectrum(state: State) -> tuple[Array, Array, Array, Array]:
 
 
 def _at_minimum(state: State, offset: Scalar) -> Bool[Array, ""]:
-    """True if the next Gauss-Newton step would change nothing that counts."""
+    """True if the next Gauss-Newton step would change the loss or the unknowns negligibly."""
     eigenvalues, _, along, seen = _spectrum(state)
     safe = jnp.where(seen, eigenvalues, 1.0)
     in_plane = jnp.sum(jnp.where(seen, jnp.square(along) / safe, 0.0))
@@ -228,12 +231,12 @@ def minimised_outside(
     most: int,
     offset: float = OFFSET,
 ) -> State:
-    """The ends of several searches whose model is a program of its own, called from outside.
+    """The end of several searches ("lanes") side by side, whose model is evaluated outside the compiled program.
 
     **Arguments:**
-    - `evaluate`: from unknowns, (lane, parameter), and a mask of the lanes that are wanted to residuals, (lane, point),
-      and their Jacobians, (lane, point, parameter); NaN where the model has no value.
-    - `u`: first unknowns of each lane; `most`: evaluations of each; `offset`: see `OFFSET`.
+    - `evaluate`: function from unknowns, (lane, parameter), and a mask of the lanes to evaluate, to residuals,
+      (lane, point), and their Jacobians, (lane, point, parameter); NaN where the model has no value.
+    - `u`: first unknowns of each lane; `most`: largest number of evaluations of each; `offset`: see `OFFSET`.
     """
     limit = jnp.asarray(offset)
     everyone = np.ones(len(u), dtype=bool)

@@ -1,4 +1,4 @@
-"""Distance of a model from the measurements: errors of each point, and what an outlier may count."""
+"""Distance of a model from the measurements: errors of each point, and robust losses that limit outliers."""
 
 import math
 from typing import NamedTuple
@@ -9,19 +9,20 @@ from jaxtyping import Array, Float
 
 LOSSES = ("linear", "soft_l1", "cauchy")
 MAD_TO_SIGMA = 1.4826
-"""Standard deviation of normal errors over their median modulus."""
+"""Standard deviation of normal errors over their median absolute value."""
 
 
 FLOOR = 0.2
-"""Part of a curve's largest coefficient below which errors no longer shrink with the coefficient."""
+"""Floor of the default error: that of a coefficient of this part of the curve's largest one."""
 
 
 class Errors(NamedTuple):
-    """Standard deviation of a measured coefficient: relative part, floor, and what an error of the slide ratio makes
-    of the curve's slope. Only their ratios matter: the size is estimated from the residuals.
+    """Standard deviation of a measured coefficient: root of the sum of squares of a relative part, a constant part, and
+    the curve's slope times the error of the slide-to-roll ratio. Only the ratios between points matter, because the
+    size of the errors is estimated from the residuals.
 
-    `relative`: of the coefficient; `floor`: of the coefficient, None: `relative` times `FLOOR` of the largest one of
-    the curve; `slide_to_roll`: standard deviation of the slide-to-roll ratio, 0: exact.
+    `relative`: part of the coefficient; `floor`: constant part, a coefficient, None: `relative` times `FLOOR` times the
+    largest coefficient of the curve; `slide_to_roll`: standard deviation of the slide-to-roll ratio, 0: exact.
     """
 
     relative: float = 0.02
@@ -29,8 +30,8 @@ class Errors(NamedTuple):
     slide_to_roll: float = 0.0
 
     def deviation(self, coefficient: np.ndarray, curve: np.ndarray, slope: np.ndarray | float = 0.0) -> np.ndarray:
-        """Standard deviation of each point. **Arguments:** `curve`: number of each point's curve; `slope`: of the
-        curve, over the slide-to-roll ratio."""
+        """Standard deviation of each point. **Arguments:** `curve`: number of each point's curve; `slope`: derivative
+        of the coefficient by the slide-to-roll ratio."""
         size = np.abs(coefficient)
         floor = np.full(size.shape, 0.0 if self.floor is None else self.floor)
         if self.floor is None:
@@ -60,7 +61,7 @@ def robust(residual: Float[Array, "..."], kind: str) -> Float[Array, "..."]:
 
 
 def robust_with_slope(residual: np.ndarray, kind: str) -> tuple[np.ndarray, np.ndarray]:
-    """`robust` of residuals and its derivative, numpy."""
+    """Value and derivative of `robust`, as numpy arrays."""
     bent = np.asarray(robust(jnp.asarray(residual), kind))
     # the square is rho, whose derivative is 2 psi = 2 bent * slope
     small = np.abs(residual) < 1e-6
@@ -69,11 +70,13 @@ def robust_with_slope(residual: np.ndarray, kind: str) -> tuple[np.ndarray, np.n
 
 
 TUNING = {"linear": math.inf, "soft_l1": 1.345, "cauchy": 2.385}
-"""Residual, in standard deviations, at which the loss bends: 95 % efficient for normal errors (soft_l1: as Huber's)."""
+"""Residual, in standard deviations, at which a robust loss departs from the square: 95 % efficiency with normal errors
+(soft_l1: Huber's value)."""
 
 
 def influence(residual: np.ndarray, kind: str) -> np.ndarray:
-    r"""$\psi = \rho'/2$, what a residual counts in the normal equations. **Arguments:** in units of the bend."""
+    r"""Influence $\psi = \rho'/2$ of a residual in the normal equations. **Arguments:** `residual` in units of `TUNING`
+    standard deviations."""
     square = np.square(residual)
     if kind == "linear":
         return residual
@@ -81,9 +84,10 @@ def influence(residual: np.ndarray, kind: str) -> np.ndarray:
 
 
 def variance_factor(residual: np.ndarray, kind: str, parameters: int) -> float:
-    r"""Variance that the covariance of an M-estimate takes, $\frac{\sum\psi^2/(n-k)}{(\overline{\psi'})^2}$.
+    r"""Variance factor of the covariance of an M-estimate, $\frac{\sum\psi^2/(n-k)}{(\overline{\psi'})^2}$.
 
-    For the linear loss the residual variance. **Arguments:** `residual` in units of the bend; `parameters`: k.
+    With the linear loss it is the residual variance. **Arguments:** `residual` in units of `TUNING` standard
+    deviations; `parameters`: number k of fitted parameters.
     **Reference:** Huber (1981), *Robust Statistics*, sec. 7.6.
     """
     square = np.square(residual)

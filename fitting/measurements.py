@@ -1,4 +1,4 @@
-"""Measured traction curves in a form that the model takes."""
+"""Measured traction curves in the form that the model needs."""
 
 from typing import Any
 
@@ -10,21 +10,21 @@ from jaxtyping import Array, Float
 from jaxbearing.machines import DiskState, TwoDisk
 
 LARGEST_COEFFICIENT = 1.0
-"""No lubricated contact has a larger traction coefficient."""
+"""Largest traction coefficient that is accepted; no lubricated contact has a larger one."""
 
 
 class MeasurementError(ValueError):
-    """Curves and scene do not fit together; the message says what is missing."""
+    """Error for curves that do not go with the scene; the message says why."""
 
 
 class Measurements(eqx.Module):
     """Points of traction curves, SI.
 
     **Arguments:**
-    - `slide_to_roll`: difference over mean speed, signed.
+    - `slide_to_roll`: difference of the surface speeds over their mean, signed.
     - `traction_coefficient`: measured.
     - `load`, N; `entrainment_speed`, m/s; `temperature` of the oil, K: of each point.
-    - `curve`: number of the curve that each point belongs to; `curve_names`.
+    - `curve`: number of the curve that each point belongs to; `curve_names`: names of the curves.
     """
 
     slide_to_roll: Float[Array, " point"]
@@ -37,9 +37,10 @@ class Measurements(eqx.Module):
 
     @classmethod
     def of(cls, table: Any, scene: TwoDisk) -> "Measurements":
-        """The points of a `fitting.io.CurveTable`; what the file does not hold comes from the scene's operation.
+        """The points of a `fitting.io.CurveTable`; conditions that the file lacks come from the scene's operation.
 
-        **Raises:** `MeasurementError` where neither says it, or the scene gives several values.
+        **Raises:** `MeasurementError` where the file lacks a condition and the scene does not give one value of it, and
+        for impossible traction coefficients.
         """
         count = len(table.slide_to_roll)
         _check_signs(np.asarray(table.slide_to_roll), np.asarray(table.traction_coefficient))

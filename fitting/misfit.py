@@ -1,4 +1,4 @@
-"""Residuals of a fit: by curve, its information content, and whether it is random."""
+"""Residuals of a fit: misfit of each curve, information criteria, and a test whether the residuals are random."""
 
 import numpy as np
 
@@ -11,15 +11,15 @@ from .measurements import Measurements
 from .result import CurveFit
 
 SYSTEMATIC = 2.6
-"""Standard deviations of the lag-one correlation beyond which neighbouring residuals are not independent (1 %)."""
+"""Lag-one correlation of the residuals, in its standard deviations, from which neighbours are not independent (1 %)."""
 LARGEST = 2.5
-"""Robust standard deviations to which a residual is cut there: one outlier must not hide what the others show."""
+"""Limit of residuals in that correlation, in robust standard deviations: one outlier must not hide the others."""
 MISSED = 0.3
-"""Root mean square of the differences over that of the coefficients, beyond which a model misses the curves."""
+"""Root mean square of the differences over that of the coefficients, above which a note reports a lack of fit."""
 NOTHING = 0.9
-"""The same, beyond which a model follows no curve at all: the optimiser ended on a plateau, and the fit has failed."""
+"""The same ratio above which the model follows no curve: the optimiser ended on a plateau, and the fit has failed."""
 FEWEST = 8
-"""Points of all curves below which nothing is said."""
+"""Pairs of neighbouring residuals, of all curves together, below which their correlation is not judged."""
 
 
 def curve_fits(
@@ -58,7 +58,7 @@ def information(difference: np.ndarray, deviation: np.ndarray, parameters: int) 
 
 
 def neighbour_correlation(measurements: Measurements, standard: np.ndarray) -> tuple[float, int]:
-    """Correlation of residuals of neighbours in slide-to-roll ratio, within curves; and of how many pairs."""
+    """Correlation of the residuals of neighbouring points in slide-to-roll ratio, within curves; and number of pairs."""
     slide = np.asarray(measurements.slide_to_roll)
     limit = LARGEST * scale_of(standard)
     standard = np.clip(standard, -limit, limit)
@@ -82,7 +82,8 @@ def missed_share(measurements: Measurements, difference: np.ndarray, outlier: np
 def lack_of_fit(
     measurements: Measurements, standard: np.ndarray, difference: np.ndarray, outlier: np.ndarray
 ) -> list[str]:
-    """A sentence where the residuals are not random. **Arguments:** `outlier`: mask of points that do not count."""
+    """A sentence if the residuals are large or not random, else none. **Arguments:** `standard`: residuals over their
+    deviations; `outlier`: mask of points that do not count for the size."""
     share = missed_share(measurements, difference, outlier)
     if share > MISSED:
         return [f"Lack of fit: the model misses the curves by {100 * share:.0f} % of their size (rms)."]

@@ -17,12 +17,12 @@ class FitOptions(NamedTuple):
     **Arguments:**
     - `model`: viscous function; None: the scene's.
     - `method`: one of `METHODS`.
-    - `loss`: one of `LOSSES`; what is not linear lets outliers count less.
+    - `loss`: one of `LOSSES`; all but the linear one reduce the weight of outliers.
     - `errors`: of the measured points.
     - `fixed`: names of parameters to hold at the scene's values.
-    - `free`: names of parameters to fit even where a rule says that the data cannot tell them.
-    - `bounds`: name -> (lower, upper), SI; either may be None.
-    - `starts`: number of starting points, tried at once.
+    - `free`: names of parameters to fit even if the data are found not to determine them.
+    - `bounds`: (lower, upper) by name of parameter, SI; either may be None.
+    - `starts`: number of starting points, which are tried together.
     - `level`: of the confidence intervals.
     - `seed`: of the random starting points.
     """
@@ -39,7 +39,10 @@ class FitOptions(NamedTuple):
     seed: int = 0
 
     def check(self) -> None:
-        """**Raises:** `ValueError` naming the option."""
+        """Checks all options.
+
+        **Raises:** `ValueError` that names the wrong option.
+        """
         for name, value, known in (("method", self.method, METHODS), ("loss", self.loss, LOSSES)):
             if value not in known:
                 raise ValueError(f"{name}: found {value!r}, expected one of {', '.join(known)}")

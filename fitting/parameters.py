@@ -1,4 +1,4 @@
-"""The rheology's parameters as the fit sees them: logarithms where they are positive, centred on the data, scaled."""
+"""Parameters of the rheology in the coordinates of the fit: scaled, centred on the data, positive ones as logarithms."""
 
 from typing import NamedTuple
 
@@ -21,20 +21,20 @@ NAMES = (
 UNITS = ("Pa", "1/Pa", "K", "Pa", "1/Pa", "K")
 SYMBOLS = ("G0", "alpha_G", "beta_G", "tau0", "alpha_tau", "beta_tau")
 POSITIVE = (True, False, False, True, False, False)
-"""Fitted as its logarithm."""
+"""Whether a parameter is positive and therefore fitted as its logarithm."""
 SCALES = np.array([1.0, 1e-9, 1e3, 1.0, 1e-9, 1e3])
 """Unit of each natural coordinate in SI: ln, 1/GPa, kK."""
 LARGEST_LOG = 80.0
-"""Largest logarithm of G0 and tau in Pa: 35 decades."""
+"""Largest magnitude of the natural logarithm of G0 and tau0 in Pa: 35 decades."""
 GROUPS = ((0, 1, 2), (3, 4, 5))
-"""Indices of value, pressure and temperature coefficient of shear modulus and stress."""
+"""Indices of value, pressure coefficient and temperature coefficient, for the shear modulus and for the stress."""
 
 
 class Centre(NamedTuple):
-    """Reference point in the middle of the data: the data determine G and tau best there.
+    """Reference point in the middle of the data, where they determine G and tau best.
 
-    `pressure`: middle of the mean pressures, Pa; `inverse_temperature`: of 1/T, 1/K. The spans are the largest minus
-    the smallest.
+    `pressure`: middle of the mean contact pressures, Pa; `inverse_temperature`: middle of 1/T, 1/K. The spans are the
+    largest minus the smallest values.
     """
 
     pressure: float
@@ -57,8 +57,8 @@ def natural(rheology: ExponentialRheology) -> np.ndarray:
 
 
 def with_natural(rheology: ExponentialRheology, coordinates: Float[Array, " parameter"]) -> ExponentialRheology:
-    """The rheology with these natural coordinates; differentiable. ln G0 and ln tau end at +-80: an optimiser may try
-    anything, and its trial must stay finite."""
+    """The rheology with these natural coordinates; differentiable. ln G0 and ln tau0 are limited to +-80, so that any
+    trial of an optimiser stays finite."""
     coordinates = jnp.where(jnp.asarray(POSITIVE), jnp.clip(coordinates, -LARGEST_LOG, LARGEST_LOG), coordinates)
     values = [jnp.exp(coordinates[i]) if POSITIVE[i] else coordinates[i] * SCALES[i] for i in range(len(NAMES))]
     where = lambda r: [getattr(r, name) for name in NAMES]
@@ -66,7 +66,7 @@ def with_natural(rheology: ExponentialRheology, coordinates: Float[Array, " para
 
 
 def values_of(coordinates: np.ndarray) -> np.ndarray:
-    """SI values of natural coordinates, with the same ends as `with_natural`."""
+    """SI values of natural coordinates, with the same limits as in `with_natural`."""
     coordinates = np.asarray(coordinates)
     logarithms = np.clip(np.where(POSITIVE, coordinates, 0.0), -LARGEST_LOG, LARGEST_LOG)
     return np.where(POSITIVE, np.exp(logarithms), coordinates * SCALES)
@@ -75,8 +75,8 @@ def values_of(coordinates: np.ndarray) -> np.ndarray:
 def centred_directions(centre: Centre, reference_temperature: float, free: np.ndarray) -> np.ndarray:
     """Matrix (6, 6) from centred to natural coordinates; columns of parameters that are not free are 0.
 
-    The first centred coordinate of a group is ln G at the centre of the data: moving alpha or beta alone turns the law
-    about that point, ln G0 = u0 - alpha p_c - beta (1/T_c - 1/T_0).
+    The first centred coordinate u0 of a group is ln G (or ln tau) at the centre of the data, so a change of alpha or
+    beta alone rotates the law about that point: ln G0 = u0 - alpha p_c - beta (1/T_c - 1/T_0).
     """
     matrix = np.diag(free.astype(float))
     lever = (centre.pressure * SCALES[1], (centre.inverse_temperature - 1.0 / reference_temperature) * SCALES[2])

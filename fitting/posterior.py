@@ -1,10 +1,10 @@
-r"""The distribution of parameters after the measurements, by the No-U-Turn sampler of NumPyro, with the model and the
-derivatives of the fit.
+r"""Posterior distribution of the parameters, by the No-U-Turn sampler of NumPyro, with the model and the derivatives of
+the fit.
 
-$\ln p(x, s) = -\frac{1}{2}\sum_i(r_i/s)^2 - n\ln s - \frac{1}{2}\sum_k((x_k - m_k)/d_k)^2$ within the bounds, with the
-residuals $r$ over the deviations, the size $s$ of the errors, whose logarithm is evenly distributed before the
-measurements, and the normal priors of the coordinates $x$. Where the errors are known, $s = 1$. Of a linear problem
-without priors the marginal distributions are those of Student on which the intervals of least squares rest.
+$\ln p(x, s) = -\frac{1}{2}\sum_i(r_i/s)^2 - n\ln s - \frac{1}{2}\sum_k((x_k - m_k)/d_k)^2$ within the bounds. $r_i$ are
+the residuals over their assumed deviations. The size $s$ of the errors has a uniform prior of its logarithm; where the
+errors are known, $s = 1$. The coordinates $x_k$ have normal priors with means $m_k$ and standard deviations $d_k$. For
+a linear problem without priors, the marginals are the Student distributions of the least-squares intervals.
 
 The sampler moves in coordinates in which the least-squares covariance is the identity.
 
@@ -23,13 +23,13 @@ from jaxtyping import Array, Float
 
 MISSING = "the posterior needs NumPyro, an optional dependency: install the extra 'posterior'"
 GOOD_R_HAT, GOOD_EFFECTIVE = 1.01, 400.0
-"""Largest R-hat, and smallest number of effective samples, of chains that agree."""
+"""Limit below which R-hat must be, and least number of effective samples, for the chains to agree."""
 SPREAD = 1.0
-"""Standard deviation of the chains' starts, in that of least squares."""
+"""Standard deviation of the starting points of the chains, over that of the least-squares estimate."""
 
 
 class PosteriorUnavailableError(ImportError):
-    """The library that samples is not installed."""
+    """Error for a missing NumPyro, the library that draws the samples."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,10 @@ class Sampling:
     seed: int = 0
 
     def check(self) -> None:
-        """**Raises:** `ValueError` for counts that are too small."""
+        """Checks the numbers of chains and samples.
+
+        **Raises:** `ValueError` for counts that are too small.
+        """
         for name, least in (("chains", 2), ("warmup", 50), ("samples", 50)):
             if getattr(self, name) < least:
                 raise ValueError(f"{name}: found {getattr(self, name)}, expected {least} or more")
@@ -57,13 +60,13 @@ class Target:
 
     **Arguments:**
     - `names`: of the parameters.
-    - `evaluate`: from coordinates to residuals over deviations and their Jacobian; traced.
-    - `centre`, `covariance`: of least squares, in coordinates.
-    - `scale`: size of the errors by least squares; `known`: whether it is 1 for certain.
+    - `evaluate`: traceable function from coordinates to residuals over deviations and their Jacobian.
+    - `centre`, `covariance`: least-squares estimate of the coordinates and its covariance.
+    - `scale`: size of the errors by least squares; `known`: whether the errors are known, so that it is 1.
     - `count`: number of residuals.
-    - `prior_mean`, `prior_deviation`: of the coordinates, infinite where nothing is known.
+    - `prior_mean`, `prior_deviation`: of the coordinates; the deviation is infinite where there is no prior.
     - `low`, `high`: bounds of the coordinates.
-    - `values`: SI values of coordinates, (sample, parameter), numpy.
+    - `values`: function from coordinates, (sample, parameter), to SI values, numpy.
     """
 
     names: tuple[str, ...]
@@ -82,8 +85,8 @@ class Target:
 
 @dataclass(frozen=True)
 class Marginal:
-    """One parameter after the measurements, SI: mean, median, standard deviation, ends of the interval with equal
-    tails, R-hat of the split chains and number of effective samples."""
+    """Marginal posterior distribution of one parameter, SI: mean, median, standard deviation, ends of the equal-tailed
+    interval, R-hat of the split chains and number of effective samples."""
 
     mean: float
     median: float
@@ -117,7 +120,7 @@ class Posterior:
 
     @property
     def mixed(self) -> bool:
-        """True if the chains agree: R-hat below 1.01, 400 effective samples, no divergence."""
+        """True if the chains agree: R-hat below 1.01, at least 400 effective samples, no divergence."""
         good = lambda one: one.r_hat < GOOD_R_HAT and one.effective >= GOOD_EFFECTIVE
         return all(map(good, self.parameters.values())) and not self.divergences
 
@@ -143,19 +146,19 @@ class Posterior:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Marginal distributions and what tells how good they are."""
+        """Marginal distributions and the figures of their quality, as plain values."""
         whole: dict[str, Any] = {"parameters": {name: dict(vars(one)) for name, one in self.parameters.items()}}
         whole |= {"mixed": self.mixed, "divergences": self.divergences, "steps": self.steps, "level": self.level}
         return whole | dict(vars(self.sampling))
 
     def thinned(self, count: int) -> np.ndarray:
-        """Coordinates of so many samples, evenly over all chains, (sample, parameter)."""
+        """Coordinates of `count` samples, selected evenly from all chains, (sample, parameter)."""
         flat = self.coordinates.reshape(-1, self.coordinates.shape[-1])
         return flat[np.linspace(0, len(flat) - 1, min(count, len(flat))).astype(int)]
 
 
 def available() -> bool:
-    """True if the library that samples is installed."""
+    """True if NumPyro is installed."""
     from importlib.util import find_spec
 
     return find_spec("numpyro") is not None
@@ -200,8 +203,9 @@ def sampled(target: Target, sampling: Sampling, level: float) -> Posterior:
 
 
 def potential_of(target: Target, root: Float[Array, "parameter parameter"]) -> Callable[[Array], Array]:
-    """Minus the logarithm of the density, of parameters in units of least squares and, where the errors are not known,
-    of the logarithm of their size; its gradient comes from the Jacobian of the residuals, in forward mode."""
+    """Potential of the sampler, minus the logarithm of the density. Its argument holds the parameters in coordinates in
+    which the least-squares covariance is the identity and, if the errors are not known, the scaled logarithm of their
+    size. Its gradient comes from the forward-mode Jacobian of the residuals."""
     count, width = len(target.names), _width(target)
     mean, deviation = jnp.asarray(target.prior_mean), jnp.asarray(target.prior_deviation)
     low, high, centre = (jnp.asarray(part) for part in (target.low, target.high, target.centre))
@@ -234,7 +238,7 @@ def _width(target: Target) -> float:
 
 
 def _inside(target: Target, root: np.ndarray, starts: np.ndarray) -> np.ndarray:
-    """Starts drawn towards the centre until they are within the bounds."""
+    """Starting points, moved towards the centre until they are within the bounds."""
     for _ in range(30):
         coordinates = target.centre + starts @ root.T
         beyond = np.any((coordinates < target.low) | (coordinates > target.high), axis=1)

@@ -1,4 +1,4 @@
-"""The values that a posterior predicts for a new measurement: the samples' results with new errors."""
+"""Posterior prediction of a repeated measurement: the model's results for the samples, with new random errors."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -13,14 +13,15 @@ PREDICTED = 200
 
 @dataclass(frozen=True)
 class Predictive:
-    """The values as they would be measured again, SI.
+    """Prediction of the measured values if they were measured again, SI.
 
     **Arguments:**
-    - `median`, `lower`, `upper`: of each measured value, with the ends of its interval.
-    - `measured`: the values that were measured; `deviation`: of a measurement, with the size of the errors found.
+    - `median`, `lower`, `upper`: median and ends of the interval of each predicted value.
+    - `measured`: the values that were measured; `deviation`: their standard deviations, scaled by the posterior median
+      size of the errors.
     - `names`: of the values.
     - `inside`: share of the measured values within their intervals.
-    - `level`: of the intervals; `samples`: whose predictions were computed.
+    - `level`: of the intervals; `samples`: number of samples whose predictions were computed.
     """
 
     median: np.ndarray
@@ -48,7 +49,7 @@ class Predictive:
 
 
 def chosen_samples(posterior: Posterior, count: int) -> np.ndarray:
-    """Places of so many samples, evenly over all chains."""
+    """Indices of `count` samples, selected evenly from all chains."""
     total = posterior.coordinates.shape[0] * posterior.coordinates.shape[1]
     return np.linspace(0, total - 1, min(count, total)).astype(int)
 
@@ -65,8 +66,9 @@ def measured_again(
     """The predictive distribution of measured values.
 
     **Arguments:**
-    - `place`: samples that were taken, from `chosen_samples`; `values`: their results, (sample, value).
-    - `measured`, `deviation`: of each value, before the size of the errors; `names`: of the values.
+    - `place`: indices of the samples, from `chosen_samples`; `values`: their results, (sample, value).
+    - `measured`, `deviation`: each value and its assumed deviation, not yet scaled by the size of the errors;
+      `names`: of the values.
 
     **Raises:** `ValueError` where a sample has no solution.
     """

@@ -13,8 +13,8 @@ from .options import FitOptions
 
 
 class Parameter(NamedTuple):
-    """One parameter of the rheology, SI. `standard_error`, `lower`, `upper` are None where the data do not determine
-    it or it was not fitted; `fixed`: whether it was held; `reason`: why it was held, or why it has no interval."""
+    """One parameter of the rheology, SI. `standard_error`, `lower`, `upper` are None if the data do not determine the
+    parameter or it was not fitted; `fixed`: whether it was held; `reason`: why it was held or has no interval."""
 
     value: float
     standard_error: float | None
@@ -40,20 +40,20 @@ class FitResult(eqx.Module):
     """Result of a fit.
 
     - `parameters`: by name, in the order of the law.
-    - `unidentifiable`: names of parameters that the data cannot tell.
+    - `unidentifiable`: names of parameters that the data do not determine.
     - `rms`: root mean square of model minus measurement, in traction coefficient.
-    - `correlation`: of the fitted parameters `fitted`.
-    - `condition`: of the column-scaled Jacobian.
-    - `loss`: half the sum of squares that was minimised; `steps` of the optimiser in its last run; `starts`: how many
-      of the starts ended within 1e-6 of the best loss, of how many.
+    - `correlation`, `covariance`: of the parameters named in `fitted`, in natural coordinates.
+    - `condition`: condition number of the column-scaled Jacobian.
+    - `loss`: half the sum of squares that was minimised; `steps`: steps of the optimiser in its last run; `starts`:
+      number of starts that ended within 1e-6 of the best loss, and number of all starts.
     - `aic`, `bic`: information criteria of the weighted residuals.
-    - `oil`: the scene's oil with the fitted rheology; `predicted`: of each point; `outlier`: mask, beyond 4 robust
-      standard deviations.
-    - `scene`: the machine with this oil and viscous function; `options`: with which it was fitted.
-    - `reason`: why there is no result, where there is none and it is not the optimiser's.
-    - `undetermined`: whether the data cannot tell any parameter: all keep their first values, and nothing was fitted.
-    - `first_values`: where they come from, if not from the scene's own exponential law.
-    - `notes`: what the user must know, a sentence each: identifiability, lack of fit, bounds.
+    - `oil`: the scene's oil with the fitted rheology; `predicted`: traction coefficient of the model at each point;
+      `outlier`: mask of the points beyond 4 robust standard deviations.
+    - `scene`: the machine with this oil and viscous function; `options`: those of the fit.
+    - `reason`: why there is no result, if the cause is not that the optimiser stopped early.
+    - `undetermined`: whether the data determine no parameter: all keep their first values, and nothing was fitted.
+    - `first_values`: origin of the first values, if they are not those of the scene's own exponential law.
+    - `notes`: sentences that the user must read: identifiability, lack of fit, bounds.
     """
 
     converged: bool

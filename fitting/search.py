@@ -1,4 +1,4 @@
-"""The search for the best parameters: where it begins, and the optimisations."""
+"""The search for the best parameters: starting points and optimisations."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -44,22 +44,24 @@ if TYPE_CHECKING:
 
 MODULUS, STRESS = NAMES.index("shear_modulus"), NAMES.index("stress")
 MODULUS_SHIFTS = (0.0, 1.5, 3.0, -1.5, -3.0, -5.0, -7.0, -9.0, -12.0, -15.0)
-"""Changes of ln(shear modulus) that are looked at before the first start."""
+"""Changes of ln(shear modulus) that are scanned for starting points."""
 STRESS_SHIFTS, LARGEST_SHIFT = 4, 2.0
-"""Rounds in which the first stress is brought to the tops of the curves, and the largest change of its logarithm."""
+"""Rounds in which the first stress is adapted to the maxima of the curves, and largest change of its logarithm in one
+round."""
 SIGNIFICANT = 1e-3
-"""Probability of chance below which a better fit is taken for an effect."""
+"""Significance level (p-value) below which a better fit counts as a real effect."""
 REWEIGHTINGS = 4
-"""Times that scale and slopes are renewed with a robust loss or errors in the slide ratio."""
+"""Number of optimisations with a robust loss or errors of the slide-to-roll ratio; scale and slopes are updated between
+them."""
 
 
 SMALLEST_BATCH, LARGEST_STEP = 32, 512
-"""Points are filled up with copies of weight 0 to a power of two, from 512 on to a multiple of it: a program that was
-compiled for other curves serves these too."""
+"""Smallest padded number of points, and the number above which it is a multiple of this instead of a power of two. The
+padding are copies of weight 0; with it a program that was compiled for other curves can serve these too."""
 
 
 def filled(count: int) -> int:
-    """Number of points that the program for `count` points takes."""
+    """Padded number of points for `count` points."""
     if count > LARGEST_STEP:
         return -(-count // LARGEST_STEP) * LARGEST_STEP
     return max(SMALLEST_BATCH, 1 << (count - 1).bit_length())
@@ -76,9 +78,9 @@ _compiled_state = KeptProgram(_state, quick=True)
 
 
 class Search(AbstractSearch[Problem, Estimate, Array]):
-    """One fit at work: what stays the same from run to run.
+    """Data and methods of one fit that all its optimisations share.
 
-    **Arguments:** as `fit.fit`; the scene has the viscous function that is fitted, and its oil a rheology.
+    **Arguments:** as for `fit.fit`; the scene has the viscous function of the fit, and its oil has a rheology.
     """
 
     def __init__(self, measurements: Measurements, scene: TwoDisk, options: FitOptions):
@@ -113,8 +115,8 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
         self.scale = 1.0
 
     def _first_values(self, scene: TwoDisk) -> tuple[ExponentialRheology, TwoDisk]:
-        """The exponential law of the oil, or the one that touches its law in the middle of the data; and the scene with
-        it."""
+        """The exponential law of the oil, or the one tangent to its law in the middle of the data; and the scene with
+        that law."""
         rheology = scene.oil.rheology
         if isinstance(rheology, ExponentialRheology):
             return rheology, scene
@@ -123,15 +125,15 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
         return rheology, eqx.tree_at(lambda s: s.oil.rheology, scene, rheology)
 
     def fill(self, values: "npt.ArrayLike") -> Float[Array, " batch"]:
-        """A value a point, filled up with copies of the last."""
+        """One value for each point, padded with copies of the last value."""
         return jnp.asarray(np.pad(np.asarray(values, dtype=float), (0, filled(self.count) - self.count), mode="edge"))
 
     def weight(self, values: np.ndarray) -> Float[Array, "... batch"]:
-        """Weights of the points, filled up with 0; the last axis is the point."""
+        """Weights of the points, padded with 0 along the last axis."""
         return jnp.asarray(np.pad(values, [(0, 0)] * (values.ndim - 1) + [(0, filled(self.count) - self.count)]))
 
     def free_by_rule(self) -> tuple[np.ndarray, dict[int, str]]:
-        """Parameters to fit, and why the others are held: one pressure, one temperature."""
+        """Mask of the parameters to fit, and the reasons of the rules (one pressure, one temperature) by index."""
         given = ("shear_modulus" in self.options.fixed, "stress" in self.options.fixed)
         reasons = frozen_by_rule(self.pressure, self.temperature, given)
         fixed = [NAMES.index(name) for name in self.options.fixed]
@@ -144,8 +146,8 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
         return {NAMES.index(name) for name in self.options.free}
 
     def elastic_part_shows(self, free: np.ndarray) -> bool:
-        """True if a fit of the shear modulus is significantly better than the scene's value (F test): the Deborah
-        number by which the data look viscous is that of the scene's modulus, which may be far off."""
+        """True if a fit with a free shear modulus is significantly better than one with the scene's value (F test). The
+        Deborah number alone does not decide, because it is computed with the scene's modulus, which may be far off."""
         without = free.copy()
         without[list(GROUPS[0])] = False
         losses = []
@@ -187,10 +189,11 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
         )
 
     def starts(self, problem: Problem, free: np.ndarray) -> np.ndarray:
-        """The most promising of a scan over the shear modulus, at each of which the stress is brought to the tops of
-        the curves; then random ones about the first: a factor of 3 in ln, 1 1/GPa, 0.5 kK.
+        """Starting points: the best of a scan over the shear modulus, each with the stress adapted to the maxima of the
+        curves; then random points about the first, with standard deviations of ln 3, 1 1/GPa and 0.5 kK.
 
-        Far from the solution the modulus may not show at all, and no optimiser finds its way from there.
+        The scan is needed because far from the solution the modulus may have no effect at all, and no optimiser can
+        start there.
         """
         base, directions = np.asarray(problem.base), np.asarray(problem.directions)
         axes = np.eye(len(NAMES))
@@ -214,7 +217,7 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
         return found
 
     def stress_shift(self, coordinates: np.ndarray) -> float:
-        """Change of ln(stress) that brings the model to the measured tops of the curves, in the mean."""
+        """Change of ln(stress) with which the model meets the measured maxima of the curves in the median."""
         curve, size = self.curve, np.abs(self.coefficient)
         tops = [points[np.argmax(size[points])] for points in (np.flatnonzero(curve == n) for n in np.unique(curve))]
         shift = 0.0
@@ -234,12 +237,13 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
         return np.asarray(deborah_number(self.state.patch, speed, self.state.temperature, oil))
 
     def predicted(self, coordinates: np.ndarray) -> np.ndarray:
-        """Coefficients at natural coordinates."""
+        """Traction coefficients of the model at natural coordinates."""
         every = coefficients(self.scene, self.batch, self.rheology, jnp.asarray(coordinates))
         return np.asarray(every)[: self.count]
 
     def optimised(self, problem: Problem, starts: np.ndarray) -> tuple[Problem, Estimate, Array]:
-        """The best of the starts; with a robust loss or errors of the slide ratio the deviations are renewed."""
+        """The last problem, the estimates from all starts, and the unknowns of the best; with a robust loss or errors
+        of the slide-to-roll ratio the deviations are updated between several optimisations."""
         rounds = 1 if self.options.loss == "linear" and not self.options.errors.slide_to_roll else REWEIGHTINGS
         found, u = None, jnp.asarray(starts[0])
         for turn in range(rounds):
@@ -271,8 +275,8 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
         return spread(jacobian, free, variance, self.options.level)
 
     def insisted_blindly(self, held: Held) -> np.ndarray:
-        """Mask of the parameters that are fitted only because the user insists: nothing is known of them, and the
-        others' intervals hold for the values that they took."""
+        """Mask of the parameters that are fitted only because the user asks for it, although the data do not determine
+        them; the intervals of the others hold for the values that these take."""
         return np.array([i in self.insisted and i in held.reasons and held.free[i] for i in range(len(NAMES))])
 
     def undetermined(self, problem: Problem, u: Array, held: Held) -> tuple[int, str] | None:
@@ -289,7 +293,7 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
         found = {index: reason for index, reason in found.items() if index not in self.insisted}
         if not found:
             return None
-        # coefficients first: with beta or alpha held the rest may well be determined
+        # coefficients first: with beta or alpha held, the data may determine the rest
         index = max(found, key=lambda i: i % 3)
         return index, found[index]
 

@@ -1,5 +1,5 @@
-"""First values of stress and shear modulus: from another law of the oil, and from the shape of the curves, without an
-optimisation."""
+"""First values of stress and shear modulus, without an optimisation: from another law of the oil, and from the shape
+of the curves."""
 
 import dataclasses
 
@@ -11,9 +11,9 @@ from jaxbearing.lubricants import AbstractRheology, ExponentialRheology, Lubrica
 from jaxbearing.machines import DiskState
 
 ELASTIC = 3.0
-"""Deborah number above which the first slope of a curve is taken for elastic."""
+"""Deborah number above which the initial slope of a curve is taken to be elastic."""
 SMALL_SLIDE = 0.25
-"""Part of the largest coefficient of a curve below which its points are near the first slope."""
+"""Part of the largest coefficient of a curve below which its points belong to the initial slope."""
 NEWTON_STEPS = 60
 MIN_STRESS, MAX_STRESS = 1e3, 1e9
 """Range of the characteristic stress, Pa."""
@@ -23,8 +23,10 @@ def mean_stress_estimate(stress: np.ndarray, newtonian: np.ndarray) -> np.ndarra
     r"""Eyring stress from $\tau_m = \tau_0\,\mathrm{asinh}(\mu\gamma/\tau_0)$; NaN where there is none
     ($\tau_m\ge\mu\gamma$).
 
-    **Arguments:** mean stress of a contact and the stress of Newtonian flow, Pa, both > 0. Bisection in ln tau_0: the
-    right side grows from 0 to mu gamma. **Reference:** source eq. (85).
+    **Arguments:** `stress`: mean shear stress of a contact; `newtonian`: stress of Newtonian flow, mu gamma; both Pa,
+    > 0. The solution is by bisection in ln tau_0: with tau_0 the right side grows from 0 to mu gamma.
+
+    **Reference:** source eq. (85).
     """
     low, high = np.full(stress.shape, np.log(MIN_STRESS)), np.full(stress.shape, np.log(MAX_STRESS))
     for _ in range(NEWTON_STEPS):
@@ -35,11 +37,11 @@ def mean_stress_estimate(stress: np.ndarray, newtonian: np.ndarray) -> np.ndarra
 
 
 def exponential_about(rheology: AbstractRheology, pressure: float, temperature: float) -> ExponentialRheology:
-    r"""The exponential law that touches another law at a pressure, Pa, and a temperature, K.
+    r"""The exponential law that is tangent to another law at a pressure, Pa, and a temperature, K.
 
     $\alpha = \partial\ln G/\partial p$, $\beta = \partial\ln G/\partial(1/T) = -T^2\,\partial\ln G/\partial T$ and
-    $\ln G_0 = \ln G - \alpha p$ with $T_0 = T$, and the same of the stress. Of a modulus that is proportional to
-    pressure, $\alpha = 1/p$ and $\beta = 0$.
+    $\ln G_0 = \ln G - \alpha p$ with $T_0 = T$; likewise for the stress. For a modulus proportional to pressure,
+    $\alpha = 1/p$ and $\beta = 0$.
     """
     numbers = {}
     for name, law in (("shear_modulus", rheology.log_shear_modulus), ("stress", rheology.log_stress)):
@@ -64,11 +66,11 @@ def estimated_start(
     deborah: np.ndarray,
     curve: np.ndarray,
 ) -> ExponentialRheology:
-    """The rheology with stress and modulus shifted so that they agree with the curves in the mean.
+    """The rheology with stress and modulus scaled to agree with the curves in the median.
 
-    Stress: from the largest coefficient of every curve, by `mean_stress_estimate` for an Eyring stress and as the mean
-    stress itself for a `limiting` one, as the viscous function of the fit has it. Modulus: from the first slope of
-    curves with D > 3, by `elastic_slope`. Pressure and temperature coefficients stay.
+    Stress: from the largest coefficient of every curve. For an Eyring stress it is that of `mean_stress_estimate`; if
+    the viscous function of the fit has a `limiting` stress, it is the mean stress itself. Modulus: from the initial
+    slope of curves with a Deborah number > 3, by `elastic_slope`. Pressure and temperature coefficients stay.
     """
     area, load = np.asarray(state.patch.area), np.asarray(state.load)
     pressure, temperature = np.asarray(state.patch.mean_pressure), np.asarray(state.temperature)

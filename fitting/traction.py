@@ -1,4 +1,4 @@
-"""The traction model as a function of the rheology's parameters: what `estimation` minimises in a fit of an oil."""
+"""The traction model as a function of the rheology's parameters: the problem that `estimation` solves to fit an oil."""
 
 import equinox as eqx
 import jax
@@ -15,9 +15,9 @@ from .parameters import with_natural
 class Problem(AbstractProblem):
     """Differences of a two-disk machine's traction coefficients from measured ones.
 
-    **Arguments:** beside those of `AbstractProblem`:
-    - `scene`, `state`: the machine; patch, film and temperature of the points.
-    - `rheology`: its reference temperature and what is not a parameter.
+    **Arguments:** besides those of `AbstractProblem`:
+    - `scene`: the machine; `state`: patch, film and temperature of each point.
+    - `rheology`: gives the reference temperature and everything else that is not fitted.
     """
 
     scene: TwoDisk
@@ -45,11 +45,11 @@ def predicted_coefficients(
 
 
 coefficients = KeptProgram(predicted_coefficients, quick=True)
-"""The same, compiled."""
+"""Compiled `predicted_coefficients`."""
 
 
 def _slope_over_slide(problem: Problem, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
-    """d coefficient / d slide-to-roll ratio of the model at each point."""
+    """Derivative of the model's traction coefficient by the slide-to-roll ratio at each point."""
 
     def predicted(sliding):
         moved = eqx.tree_at(lambda p: p.state, problem, problem.state._replace(sliding_speed=sliding))
@@ -61,4 +61,4 @@ def _slope_over_slide(problem: Problem, u: Float[Array, " parameter"]) -> Float[
 
 
 slope_over_slide = KeptProgram(_slope_over_slide, quick=True)
-"""The same, compiled."""
+"""Compiled `_slope_over_slide`."""

@@ -6,14 +6,16 @@ import numpy as np
 from scipy import stats
 
 SINGULAR = 1e-10
-"""Singular value of the column-scaled Jacobian, relative to the largest, below which a direction is not seen at all."""
+"""Singular value of the column-scaled Jacobian, relative to the largest, up to which the data say nothing about its
+direction."""
 UNKNOWN = float(np.log(3.0))
-"""Half-width of the 95 % interval of ln G or ln tau, over the data's range, beyond which a parameter is not determined:
+"""Half-width of the interval of ln G or ln tau within the range of the data, above which a parameter is not determined:
 a factor of 3 to either side."""
 
 
 class Spread(NamedTuple):
-    """Covariance of the natural coordinates (0 for frozen ones), quantile of the interval, condition number."""
+    """Covariance of the natural coordinates (0 for held ones), quantile of Student's distribution for the interval,
+    condition number, and `degrees`: informative points minus free parameters."""
 
     covariance: np.ndarray
     quantile: float
@@ -22,10 +24,10 @@ class Spread(NamedTuple):
 
 
 def spread(jacobian: np.ndarray, free: np.ndarray, variance: float, level: float) -> Spread:
-    """Linearized covariance, $s^2(J^TJ)^{-1}$ over the free parameters; infinite where the data see nothing.
+    """Linearized covariance of the free parameters, $s^2(J^TJ)^{-1}$; infinite for those that the data do not show.
 
-    **Arguments:** `jacobian`: (point, parameter), of the residuals; `free`: mask; `variance`: s^2; `level`: of the
-    interval, 0.95.
+    **Arguments:** `jacobian`: of the residuals, (point, parameter); `free`: mask of the free parameters; `variance`:
+    s^2; `level`: of the interval, e.g. 0.95.
     """
     indices = np.flatnonzero(free)
     covariance = np.zeros((len(free), len(free)))
@@ -55,7 +57,7 @@ def spread(jacobian: np.ndarray, free: np.ndarray, variance: float, level: float
 
 
 def informative(jacobian: np.ndarray, free: np.ndarray) -> int:
-    """Number of points that the free parameters move at all: a point at no sliding, met by any law, tells nothing."""
+    """Number of points on which the free parameters have an effect: a point without sliding, for example, has none."""
     size = np.linalg.norm(jacobian[:, free], axis=1)
     return int(np.sum(size > SINGULAR * np.max(size, initial=0.0)))
 

@@ -1,4 +1,4 @@
-"""The viscous function that a fit is for."""
+"""The viscous function of a fit."""
 
 import dataclasses
 
@@ -15,8 +15,8 @@ VISCOUS = VISCOUS_LAWS
 
 
 def with_viscous_function(scene: TwoDisk, model: str | None) -> tuple[TwoDisk, str]:
-    """The scene with the viscous function of this name (None: its own, or that of its oil), and that name; the exponent
-    of Elsharkawy and Hamrock's law is the oil's, or 2."""
+    """The scene with the viscous function named `model` (None: its own, or that of its oil), and the name of that
+    function; the exponent of Elsharkawy and Hamrock's law is the oil's, or 2."""
     traction = scene.contact.traction
     viscous = viscous_function_for(traction.viscous, scene.oil)
     if model is not None and model != viscous.name:
@@ -26,10 +26,10 @@ def with_viscous_function(scene: TwoDisk, model: str | None) -> tuple[TwoDisk, s
 
 
 def held_misfit(scene: TwoDisk, fitted: tuple[str, ...]) -> tuple[str, ...]:
-    """A sentence where numbers of the oil's stress are held that were fitted with another viscous function: they mean
-    something with that one only.
+    """A sentence if stress parameters are held that were fitted with another viscous function: they are meaningful with
+    that function only.
 
-    **Arguments:** `scene`: with the viscous function of the fit, and the oil before it; `fitted`: names of the
+    **Arguments:** `scene`: with the viscous function of the fit, and the oil before the fit; `fitted`: names of the
     parameters that are fitted.
     """
     held = [SYMBOLS[i] for i in GROUPS[1] if NAMES[i] not in fitted]
@@ -38,7 +38,7 @@ def held_misfit(scene: TwoDisk, fitted: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def plain_rheology(rheology: ExponentialRheology, model: str, scene: TwoDisk) -> ExponentialRheology:
-    """Numbers instead of arrays, with the name of the law that they were fitted with."""
+    """The rheology with numbers instead of arrays, and with the viscous function and exponent of the fit."""
     numbers = {name: np.float64(getattr(rheology, name)) for name in NAMES}
     viscous = viscous_function_for(scene.contact.traction.viscous, scene.oil)
     exponent = float(viscous.exponent) if isinstance(viscous, ElsharkawyHamrock) else None

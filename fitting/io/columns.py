@@ -38,14 +38,15 @@ ALSO_CALLED = {
     "slide_roll_ratio": "slide_to_roll",
     "slip": "slide_to_roll",
 }
-"""Headings of other programs, in small letters: they are not read, for their signs and units differ, but suggested."""
+"""Headings of other programs, in lower case, and the column to suggest: such headings are not read, because their
+signs and units differ."""
 _RATIO_UNITS = {"": 1.0, "-": 1.0, "1": 1.0, "%": 100.0, "percent": 100.0}
-"""Units of a ratio, with what their numbers are divided by."""
+"""Units of a ratio, with the divisor of numbers in that unit."""
 
 
 @dataclass(frozen=True)
 class Column:
-    """One column of a file that is used.
+    """One column that is read from a file.
 
     **Arguments:**
     - `name`: which of `KNOWN` it is.

@@ -1,4 +1,4 @@
-"""The one error of curve files: which file, line and column, what was found, what is expected, what is near."""
+"""The error of curve files: file, line and column, what was found, what is expected, and the nearest valid name."""
 
 from typing import NoReturn
 
@@ -34,7 +34,7 @@ class CurveError(ValueError):
 
 
 def refusing(file: str) -> Refuse:
-    """Function that raises the error of a cell of the file."""
+    """A function that raises `CurveError` for a cell of this file."""
 
     def refuse(line: int, column: str, found: str, expected: str) -> NoReturn:
         raise CurveError(file, line, column, found, expected)

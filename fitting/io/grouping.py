@@ -1,4 +1,4 @@
-"""Points without names of their curves: which were measured in the same conditions."""
+"""Grouping of points into curves by their test conditions, for files that do not name the curves."""
 
 from collections.abc import Mapping
 
@@ -6,26 +6,26 @@ import numpy as np
 from jaxtyping import Bool, Float64, Int64
 
 RELATIVE_STEP = 0.02
-"""Pressures, loads and speeds further apart than this are two conditions."""
+"""Relative step between neighbouring pressures, loads or speeds above which they are two conditions."""
 TEMPERATURE_STEP = 2.0
-"""Temperatures further apart than this, in K, are two conditions."""
+"""Step between neighbouring temperatures, in K, above which they are two conditions."""
 
 _SHOWN = {"pressure": (1e9, 0.0, "GPa"), "load": (1.0, 0.0, "N"), "entrainment_speed": (1.0, 0.0, "m/s")}
 _SHOWN |= {"temperature": (1.0, 273.15, "degC")}
-"""Display of a condition in names of curves: SI value over the first, less the second, and the unit."""
+"""Display of a condition in names of curves: divisor of the SI value, number that is then subtracted, and unit."""
 
 
 def group(
     conditions: Mapping[str, Float64[np.ndarray, " point"]], point_count: int
 ) -> tuple[Int64[np.ndarray, " point"], tuple[str, ...], tuple[str, ...]]:
-    """Curve index of each point, names of the curves, and notes, from what was measured beside each point.
+    """Curve index of each point, names of the curves, and notes, from the conditions measured with each point.
 
-    Equal numbers cannot be asked for: a set load or speed scatters by a percent, an oil temperature drifts by degrees.
-    So each quantity is sorted, and a step between neighbours of more than 2 % (2 K for temperatures) parts two
-    conditions. Scatter and drift, however wide, have no such steps where there are many points. Where there are few,
-    steps leave most points alone: a quantity parts nothing unless at least half of the points have their value in
-    common with another one, or their condition with two others. A curve is a combination of the conditions of all
-    quantities. Conditions closer than the limits are merged, also where they were set.
+    The numbers of one condition are not equal: a set load or speed scatters by a percent, an oil temperature drifts by
+    degrees. So each quantity is sorted, and a step of more than 2 % (2 K for temperatures) between neighbours separates
+    two conditions. With many points, scatter and drift have no such steps. With few points they may have, and most
+    points are then alone in their condition. So a quantity separates curves only if at least half of the points share
+    their value with another point, or their condition with two others. A curve is a combination of the conditions of
+    all quantities. Conditions closer together than these limits are merged, even if they were set on purpose.
 
     **Arguments:**
     - `conditions`: name and SI values of each quantity that the file has.

@@ -23,12 +23,12 @@ def fit_to_dict(
 
     **Arguments:**
     - `data`, `scene`: names of the file and the scene.
-    - `notes`: of the file and the scene, said after those of the fit.
+    - `notes`: notes on the file and the scene, which follow those of the fit.
     - `oil`: file that the oil was written to.
-    - `comparison`: of several models, of which this is the best.
+    - `comparison`: rows of all models that were compared; `result` is that of the best.
 
-    Where the fit did not converge its numbers are `None`: where an iteration stopped is not a result. Where the data
-    cannot tell any parameter, the numbers are those of the first values.
+    Where the fit did not converge its numbers are `None`, because the last iterate is not a result. Where the data
+    determine no parameter, the numbers are those of the first values.
     """
     good = result.converged or result.undetermined
     shown = lambda value: plain(value) if good else None

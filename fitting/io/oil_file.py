@@ -1,4 +1,4 @@
-"""The oil of a fit as a file that scenes take: `[oil] file = "fitted_oil.toml"`."""
+"""The fitted oil as a file that scenes can name: `[oil] file = "fitted_oil.toml"`."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -17,10 +17,10 @@ from .words import SYMBOL, conditions, held, parameter_text, percent
 def write_oil(
     result: FitResult, path: str | Path, data: str, scene: str, origins: Mapping[str, Origin] | None = None
 ) -> None:
-    """Write the fitted oil in the format of the catalogue's data files; it appears whole or not at all.
+    """Write the fitted oil in the format of the catalogue's data files; the file is written completely or not at all.
 
-    What the file gives back is `result.oil` to the last digit. Its rheology carries a note, which solutions with the
-    oil repeat, where the data could not tell a parameter.
+    Reading the file gives `result.oil` to the last digit. Where the data did not determine a parameter, the rheology
+    carries a note, which solutions with the oil repeat.
 
     **Arguments:**
     - `data`, `scene`: names of the curve file and of the scene.
@@ -37,13 +37,13 @@ def fitted_oil_text(
 ) -> str:
     """The text of the file. **Arguments:** `name`: of the oil; the others as for `write_oil`.
 
-    **Raises:** `ValueError` for a fit that failed, unlike one whose data cannot tell any parameter.
+    **Raises:** `ValueError` for a fit that failed (a fit whose data determine no parameter did not fail).
     """
     if not (result.converged or result.undetermined):
         raise ValueError(f"a fit that failed has no results: {result.failure()}")
     origins = {} if origins is None else origins
     known = {**origins, "rheology": Origin(_sources(result, data, scene), _note(result, data))}
-    # a note on the rheology that was there does not speak for the fitted one
+    # the note on the previous rheology does not apply to the fitted one
     replaced = origins["rheology"].note if "rheology" in origins else ""
     oil = dataclasses.replace(result.oil, notes=tuple(note for note in result.oil.notes if note != replaced))
     described = f"rheology fitted to {data}" if result.fitted else f"rheology not told by {data}"
@@ -71,7 +71,7 @@ def _header(result: FitResult, data: str, scene: str) -> list[str]:
 
 
 def _sources(result: FitResult, data: str, scene: str) -> dict[str, str]:
-    # the law of the scene's oil, or the one that touches it
+    # held values come from the law of the scene's oil, or from its tangent exponential law
     values = f"the tangent of the law of {scene}" if result.first_values else scene
     fitted = {name: _source(name, found, result, data, values) for name, found in result.parameters.items()}
     form = dict.fromkeys(("viscous_function", "exponent"), "chosen for the fit")

@@ -30,8 +30,8 @@ _SOURCES: dict[str, tuple[str, ...]] = {
     "entrainment_speed": ("rolling speed",),
     "temperature": ("lube rtd temp", "lube temp", "pot rtd temp", "pot temp"),
 }
-"""Headings of each column, without units, the preferred first. The rolling speed of these machines is the mean of the
-two surface speeds, and their SRR is the difference over it, as ours."""
+"""Headings of each column, without units, the preferred one first. As in this package, the rolling speed of these
+machines is the mean of the two surface speeds, and their SRR is the difference divided by that mean."""
 _FORCE = "traction force"
 _REQUIRED_HEADINGS = {"slide_to_roll": "SRR (%)", "traction_coefficient": "Traction Coeff (-)"}
 _LAYOUT = "a table with the columns 'SRR (%)' and 'Traction Coeff (-)' in each 'Traction' step"
@@ -41,8 +41,9 @@ def parse_pcs(text: str, path: Path) -> CurveTable:
     """Points of the traction steps of an export; each step is one curve.
 
     Load, speed and temperature are read where every traction step has them; the temperature is the lubricant's, else
-    the pot's. The machine prints the traction coefficient without sign: it takes that of the traction force, where the
-    export has it; that force counts as positive in the sense in which it brakes at most points of the step.
+    the pot's. The machine prints the traction coefficient without a sign. Where the export has the traction force, the
+    coefficient is given the sign of that force, reversed in steps where force and slide-to-roll ratio have opposite
+    signs at most points.
 
     **Arguments:**
     - `text`: the content of the file.
@@ -88,7 +89,7 @@ class _Reader:
                     raise CurveError(self._file, row.number, "", f"{cells} cells", expected)
 
     def _choose(self) -> dict[str, str]:
-        """The heading to read, by column."""
+        """The heading that is read for each column."""
         found = {}
         for name, headings in _SOURCES.items():
             heading = next((heading for heading in headings if self._has(heading, name in REQUIRED)), None)
@@ -99,11 +100,11 @@ class _Reader:
         return found
 
     def column(self, name: str, heading: str) -> Float64[np.ndarray, " point"]:
-        """Values in SI."""
+        """Values of a column in SI, over all sweeps."""
         return np.concatenate([self._column_of_step(name, heading, step) for step in self._sweeps])
 
     def signed(self, values: dict[str, np.ndarray]) -> tuple[Float64[np.ndarray, " point"], str]:
-        """Traction coefficients with the sign of the force, and what to say about it."""
+        """Traction coefficients with the sign of the force, and a note about the sign."""
         coefficient = values["traction_coefficient"]
         if not self._has(_FORCE, required=False):
             return coefficient, "The export has no traction force: coefficients are taken as printed, without sign."
@@ -125,7 +126,7 @@ class _Reader:
         return notes
 
     def _has(self, heading: str, required: bool) -> bool:
-        """True if all sweeps have it; a column that may be absent may also be empty."""
+        """True if all sweeps have this heading; an optional column must also have at least one value in each sweep."""
         if not all(heading in step.headings for step in self._sweeps):
             return False
         return required or all(any(_cell(row.text, step, heading) for row in step.rows) for step in self._sweeps)

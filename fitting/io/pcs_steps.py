@@ -1,4 +1,4 @@
-"""The steps of a PCS Instruments export: where each begins, of what kind it is, which lines are its table."""
+"""The steps of a PCS Instruments export: first line, kind and table of each step."""
 
 import itertools
 import re
@@ -78,13 +78,14 @@ def _step(first: Line, lines: Sequence[Line]) -> Step:
 
 
 def _is_header(line: Line) -> bool:
-    """Two names with units or more, and no number: the lines above a table have one name and its value."""
+    """True if a line has at least two names with units and no number; lines above a table have one name and its
+    value."""
     cells = [cell.strip() for cell in line.text.split("\t") if cell.strip()]
     return sum(map(bool, map(_WITH_UNIT.fullmatch, cells))) > 1 and not any(map(_HAS_NUMBER.match, cells))
 
 
 def _is_remark(line: Line) -> bool:
-    """Blank lines and sentences, such as that all steps are completed, are no rows."""
+    """True if a line is blank or a sentence, e.g. that all steps are completed, and not a row of the table."""
     text = line.text.strip()
     return not text or ("\t" not in line.text.rstrip() and text[0].isalpha())
 

@@ -1,4 +1,4 @@
-"""A page that shows a fit: measured and fitted curves, and what is left between them."""
+"""A page that shows a fit: measured and fitted curves, and their differences."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -19,19 +19,19 @@ if TYPE_CHECKING:
     import matplotlib.typing
 
 NAMED = 12
-"""Curves up to which each has its own colour and name."""
+"""Largest number of curves that each have their own colour and name."""
 DRAWN = 48
-"""Fitted curves that are drawn; of more, so many of them."""
+"""Largest number of fitted curves that are drawn; of more curves, this many are selected evenly."""
 LOGARITHMIC = 6.0
-"""Largest over median slide-to-roll ratio from which on the axis is logarithmic."""
+"""Largest over median slide-to-roll ratio above which the axis is logarithmic."""
 # Okabe and Ito's colours, which all kinds of colour vision tell apart
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
 _MARKERS = "osD^v"
 _LINES = ("-", "--", ":", "-.")
 _OUTLIER, _OUTLIERS = "#B00020", "outlier (beyond 4 sigma)"
-"""Colour and name of what the fit leaves out."""
+"""Colour and name of outliers."""
 _LEVELS = 6
-"""Colours that the legend of many curves names."""
+"""Number of colours that the legend names where there are many curves."""
 
 
 class _Look(NamedTuple):
@@ -58,7 +58,7 @@ def plot_fit(result: FitResult, data: str, scene: str, notes: Sequence[str] = ()
 
     figure = Page()
     head(figure, data, f"{scene}   ·   {result.model}   ·   rms of the differences {digits(result.rms, 3)}")
-    # what is held stands among the parameters
+    # notes on undetermined parameters come last: the list of parameters already marks these as held
     told = sorted(result.notes, key=lambda note: "cannot be determined" in note)
     bottom = 0.095 + 0.019 * foot(figure, [*told, *notes])
     places = {"left": 0.075, "right": 0.72, "top": 0.86, "bottom": bottom}
@@ -144,7 +144,7 @@ def _mark_outliers(result: FitResult, slide: np.ndarray, values: np.ndarray, axe
 
 
 def _size(points: int) -> tuple[float, float]:
-    """Size and opacity of so many markers."""
+    """Size and opacity of the markers of this number of points."""
     return (4.5, 0.9) if points <= 200 else (3.0, 0.6) if points <= 1000 else (2.0, 0.35)
 
 
@@ -167,8 +167,8 @@ def _looks(result: FitResult) -> list[_Look]:
 
 
 def _by_colour(curves: Sequence[CurveFit], condition: "_Condition", second: "_Condition | None") -> list[_Look]:
-    """Colours over the range of a condition, of which the legend names some; markers and lines for a second one that
-    has few values, all named."""
+    """Styles of many curves: a colour scale over the first condition, some of whose colours the legend names; and, if
+    the second condition has few values, a marker and a line for each of them, all named."""
     from matplotlib import colormaps
 
     values = np.asarray([condition.value(curve) for curve in curves])
@@ -189,14 +189,15 @@ def _by_colour(curves: Sequence[CurveFit], condition: "_Condition", second: "_Co
 
 
 class _Condition(NamedTuple):
-    """One of the conditions of a curve: field of `CurveFit`, unit and value in it, and the span that is none."""
+    """A test condition: its field in `CurveFit`, the unit of display, factor and zero of the conversion to it, and the
+    span `same` up to which the condition counts as constant."""
 
     field: str
     unit: str
     factor: float
     zero: float
     same: float
-    """Relative, or in K."""
+    """Relative span, or for temperatures a span in K."""
 
     def value(self, curve: CurveFit) -> float:
         return self.factor * getattr(curve, self.field) - self.zero

@@ -14,8 +14,8 @@ from .words import SYMBOL, parameter_text
 
 
 def print_posterior(found: Posterior, console: Console, again: Predictive | None = None) -> None:
-    """Median, interval, R-hat and effective samples of each parameter, how the samples were drawn, and what they
-    predict to be measured again."""
+    """Print median, interval, R-hat and effective samples of each parameter, how the samples were drawn, and the
+    prediction of a repeated measurement."""
     print_rule(f"Posterior, {100.0 * found.level:g} % intervals", console)
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
     table.add_column("Symbol", no_wrap=True)

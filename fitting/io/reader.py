@@ -1,4 +1,4 @@
-"""Curve files of any layout that is known."""
+"""Reader of curve files in any of the known layouts."""
 
 from pathlib import Path
 
@@ -33,7 +33,7 @@ def read_curves(path: str | Path) -> CurveTable:
 
 
 def _decode_pcs(raw: bytes) -> str:
-    """Text of an export, whose degree signs may be of Windows' Western code page."""
+    """Text of an export in UTF-8, or else in Latin-1, for its degree signs may be in a Windows code page."""
     try:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError:

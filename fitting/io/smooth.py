@@ -14,9 +14,9 @@ from ..result import FitResult
 
 POINTS = 61
 _NEAR_ZERO = 5
-"""Points on either side of 0 below the smallest slides."""
+"""Number of points on either side of 0 between 0 and the smallest slide-to-roll ratio."""
 _TOGETHER = 8
-"""Curves that are computed side by side; always as many, so that one program does for all files."""
+"""Number of curves that are computed together; it is always the same, so that one compiled program serves all files."""
 
 
 class SmoothCurve(NamedTuple):
@@ -29,7 +29,7 @@ class SmoothCurve(NamedTuple):
 def smooth_curves(result: FitResult, numbers: list[int], logarithmic: bool) -> list[SmoothCurve]:
     """The fitted model along curves of the measurements.
 
-    **Arguments:** `numbers`: of the curves; `logarithmic`: whether small slides are to be shown, too.
+    **Arguments:** `numbers`: of the curves; `logarithmic`: whether the points are spaced for a logarithmic axis.
     """
     measured = result.measurements
     slide, load, speed, temperature = [], [], [], []
@@ -49,8 +49,8 @@ def smooth_curves(result: FitResult, numbers: list[int], logarithmic: bool) -> l
 
 
 def _abscissae(slide: np.ndarray, logarithmic: bool) -> np.ndarray:
-    """Abscissae of a smooth curve: over the measured range and to 0, on both sides if measured; on a logarithmic axis
-    down to the smallest slide."""
+    """Slide-to-roll ratios of a smooth curve, from 0 to the largest measured one, on both sides of 0 if both were
+    measured; on a logarithmic axis a curve on one side begins at the smallest measured one."""
     low, high = float(slide.min()), float(slide.max())
     if low < 0.0 < high:
         half = POINTS // 2 - _NEAR_ZERO
@@ -64,16 +64,16 @@ def _abscissae(slide: np.ndarray, logarithmic: bool) -> np.ndarray:
 
 
 def _side(slide: np.ndarray, count: int, logarithmic: bool) -> np.ndarray:
-    """Away from 0 to the largest slide, all of one sign."""
+    """Slide-to-roll ratios on one side of 0, from the smallest to the largest."""
     size = np.abs(slide)
     if logarithmic:
         return np.sign(slide[0]) * np.geomspace(size.min(), size.max(), count)
-    # more of them near 0, where the curves bend
+    # closer together near 0, where the curves bend
     return np.sign(slide[0]) * size.max() * np.linspace(0.0, 1.0, count + 1)[1:] ** 2
 
 
 def _filled(parts: list[np.ndarray]) -> Array:
-    """One row after the other, as many as are computed together."""
+    """All rows in one array, with copies of the last row up to the number of curves computed together."""
     return jnp.asarray(np.concatenate([*parts, *[parts[-1]] * (_TOGETHER - len(parts))]))
 
 

@@ -1,4 +1,4 @@
-"""A fit on the screen."""
+"""Summary of a fit on the screen."""
 
 from collections.abc import Iterable, Sequence
 
@@ -17,21 +17,21 @@ from ..result import FitResult
 from .words import SYMBOL, held, parameter_text, percent
 
 CURVES = 40
-"""Curves that are shown; more are counted."""
+"""Largest number of curves that are shown; the rest are only counted."""
 STRONG = 0.95
-"""Correlation from which on two parameters are named."""
+"""Magnitude of a correlation above which two parameters are named as strongly correlated."""
 _SHORTEST_NAME, _GAP = 5, 3
-"""Characters of a curve's name that are shown, and those between two columns."""
+"""Least width of a curve's name, and width of the gap between two columns, in characters."""
 WIDE = 110
-"""Columns from which on the table of the parameters has their full names, too."""
+"""Width of the screen, in characters, from which the table of parameters also shows their full names."""
 
 
 def print_fit(result: FitResult, data: str, scene: str, notes: Iterable[str], console: Console) -> None:
-    """Print one fit; where it failed, why and no result.
+    """Print one fit or, if it failed, only the reason.
 
     **Arguments:**
     - `data`, `scene`: names of the file and of the scene.
-    - `notes`: of the file and the scene, said after those of the fit.
+    - `notes`: notes on the file and the scene, which follow those of the fit.
     """
     if result.status == "not_converged":
         print_failure(data, result.status, result.failure(), console)
@@ -62,7 +62,7 @@ def print_fit(result: FitResult, data: str, scene: str, notes: Iterable[str], co
 
 
 def print_comparison(rows: Sequence[ModelRow], console: Console) -> None:
-    """The fits of several models, the best first; no number of one that failed."""
+    """Print the fits of several models, the best first; a fit that failed is listed without numbers."""
     print_rule("Models, the lowest BIC first", console)
     table = _table()
     for title, justify in (("Viscous function", "left"), *((name, "right") for name in _COMPARED)):

@@ -15,7 +15,7 @@ class CurveTable:
     - `traction_coefficient`: tangential over normal force, signed as the file has it.
     - `curve`: which curve a point belongs to, 0..n-1 in order of first appearance.
     - `curve_names`: a name for each curve.
-    - `pressure`: Hertz peak, Pa, > 0; `None` where the file has none, as for all that follow.
+    - `pressure`: maximum Hertz pressure, Pa, > 0; this and the next three are `None` where the file lacks them.
     - `load`: N, > 0. A table has pressures or loads, not both.
     - `entrainment_speed`: mean of the surface speeds, m/s, > 0.
     - `temperature`: K, > 0.

@@ -1,4 +1,4 @@
-"""Files as text: reading with errors for a person."""
+"""Reading of text files, with errors that a user understands."""
 
 from pathlib import Path
 

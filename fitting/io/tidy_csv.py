@@ -1,4 +1,4 @@
-"""Tidy CSV files: one row a point, one column a quantity, units in the header."""
+"""Tidy CSV files: one row for each point, one column for each quantity, units in the header."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -22,7 +22,7 @@ from .units_file import side_units, units_path
 
 @dataclass(frozen=True)
 class _Layout:
-    """Layout of one file: separators of the cells, and the cells that are used."""
+    """Layout of one file: separator of the cells, header, and the columns that are read."""
 
     path: Path
     separator: str
@@ -41,8 +41,8 @@ def parse_tidy_csv(text: str, path: Path) -> CurveTable:
 
     Columns, in any order: `slide_to_roll` (a ratio; `slide_to_roll [%]` in percent) and `traction_coefficient`, which
     are required; `pressure [GPa]` or `load [N]`, `entrainment_speed [m/s]`, `temperature [degC]` with any unit of the
-    dimension in the brackets; `curve`, any text. Capital letters count as small ones. Other columns are ignored with a
-    note, but for those with a unit of a condition that the file lacks, which are refused. Units may stand in a side
+    dimension in the brackets; `curve`, any text. Upper and lower case are the same. Other columns are ignored with a
+    note, unless their unit is that of a condition that the file lacks: such a column is refused. Units may be in a side
     file instead, see `units_file`. Without `curve` the points are grouped by conditions, see `grouping`.
 
     Columns are separated by commas, semicolons or tabs; decimal commas need one of the latter two. Blank lines and
@@ -88,7 +88,7 @@ def _layout(header: Line, path: Path) -> _Layout:
 
 
 def _separator(header: Line) -> str:
-    """The separator that yields most known columns; among equals, the one that is there most often."""
+    """The separator that gives the most known columns or, with equal counts, the most cells."""
 
     def score(separator: str) -> tuple[int, int]:
         names = [re.sub(r"\[.*", "", cell).strip(' "') for cell in header.text.split(separator)]
@@ -136,7 +136,7 @@ def _check_names(names: list[str], header: Line, path: Path) -> None:
 def _check_unread(
     parted: Sequence[tuple[str, str | None]], columns: Mapping[str, Column], header: Line, path: Path
 ) -> None:
-    """Refuses a column that may hold a condition of the points under another name: the scene's value would be taken."""
+    """Refuses a column that may be a missing condition under another name, which the scene's value would replace."""
     loaded = {"pressure", "load"} if columns.keys() & {"pressure", "load"} else set()
     lacking = [name for name in DIMENSIONS if name not in columns and name not in loaded]
     for name, unit in parted:
@@ -186,7 +186,7 @@ def _rows(lines: Sequence[Line], layout: _Layout) -> list[tuple[int, list[str]]]
 def _values(rows: list[tuple[int, list[str]]], numbers: list[int], layout: _Layout) -> dict[str, np.ndarray]:
     reader = NumberReader(refusing(layout.file), comma_allowed=layout.separator != ",")
     used = [column for name, column in layout.columns.items() if name != CURVE]
-    # row by row, so that the first line that is wrong is the one reported
+    # row by row, so that the first wrong line is reported
     raw = np.array([[reader.number(cells[one.index], line, one.label) for one in used] for line, cells in rows])
     return {column.name: to_si(raw[:, place], column, numbers, layout.file) for place, column in enumerate(used)}
 

@@ -1,4 +1,4 @@
-"""Options of a fit as a person types them: names, numbers with units, per cent."""
+"""Options of a fit as a user types them: names, numbers with units, percentages."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -16,7 +16,10 @@ _DIMENSIONS: dict[str, Dimension] = {"Pa": PRESSURE, "1/Pa": INVERSE_PRESSURE, "
 
 
 def choice(option: str, given: str, known: Sequence[str]) -> str:
-    """**Raises:** `SceneError` for what is not one of the known words."""
+    """The given word, checked against the known words.
+
+    **Raises:** `SceneError` for any other word.
+    """
     if given not in known:
         raise SceneError(option, "", describe(given), one_of(known), nearest(given, known))
     return given
@@ -31,12 +34,15 @@ def parameter_name(option: str, given: str) -> str:
 
 
 def parameter_names(option: str, given: Iterable[str]) -> tuple[str, ...]:
-    """**Raises:** `SceneError`."""
+    """Names of parameters, each once, given by names or symbols.
+
+    **Raises:** `SceneError`.
+    """
     return tuple(dict.fromkeys(parameter_name(option, name) for name in given))
 
 
 def bounds(option: str, given: Iterable[str]) -> dict[str, tuple[float | None, float | None]]:
-    """ "NAME=LOW:HIGH" texts with units, either end empty, as name -> bounds in SI.
+    """Bounds in SI by name of parameter, from texts "NAME=LOW:HIGH" with units; one of the two ends may be empty.
 
     **Raises:** `SceneError`.
     """
@@ -66,7 +72,7 @@ def _end(option: str, name: str, text: str) -> float | None:
 
 
 def ratio(option: str, given: str, example: str, largest: float = math.inf) -> float:
-    """A number from 0 on, also in per cent, and below `largest`.
+    """A number from 0 to below `largest`, which may be given in per cent.
 
     **Raises:** `SceneError`.
     """

@@ -16,15 +16,15 @@ _EXPECTED = 'a table [units] with lines such as pressure = "GPa"'
 
 
 def units_path(path: Path) -> Path:
-    """Path at which the side file of a curve file would lie."""
+    """Path of the side file of a curve file, whether or not it exists."""
     return path.with_name(f"{path.stem}.units.toml")
 
 
 def side_units(path: Path, columns: list[str]) -> dict[str, str]:
     """Units by name of column, from the side file of the curve file `path`; empty where there is no side file.
 
-    **Raises:** `CurveError`, with the side file as its file, where that is not TOML, has no table `[units]`, or names
-    a column that is not among `columns`.
+    **Raises:** `CurveError` that names the side file, if that is not TOML, has no table `[units]`, or names a column
+    that is not among `columns`.
     """
     side = units_path(path)
     if not os.path.exists(side):  # unlike Path.exists, no error for a name too long to exist

@@ -1,4 +1,4 @@
-"""Parameters and conditions of a fit as a person reads them: engineer's units, as many digits as are known."""
+"""Parameters and conditions of a fit as texts: in engineering units, with as many digits as are significant."""
 
 import math
 from typing import NamedTuple
@@ -13,13 +13,13 @@ from ..result import FitResult, Parameter
 SYMBOL: dict[str, str] = dict(zip(NAMES, SYMBOLS, strict=True))
 _SI: dict[str, str] = dict(zip(NAMES, UNITS, strict=True))
 _PRESSURES = ((1e8, "GPa", 1e-9), (1e5, "MPa", 1e-6), (1e2, "kPa", 1e-3), (0.0, "Pa", 1.0))
-"""Units of a pressure: smallest value that is shown in it, unit, factor from SI."""
+"""Units of a pressure: smallest value, Pa, that is shown in the unit, its name, and the factor from SI."""
 _MOST_DIGITS = 7
 _ERROR_DIGITS = 2
 
 
 class ParameterText(NamedTuple):
-    """One parameter: texts in `unit`; `error` and `interval` are empty where there are none."""
+    """Texts of one parameter, in `unit`; `error` and `interval` are empty if it has none."""
 
     value: str
     unit: str
@@ -38,7 +38,7 @@ def parameter_text(name: str, parameter: Parameter) -> ParameterText:
     if error is None or parameter.lower is None or parameter.upper is None:
         return ParameterText(digits(value), unit, "", "")
     error, lower, upper = factor * error, factor * parameter.lower, factor * parameter.upper
-    # no interval is wider than the digits that are shown of its ends
+    # the ends of the interval have as many decimals as the value
     decimals = _decimals(value, error)
     shown = lambda number: digits(number) if decimals is None else f"{number:.{decimals}f}"
     return ParameterText(shown(value), unit, digits(error, _ERROR_DIGITS), f"{shown(lower)} to {shown(upper)}")
@@ -63,7 +63,7 @@ def _decimals(value: float, error: float) -> int | None:
 
 
 def percent(level: float) -> str:
-    """A level of confidence."""
+    """A confidence level in per cent, as text."""
     return f"{100.0 * level:.6g} %"
 
 
@@ -83,7 +83,7 @@ def _range(values: list[float], unit: str, significant: int) -> str:
 
 
 def held(parameter: Parameter, scene: str = "") -> str:
-    """Why a parameter has no interval, in words; with the name of the scene whose value it has."""
+    """A text that says why a parameter has no interval and, if it is held, names the scene its value comes from."""
     if not parameter.fixed:
         return f"no interval: {parameter.reason}"
     where = f" at the value of {scene}" if scene and not parameter.reason.startswith("at its bound") else ""

@@ -77,7 +77,7 @@ def film_shape(point: Point, mesh: Mesh) -> Float[Array, " node"]:
 
 
 def mass(fluid: Fluid, pressure: Float[Array, " node"], film: Float[Array, " node"]) -> Float[Array, " node"]:
-    """m: density ratio times film."""
+    """The mass m: density ratio times film."""
     return fluid.density_ratio(pressure) * film
 
 

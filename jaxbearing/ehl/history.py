@@ -16,7 +16,7 @@ SOLVER = "bdf2"
 
 
 class FilmHistory(eqx.Module):
-    """Film over time. The minimum is the lowest value at a node: a parabola may fall below 0 at the kink after a stop."""
+    """Film over time. The minimum is the lowest value at a node: a parabola may fall below 0 at the kink of a stop."""
 
     central: Float[Array, " time"] = eqx.field(metadata=label("m", "film at the centre"))
     minimum: Float[Array, " time"] = eqx.field(metadata=label("m", "smallest film"))

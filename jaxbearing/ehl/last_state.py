@@ -26,8 +26,8 @@ class FilmState(eqx.Module):
 
     **Arguments:** `x`: places of the nodes, m; values at the last three times, newest first: `pressure`, Pa, `offset`
     of the film, m, and `mass`, density over that at ambient pressure times film, m; `steps` between these times, s;
-    `known`: number of these times that are known; `proposal`: the step to try next, s; `identity`: which contact it is (`None`:
-    not known, as in files of earlier versions).
+    `known`: number of these times that are known; `proposal`: the step to try next, s; `identity`: which
+    contact it is (`None`: not known, as in files of earlier versions).
     """
 
     of: ClassVar[str] = "line contact"

@@ -53,8 +53,8 @@ class FilmModel(Checked):
 
     **Arguments:**
     - `compressible`: whether the density follows Dowson and Higginson; else it is constant.
-    - `nodes`: number of nodes of the mesh; the film's error is about 0.9 % at 201 nodes and M < 50, a quarter of that for
-      each doubling, and more under heavier loads (`resolution.mesh_error`).
+    - `nodes`: number of nodes of the mesh; the film's error is about 0.9 % at 201 nodes and M < 50, a quarter of that
+      for each doubling, and more under heavier loads (`resolution.mesh_error`).
     - `inlet`: length of the domain upstream of the centre, half widths; light loads need more than 4
       (`resolution.cut_error`); below 2 the contact is starved, with its meniscus there.
     - `film_limit`: film at which a transient run ends, m: below about 0.5 nm oil is no continuum.
@@ -105,11 +105,11 @@ class Scales(NamedTuple):
     hertz_pressure: Float[Array, ""]
     load_per_length: Float[Array, ""]
     film: Float[Array, ""]
-    """a^2/R', m."""
+    """Unit of the film: a^2/R', m."""
     reference_speed: Float[Array, ""]
     """|u_m| of the operation, 1 m/s where that is 0."""
     wedge: Float[Array, ""]
-    """lambda = 12 eta_0 u R'^2/(a^3 p_h)."""
+    """Speed number lambda = 12 eta_0 u R'^2/(a^3 p_h)."""
     moes_load: Float[Array, ""]
     moes_material: Float[Array, ""]
 
@@ -194,7 +194,7 @@ class EHLLineContact(AbstractScene):
         return Fluid(self.oil.viscosity, temperature, scales.hertz_pressure, self.contact.compressible)
 
     def formulas(self, speed: Scalar | None = None) -> dict[str, Float[Array, ""]]:
-        """Film thicknesses by formulas, for comparison, m. **Arguments:** `speed`: m/s; the operation's where not given."""
+        """Films by formulas, for comparison, m. **Arguments:** `speed`: m/s; that of the operation if not given."""
         inlet = self.oil.at(self.operation.oil_temperature)
         speed = jnp.abs(jnp.asarray(self.operation.entrainment_speed if speed is None else speed, dtype=float))
         laws: dict[str, AbstractLineFilm] = {

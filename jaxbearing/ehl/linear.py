@@ -41,13 +41,13 @@ class Linearized(NamedTuple):
 
 @functools.lru_cache(maxsize=64)
 def _static(nodes: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Seed vectors of the colours; for each band offset: colour of the column, 1 inside the mesh, 1 at an unknown."""
+    """Seed vectors of the colours; for each band offset the colour of the column, masks of nodes and of unknowns."""
     columns = np.arange(nodes)
     seeds = (columns[None, :] % BAND == np.arange(BAND)[:, None]).astype(float)
     inner = np.arange(1, nodes - 1)
     column = inner[None, :] + np.arange(-REACH, REACH + 1)[:, None]
     inside = (column >= 0) & (column < nodes)
-    # the pressures at both ends are not unknown
+    # the pressures at both ends are known: 0
     unknown = (column >= 1) & (column < nodes - 1)
     return seeds, column % BAND, inside.astype(float), unknown.astype(float)
 

@@ -16,7 +16,7 @@ FINE = 2_000
 
 
 class Mesh(NamedTuple):
-    """Nodes X_1 < ... < X_n (in half widths) and the constants that follow from them. Built by `mesh` from a hashable key."""
+    """Nodes X_1 < ... < X_n, in half widths, and constants that follow from them. `mesh` keeps one for each key."""
 
     x: np.ndarray
     """Nodes, shape (n,)."""

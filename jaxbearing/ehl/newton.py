@@ -1,4 +1,4 @@
-"""Semismooth Newton's method for a line contact: a new active set in each step, limited steps, a status and no exception."""
+"""Semismooth Newton's method for a line contact: a new active set in each step, limited steps, no exceptions."""
 
 from typing import NamedTuple
 

@@ -37,7 +37,8 @@ def cut_error(inlet: float, ratio: Values) -> Values:
 
 
 def chosen(accuracy: float, fewest: int, ratio: float, material: float, inlet: float | None) -> tuple[int, float]:
-    """Number of nodes and inlet length that keep the sum of both errors below `accuracy`, else the finest mesh.
+    """Number of nodes and inlet length that keep the sum of both errors below `accuracy` (for a given `inlet` that of
+    the mesh alone), else the finest mesh.
 
     **Arguments:** `accuracy`, relative, of the films; `fewest` nodes; `ratio`, `material`: x and L; `inlet`, half
     widths, or None: chosen too (then it uses its share of the error).

@@ -32,8 +32,9 @@ LOW_PRESSURE_SIDE = 1.2
 
 
 class Steady(eqx.Module):
-    """Steady problem of a line contact. **Arguments:** `fluid`; `wedge`: lambda at the reference speed; `speed`: over the reference
-    speed, any sign; `start`: smallest film of the first guess, dimensionless; `wanted`: whether to solve at all."""
+    """Steady problem of a line contact. **Arguments:** `fluid`; `wedge`: lambda at the reference speed; `speed`: over
+    the reference speed, any sign; `start`: smallest film of the first guess, dimensionless; `wanted`: whether to solve
+    at all."""
 
     fluid: Fluid
     wedge: Scalar

@@ -67,7 +67,7 @@ def require_numbers(bound: str, **values: object) -> None:
 
 
 def did_you_mean(name: str, valid: Iterable[str], before: str = "") -> str:
-    """The nearest valid name as the end of a message; "" if none is near. **Arguments:** `before`: of its path."""
+    """The nearest valid name as the end of a message; "" if none is near. **Arguments:** `before`: path in front."""
     near = difflib.get_close_matches(name, tuple(valid), n=1)
     return f"; did you mean {before + near[0]!r}?" if near else ""
 

@@ -1,4 +1,4 @@
-"""Checks of what a user gives: a wrong number that is known raises, a wrong number that is traced sets a flag.
+"""Checks of the user's input: a wrong known number raises an error, a wrong traced number sets a flag.
 
 Each check is stated once. A class states the bounds of single numbers on its fields (`bounded`, `_scene.number`), and
 the rules between several numbers in `__check_init__` (`demand`). Known numbers are checked when the object is made. A
@@ -103,7 +103,7 @@ class Checked(Hinting):
 
 
 def _is_number(value: object) -> bool:
-    """True for a number, known or traced; a truth value is none."""
+    """True for a number, known or traced, but not for a truth value."""
     if isinstance(value, bool) or getattr(value, "dtype", None) == np.bool_:
         return False
     return isinstance(value, int | float | np.generic | np.ndarray | jax.Array | Tracer)

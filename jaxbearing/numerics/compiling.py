@@ -56,7 +56,7 @@ def quick_options() -> dict[str, Any]:
 
 
 def is_tracing() -> bool:
-    """True while JAX traces a program, when every new array is traced. The test moves a number and compiles nothing."""
+    """True while JAX traces a program: new arrays are then tracers. The test makes one array and compiles nothing."""
     return isinstance(jax.device_put(np.zeros(())), Tracer)
 
 

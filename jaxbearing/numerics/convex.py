@@ -69,7 +69,7 @@ class AbstractConvexArrow(AbstractArrowSystem):
         """Work of the loads on the globals, in the unit of the energies."""
 
     def without_guess(self) -> "AbstractConvexArrow":
-        """The same equations without first guesses, on which they do not depend."""
+        """The same equations without the data of a first guess, on which they do not depend."""
         return self
 
     def element(self, unknowns, shared):
@@ -147,7 +147,7 @@ def _descent(
         radius = choose(longer, SHORTER * jnp.minimum(state.radius, state.length))
         move, length = step(view, view.size / radius)
         trial = jax.tree.map(jnp.subtract, point, move)
-        # if the start has no numbers, the length has none either, and the search ends
+        # if the start is NaN, the length is NaN too, and the search ends
         going = state.going & (view.size > tolerance) & (length > SHORTEST)
         # the first trial is the start itself
         stepped = (state.trials > 0) & jnp.any(taken)
@@ -171,7 +171,7 @@ class Descent(NamedTuple):
 
 
 def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, trials: int) -> Descent:
-    """Descends towards the minimum of the potential with all unknowns together; `bounds` do not hold it."""
+    """Descends towards the minimum of the potential with all unknowns together, without regard to `bounds`."""
     system, guess = jax.lax.stop_gradient((system, guess))
     caps = system.step_caps()
 
@@ -213,8 +213,8 @@ def settle(system: AbstractConvexArrow, point: ArrowPoint) -> ArrowPoint:
 
 
 class Settled(NamedTuple):
-    """All elements at their minima for given globals: the sum of the energies, the residuals of the globals, and the
-    Schur complement, their derivatives."""
+    """All elements at their minima for given globals: sum of the energies, residuals of the globals, and their
+    derivatives (the Schur complement)."""
 
     energy: Float[Array, ""]
     residual: Float[Array, " g"]

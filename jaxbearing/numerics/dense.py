@@ -1,6 +1,6 @@
 """Dense linear systems in blocks, so that a threaded BLAS cannot get in its own way.
 
-LAPACK's LU factorizes matrices of some 200 rows and more with several threads, which wait for each other by spinning.
+LAPACK's LU factorizes matrices of about 200 rows or more with several threads, which wait for each other by spinning.
 Where the cores are shared with anything else (XLA's own threads, another process, a container), one solve of 200
 unknowns was measured to take 120 ms instead of 0.4 ms. Here LAPACK sees small blocks only, below its threading
 thresholds, and the products between them are XLA's.
@@ -13,9 +13,9 @@ from jaxtyping import Array, Float
 from .batching import in_turn
 
 UNBLOCKED = 190
-"""Unknowns up to which LAPACK's LU stays with one thread (OpenBLAS: fewer than 40 000 entries)."""
+"""Number of unknowns up to which LAPACK's LU uses one thread (OpenBLAS: fewer than 40 000 entries)."""
 COLUMNS = 7
-"""Right sides of a triangular solve with which it stays with one thread (OpenBLAS: fewer than 8)."""
+"""Number of right sides up to which a triangular solve uses one thread (OpenBLAS: fewer than 8)."""
 
 
 def solve_dense(matrix: Float[Array, "n n"], right_side: Float[Array, " n"]) -> Float[Array, " n"]:
@@ -33,13 +33,14 @@ def solve_dense(matrix: Float[Array, "n n"], right_side: Float[Array, " n"]) -> 
 
 
 def _width(n: int) -> int:
-    """Width of the blocks: fast at this size (measured), and few enough to compile."""
+    """Width of the blocks for n unknowns: measured to be fast, with few enough blocks to compile."""
     target = 50 if n <= 300 else 68 if n <= 600 else 100
     return -(-n // -(-n // target))
 
 
 def _eliminated(given: tuple[Array, Array]) -> Array:
-    """Lanes of a batch in turn: many at once would block LAPACK (`lapack`)."""
+    """Solves (matrix, right side) by LU, or by blocks above `UNBLOCKED`; called for the lanes of a batch in turn: many
+    calls at once would block LAPACK (`lapack`)."""
     matrix, right_side = given
     n = right_side.size
     if n <= UNBLOCKED:

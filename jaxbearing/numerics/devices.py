@@ -38,8 +38,8 @@ def shared_out(run: Callable[..., Result]) -> Callable[..., Result]:
 
 
 def may_be_shared_out(given: object) -> bool:
-    """True if no devices have been chosen yet, by `jax.device_put`, a mesh, a default, or a transformation of JAX
-    around the call (of which nothing is known)."""
+    """True if nothing has chosen devices yet: not `jax.device_put`, a mesh, a default device, or a transformation of
+    JAX around the call (whose devices are unknown)."""
     if getattr(jax.config, "jax_default_device", None) is not None or not jax.sharding.get_abstract_mesh().empty:
         return False
     chosen = lambda leaf: isinstance(leaf, Tracer) or getattr(leaf, "committed", False)

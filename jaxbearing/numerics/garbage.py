@@ -36,6 +36,6 @@ def rare_garbage_collection() -> Iterator[None]:
     finally:
         with _Depth.lock:
             _Depth.inside -= 1
-            # of later Pythons the third number is always 0
+            # in later versions of Python the third number is always 0
             if _Depth.inside == 0 and gc.get_threshold()[:2] == RARELY[:2]:
                 gc.set_threshold(*_Depth.before)

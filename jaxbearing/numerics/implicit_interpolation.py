@@ -9,8 +9,8 @@ $$y_0 + (y_1 - y_0)\theta + \theta(1 - \theta)(c_0 + c_1\theta + c_2\theta^2 + c
 $\theta$ the place in the step:
 
 - If $h|J_{ii}|$ is small: degree five, through values and rates at the ends of this step and at the start of the step
-  before. A fast transient in the step before would make it oscillate. If its slopes are further than those of the cubic
-  from the rates of the stages, the cubic is used.
+  before. A fast transient in the step before would make it oscillate. If its slopes are more than `WORSE` times
+  as far from the rates of the stages as those of the cubic, the cubic is used.
 - If $h|J_{ii}|$ is large: through the values of the stages. The rate of such a component is $J_{ii}$ times its error,
   and no slope can be taken from it.
 """
@@ -26,15 +26,15 @@ from jaxtyping import Array, Bool, Float
 from .._types import Scalar
 
 RATIOS = (0.2, 5.0)
-"""Ratios of the step before to this one with which the step before is used."""
+"""Range of the ratio of the previous step to this one in which the previous step is used."""
 WORSE = 2.0
-"""Largest ratio of the distances of both slopes from the rates of the stages with which degree five is used."""
+"""Degree five is used if its slopes are at most so many times as far from the rates of the stages as the cubic's."""
 STIFF = 10.0
 """Step times rate above which a component is interpolated through the values of the stages."""
 
 
 class ImplicitInterpolation(dfx.AbstractLocalInterpolation):
-    """Interpolation of diffrax. **Arguments:** `bends`: c_0 to c_3."""
+    """Interpolation for diffrax by the polynomials of this module. **Arguments:** `bends`: c_0 to c_3."""
 
     t0: Any
     t1: Any
@@ -65,11 +65,11 @@ def two_step_bends(
     places: np.ndarray,
     weights: Float[Array, " stage"],
 ) -> Float[Array, "4 n"]:
-    """c_0 to c_3 of degree five, or of the cubic.
+    """Coefficients c_0 to c_3 of the polynomial of degree five, or of the cubic.
 
-    **Arguments:** `start`, `end`: of the step; `rates`, `past`: of the stages of this step and of the one before, the
-    first one at the start and the last one at the end; `length`, `before`: of both steps, s (0: there is none);
-    `places`, `weights`: of the stages, those of the tableau.
+    **Arguments:** `start`, `end`: values at both ends of the step; `rates`, `past`: rates at the stages of this step
+    and of the previous one, the first stage at the start and the last one at the end; `length`, `before`: lengths of
+    both steps, s (0: no previous step); `places`, `weights`: of the stages in the step, by the tableau.
     """
     ratio = before / length
     near = (ratio > RATIOS[0]) & (ratio < RATIOS[1])
@@ -100,7 +100,7 @@ def two_step_bends(
 def stage_bends(
     start: Float[Array, " n"], end: Float[Array, " n"], values: Float[Array, "stage n"], places: np.ndarray
 ) -> Float[Array, "4 n"]:
-    """c_0 to c_3 of the polynomial through the values of the stages. **Arguments:** `places`: of the stages."""
+    """Coefficients c_0 to c_3 of the polynomial through the stage values. **Arguments:** `places`: of the stages."""
     inner = inner_stages(places)
     at = places[inner]
     solve = np.linalg.inv(np.vander(at, increasing=True)) / (at * (1.0 - at))
@@ -115,6 +115,9 @@ def inner_stages(places: np.ndarray) -> list[int]:
 
 
 def chosen_bends(smooth: Float[Array, "4 n"], stiff: Float[Array, "4 n"], rates: Float[Array, " n"]) -> Array:
-    """c_0 to c_3. **Arguments:** `rates`: the step times the diagonal of the Jacobian."""
+    """Coefficients c_0 to c_3: `stiff` for each component whose rate is above `STIFF`, else `smooth`.
+
+    **Arguments:** `rates`: the step times the diagonal of the Jacobian.
+    """
     is_stiff: Bool[Array, " n"] = jnp.abs(rates) > STIFF
     return jnp.where(is_stiff[None], stiff, smooth)

@@ -42,15 +42,15 @@ _CLASSES: dict[str, Callable[..., dfx.AbstractAdaptiveSolver]] = {
 }
 
 KEPT = ("kvaerno4", "kvaerno5", "auto")
-"""Solvers that keep one Jacobian over stages and steps (`kept_jacobian`), with the arrow elimination. With the dense
-elimination, and in kvaerno3, diffrax's own iterations solve the stages; they have a reverse mode."""
+"""Solvers that keep one Jacobian over stages and steps (`kept_jacobian`), with the arrow elimination; "auto" also with
+the dense one. Otherwise, and in kvaerno3, diffrax's own iterations solve the stages; they have a reverse mode."""
 
 STAGE_ERROR = 1.0
-"""Error of the stage equations, in units of the tolerance."""
+"""Largest error of the stage equations, in units of the tolerance."""
 
 
 class NoisyChord(dfx.VeryChord):
-    """diffrax's iteration for the stage equations, for rates that carry the noise of a solve inside them.
+    """Iteration of diffrax for the stage equations, for rates that carry the noise of a solve inside them.
 
     Near a steady state all iterates but the first differ by noise alone. Their differences do not shrink, which the
     test of `VeryChord` takes for divergence, and the step is rejected. Here a difference below `noise` ends the
@@ -110,7 +110,7 @@ def _problem(
     if not isinstance(field, NestedField):
         return _Problem(field, solver, state, args, optx.rms_norm, same)
     nested = field
-    # diffrax calls the field in many places: so it is traced once
+    # diffrax calls the field in many places: with `jit` it is traced only once
     rates = eqx.filter_jit(nested.rates)
     if options.solver in IMPLICIT:
         # the arrow of the stage equations is that of the state alone
@@ -139,10 +139,10 @@ def _problem(
 def _kept_problem(
     field: Field | NestedField, state: ArrowPoint, args: object, options: IntegratorOptions, idle: int
 ) -> _Problem:
-    """Problem for `KeptJacobian`, whose iterations begin a solve inside with what the last one found."""
+    """Problem for `KeptJacobian`, whose iterations start each nested solve from the solution of the last one."""
     tolerance = jnp.asarray(options.tolerance)
     if isinstance(field, NestedField):
-        # the field is called in several places: so it is traced once
+        # the field is called in several places: with `jit` it is traced only once
         nested, first = eqx.filter_jit(field.rates), eqx.filter_jit(field.guess)
         rates = lambda t, y, a, found: nested(t, y, a[0], found, a[1])
         guess = lambda t, y, a: first(t, y, a[0])
@@ -181,7 +181,7 @@ def integrate_segment(
     - `field(t, y, args)`: rates; after NaN the step is rejected and shortened. In a `NestedField`, explicit solvers
       start the solve inside from its extrapolated last solution.
     - `times`: increasing, after `start`, s.
-    - `first_step`: s; left out: diffrax chooses it.
+    - `first_step`: length of the first step, s; left out: diffrax chooses it.
     - `idle`: number of globals at the end that are integrals along the way, on which nothing depends.
     - `adjoint`: an adjoint of diffrax, for gradients; left out: reverse mode with checkpoints.
     """
@@ -213,7 +213,7 @@ def integrate_segment(
         throw=False,
         adjoint=dfx.RecursiveCheckpointAdjoint() if adjoint is None else adjoint,
     )
-    # what is asked for is there
+    # diffrax returns all that `saveat` asks for
     saved: Any = found.ys
     ends: Any = found.ts
     states, last = saved[0], jax.tree.map(lambda leaf: leaf[0], saved[1])

@@ -20,7 +20,8 @@ Field = Callable[[Scalar, ArrowPoint, Any], ArrowPoint]
 class NestedField(NamedTuple):
     """A vector field with equations that are solved inside it, from a guess of their solution.
 
-    - `rates(time, state, args, guess, tolerance)`: rates, and the solution inside; `tolerance`: of the integration.
+    - `rates(time, state, args, guess, tolerance)`: rates, and the solution of the inner equations; `tolerance`: that of
+      the integration.
     - `guess(time, state, args)`: first guess of the solution, for a state that nothing is known about.
     """
 
@@ -49,7 +50,7 @@ class IntegratorOptions(Checked):
 class Segment(NamedTuple):
     """Result of one segment of an integration.
 
-    - `states`: at the given times; infinite behind the time at which the segment stopped.
+    - `states`: at the given times; infinite after the time at which the segment stopped.
     - `last`, `last_time`: last state that was reached, and its time, s.
     - `status`: how the segment ended; `accepted`, `rejected`: numbers of steps.
     - `step`: mean accepted step, s, with which the next segment may begin.

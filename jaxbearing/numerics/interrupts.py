@@ -18,7 +18,7 @@ from typing import NoReturn
 
 INTERRUPTED = 130
 _end_words = ["nothing was computed"]
-"""Text of a command that Ctrl-C ends before or after its work; the list has one entry."""
+"""Text for the message when Ctrl-C ends a command before or after its work; the list has one entry."""
 
 
 class Deferral:

@@ -30,24 +30,24 @@ from .small_linear import solve_blocks
 from .stage_predictors import stage_places, stage_predictors
 
 STAGE_ERROR = 0.1
-"""Error of the stage equations, in units of the tolerance."""
+"""Largest error of the stage equations, in units of the tolerance."""
 SMALL = 1e-2
-"""Correction, over `STAGE_ERROR`, below which an iteration ends whatever its ratio: it may be noise of the rates."""
+"""Correction over `STAGE_ERROR` below which the iteration ends at any ratio: it may be noise of the rates."""
 LEAST_RATIO = 0.05
-"""Ratio of two corrections that a single iteration counts with at least."""
+"""Smallest ratio of two corrections that is assumed after a single iteration."""
 MOST_ITERATIONS = 8
-"""Iterations of one stage."""
+"""Largest number of iterations of one stage."""
 SLOW = 0.3
 """Ratio of two corrections above which the next step gets a new Jacobian."""
 STEP_CHANGE = 0.2
-"""Relative change of the step above which the inverse is made anew."""
+"""Relative change of the step above which a new inverse is computed."""
 Jacobian: TypeAlias = ArrowJacobian | Float[Array, "n n"]
 """Jacobian of the rates: an arrow, or a full matrix."""
 Rates = Callable[[Scalar, ArrowPoint, Any, Any], tuple[ArrowPoint, Any]]
 
 
 class Counts(NamedTuple):
-    """Numbers of Jacobians, inverses, evaluations of the rates, and attempts that failed, of the accepted steps."""
+    """Numbers of Jacobians, inverses, evaluations of the rates and failed attempts, in the accepted steps."""
 
     jacobians: Int[Array, ""]
     inverses: Int[Array, ""]
@@ -71,16 +71,16 @@ class ArrowInverse(NamedTuple):
 
 
 Inverse: TypeAlias = ArrowInverse | Float[Array, "n n"]
-"""Inverse of a `Jacobian` times a step, taken from the identity."""
+"""Inverse of $I - sJ$ with a `Jacobian` J and a scaled step s."""
 
 
 class State(NamedTuple):
     """The state that a step leaves for the next one.
 
-    - `rate`: at the start of the step; `found`: what was found inside the last rates.
+    - `rate`: at the start of the next step; `found`: what was solved for inside the last rates.
     - `jacobian`; `inverse` of I - `scale` J; `renew`: True if the next step needs a new Jacobian.
-    - `ratio`: of two corrections, in the last iteration.
-    - `past`, `length`: stages of the step before, and its length, s (0: there is none).
+    - `ratio`: theta/(1 - theta), at most 1, with the ratio theta of two corrections in the last iteration.
+    - `past`, `length`: stages of the last step, and its length, s (0: there was none).
     """
 
     rate: Float[Array, " n"]
@@ -96,7 +96,7 @@ class State(NamedTuple):
 
 
 class _Stages(NamedTuple):
-    """Iteration of the stages: `stage`, `iteration`, iterate `k`, all stages, sizes and ratios of corrections."""
+    """State of the stage iteration: `stage`, `iteration`, iterate `k`, all stages, sizes and ratios of corrections."""
 
     stage: Int[Array, ""]
     iteration: Int[Array, ""]
@@ -133,7 +133,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
     - `guess(t, y, args)`: first guess.
     - `tolerance`: of the integration, relative and absolute.
     - `idle`: number of globals at the end that nothing depends on; they do not count in the test of convergence.
-    - `dense`: whether the Jacobian is a full matrix, and no arrow.
+    - `dense`: True if the Jacobian is a full matrix instead of an arrow.
     - `stage_error`: error of the stage equations, in units of the tolerance.
     """
 
@@ -250,7 +250,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         count, scale = self._stage_count, length * self._gamma
         lower, places = jnp.asarray(self._lower), jnp.asarray(stage_places(self.method.tableau))
         weight = self.weights(start)
-        # an inverse that belongs to another step
+        # corrects an inverse that was computed for another step
         correction = 2.0 / (1.0 + scale / held)
 
         def advance(now: _Stages) -> _Stages:
@@ -307,7 +307,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         return weight / np.sqrt(max(start.size - self.idle, 1))
 
     def times_jacobian(self, jacobian: Jacobian, vector: Float[Array, " n"], state: ArrowPoint) -> Float[Array, " n"]:
-        """Product of a kept Jacobian with a vector. **Arguments:** `state`: of the shapes of the run."""
+        """Product of a kept Jacobian with a vector. **Arguments:** `state`: any state of the run."""
         if not isinstance(jacobian, ArrowJacobian):
             return jacobian @ vector
         elements, globals_ = ravel_pytree(state)[1](vector)
@@ -364,7 +364,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
 
     @property
     def _lower(self) -> np.ndarray:
-        """The strictly lower triangle."""
+        """The strictly lower triangle of the tableau."""
         lower = np.zeros((self._stage_count, self._stage_count))
         for i, row in enumerate(self.method.tableau.a_lower):
             lower[i + 1, : i + 1] = row
@@ -391,5 +391,5 @@ def _arrow(rates: Callable[[ArrowPoint], ArrowPoint], state: ArrowPoint, idle: i
 
 
 def _one(flag: Array) -> Array:
-    """1 where true."""
+    """1 where the flag is True, else 0."""
     return jnp.where(flag, 1, 0)

@@ -1,7 +1,7 @@
-"""Roots that one program has found, for another that differentiates results there without searching again.
+"""Roots that one program has found, reused by another that differentiates the results without a new search.
 
-A search asks `at_known_root` where it would begin. In a block of `recorded_roots` its root is noted, in the order of
-the searches; in a block of `known_roots` it takes the root that was noted and does not search.
+A search is called through `at_known_root`. In a block of `recorded_roots` its root is noted, in the order of the
+searches; in a block of `known_roots` the noted root is used and there is no search.
 """
 
 from collections import deque
@@ -26,7 +26,7 @@ _ROOTS: ContextVar[_Roots | None] = ContextVar("roots that are recorded or known
 
 @contextmanager
 def recorded_roots() -> Iterator[list[object]]:
-    """For a block that is traced: gives the list of the roots that it finds, filled at its end."""
+    """Context for a block that is traced: yields the list of the roots found in it, complete at its end."""
     noted: list[object] = []
     with _set(_Roots(noted, None, True)):
         yield noted
@@ -34,10 +34,10 @@ def recorded_roots() -> Iterator[list[object]]:
 
 @contextmanager
 def known_roots(roots: Iterable[object], stiffness: bool = True) -> Iterator[None]:
-    """For a block that is traced: its searches take these roots, which `recorded_roots` noted in the same block.
+    """Context for a block that is traced: its searches take these roots, noted by `recorded_roots` for the same code.
 
-    **Arguments:** `stiffness`: whether what is computed from a Jacobian, as the stiffness, is differentiated; its
-    derivatives are NaN else, and a third of the time of tracing is saved.
+    **Arguments:** `stiffness`: True if results computed from a Jacobian, such as the stiffness, are differentiated;
+    if False their derivatives are NaN, and a third of the tracing time is saved.
     """
     with _set(_Roots([], deque(roots), stiffness)):
         yield
@@ -45,7 +45,7 @@ def known_roots(roots: Iterable[object], stiffness: bool = True) -> Iterator[Non
 
 @contextmanager
 def own_roots() -> Iterator[None]:
-    """For a block whose searches are parts of another search: their roots are neither noted nor known."""
+    """Context for searches that are parts of another search: their roots are neither noted nor taken as known."""
     with _set(None):
         yield
 
@@ -66,10 +66,10 @@ def _set(roots: _Roots | None) -> Iterator[None]:
 
 
 def at_known_root(search: Callable[[], Root], known: Callable[[Root, bool], Root]) -> Root:
-    """The root of a search.
+    """The root of a search, or the known root in its place.
 
-    **Arguments:** `search`: finds it; `known`: the same with its derivatives, from the root that was noted and
-    `stiffness` of `known_roots`.
+    **Arguments:** `search`: finds the root; `known`: gives the noted root its derivatives; its arguments are this root
+    and `stiffness` of `known_roots`.
     """
     roots = _ROOTS.get()
     if roots is None:

@@ -1,8 +1,8 @@
-"""LAPACK for the lanes of a batch, which cannot block each other.
+"""LAPACK calls for the lanes of a batch, such that the lanes cannot block each other.
 
-Before jaxlib 0.11, LAPACK's functions share the matrices of a large batch out to XLA's threads and wait for them on one
-of these threads. As many such calls at once as there are threads wait for ever: seen with jaxlib 0.10 on two cores and
-10 000 matrices of 5 x 5. On a CPU each lane of a batch therefore makes its own call here.
+Before jaxlib 0.11, LAPACK's functions distribute the matrices of a large batch over XLA's threads and wait for them on
+one of these threads. If there are as many such calls as threads, they wait for ever: seen with jaxlib 0.10 on two cores
+and 10 000 matrices of 5 x 5. On a CPU each lane of a batch therefore makes its own call here.
 """
 
 import jax
@@ -28,7 +28,7 @@ def solve(matrix: Float[Array, "*block n n"], right: Float[Array, "*block n r"])
 
 
 def solve_vector(matrix: Float[Array, "n n"], right: Float[Array, " n"]) -> Float[Array, " n"]:
-    """`solve` of one right side."""
+    """`solve` for one right side."""
     return solve(matrix, right[:, None])[:, 0]
 
 
@@ -52,7 +52,7 @@ def _factored(matrix: Float[Array, "*block n n"]) -> tuple[Float[Array, "*block 
 
 
 _Given = tuple[Float[Array, "*block n n"], Int[Array, "*block n"], Float[Array, "*block n r"]]
-"""Factors of LU, the order that its pivots make of the rows, right sides."""
+"""Factors of LU, order of the rows after pivoting, right sides."""
 
 
 def _substituted(given: _Given) -> Float[Array, "*block n r"]:

@@ -26,12 +26,12 @@ GROWTH = 4.0
 """Largest ratio of the residual after a step to that before it that the first try accepts. A smaller value rejects
 useful steps across a maximum of the residual. Random roller bearings with both rings turning show this: with 1.5, three
 times as many solves need more than 20 steps. The stages of a continuation start nearer to their root and require a
-decrease: far from the root some residuals level off, never grow by this factor, and the iteration would wander."""
+decrease: far from the root some residuals level off, so that this limit would never stop a wandering iteration."""
 LEAST_FALL = 0.1
 """A step of a continuation must achieve at least this fraction of the decrease that the linearisation predicts
 (Armijo's condition)."""
 TURNING_BACK = 0.5
-"""A step that turns back on the previous one may have at most this fraction of the length of that. As in bisection, two
+"""A step that turns back on the previous one may have at most this fraction of its length. As in bisection, two
 opposed steps halve the interval between them. Without this limit, Newton's iteration would oscillate for ever at a kink
 (a jump of the slope of an equation)."""
 ROUNDED_STEP = 1e-12

@@ -23,9 +23,9 @@ class _Shape(NamedTuple):
 def once(function: Callable[..., Result]) -> Callable[..., Result]:
     """The function under a `jax.jit` of its own, whose result is one array.
 
-    A call of which only a part of the result is used would become a function of its own in the program, because JAX
-    leaves out what is not used; with one array there is nothing to leave out. (Calls inside and outside of loops are
-    still two, since JAX leaves out dead code of outer calls alone.) All numbers of the result must be exact as 64-bit
+    JAX leaves out the parts of a result that a call does not use, so that calls using different parts would become
+    different functions in the program; one array has no such parts. (Calls inside and outside of loops still make two
+    functions, since JAX removes dead code from outer calls only.) All numbers of the result must be exact as 64-bit
     floats. The function returned takes one more argument by its name, `when`: where it is False, every number of the
     result is 0 and nothing is computed.
 

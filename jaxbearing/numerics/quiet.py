@@ -31,7 +31,7 @@ def silence_compiler() -> None:
 
     It has no effect once JAX has been imported, which reads the level only then."""
     if "jax" not in sys.modules:
-        # 1 and 2 are what other programs set, JAX itself in a process that starts this one: false alarms pass them
+        # other programs set 1 and 2, and so does JAX in a process that starts this one: false alarms pass them
         _State.silent = os.environ.setdefault(_LEVEL, "3") not in ("1", "2")
 
 
@@ -55,7 +55,7 @@ _SEEN: set[Hashable] = set()
 
 @contextmanager
 def quiet_first_time(key: Hashable) -> Iterator[None]:
-    """Context of a block that compiles a program only when it is called the first time with this key."""
+    """Context of a block that compiles a program at the first call with a key; it suppresses false alarms only then."""
     if not compiler_is_loud() or key in _SEEN:
         yield
         return

@@ -1,4 +1,4 @@
-"""Bounds of single numbers, by the words that messages show. Nothing here needs JAX or NumPy."""
+"""Bounds of single numbers, keyed by the words that messages show. Nothing here needs JAX or NumPy."""
 
 import math
 from typing import Any, NamedTuple

@@ -22,8 +22,8 @@ _COLLECTED: ContextVar[list[ValueError] | None] = ContextVar("refusals that are 
 def collecting() -> Iterator[list[ValueError]]:
     """Context in which `refuse_all` adds errors to this list and does not raise them.
 
-    Rules that cannot be decided are passed over. An object that is made inside serves to find what is wrong with it
-    and is not used."""
+    Rules that cannot be decided are passed over. An object made inside only serves to find its errors and
+    is not used."""
     found: list[ValueError] = []
     token = _COLLECTED.set(found)
     try:

@@ -1,9 +1,9 @@
-r"""Explicit Runge-Kutta methods for vector fields with a solve inside, which begins with what the last step found.
+r"""Explicit Runge-Kutta methods for vector fields with a nested solve, which starts from the last step's solution.
 
-The state that diffrax integrates is one flat vector: the state proper and, behind it, the integral of what the inner
-solve finds. That integral is of no use, but its rates, which a Runge-Kutta method keeps anyway, are what was found at
-every stage: the last one begins the next step, and with the first one it gives the slope for an extrapolation over that
-step's stages. Nothing is computed twice, and a refused step forgets what it found.
+The state that diffrax integrates is one flat vector: the state proper and, behind it, the integral of the nested
+solution. That integral is of no use, but its rates, which a Runge-Kutta method keeps anyway, are the nested solutions
+at all stages: three of them, including the last one, give a parabola that is extrapolated over the stages of the next
+step. Nothing is computed twice, and a rejected step leaves nothing behind.
 """
 
 from typing import Any, NamedTuple
@@ -14,7 +14,7 @@ from jaxtyping import Array, Float
 from .._types import Scalar
 
 FULL = 0.95
-"""Part of a step from which on a stage counts as one at its end."""
+"""Place in a step, as a fraction of it, from which a stage counts as one at the end."""
 
 
 class Memory(NamedTuple):
@@ -54,7 +54,7 @@ class Remembering(dfx.AbstractAdaptiveSolver, dfx.AbstractWrappedSolver):
 
     @property
     def scan_kind(self) -> Any:
-        """The wrapped solver's: diffrax' adjoints set it there, through this name."""
+        """The `scan_kind` of the wrapped solver, where diffrax's adjoints set it through this name."""
         return self.solver.scan_kind
 
     def order(self, terms: object) -> int | None:
@@ -65,7 +65,7 @@ class Remembering(dfx.AbstractAdaptiveSolver, dfx.AbstractWrappedSolver):
 
     @property
     def _between(self) -> tuple[int, float]:
-        """The stage that is the last but those at the end of the step, and its place in the step."""
+        """Number of the last stage before the end of the step (`FULL`), and its place in the step."""
         places = [0.0, *(float(c) for c in self.solver.tableau.c)]
         stage = max(i for i, place in enumerate(places) if place < FULL)
         return stage, places[stage]

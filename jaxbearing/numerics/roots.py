@@ -39,10 +39,10 @@ def monotone_root(
     r"""Root of a function that is strictly increasing in x on [lower, upper], elementwise.
 
     Safeguarded Newton: a Newton step that would leave the bracket (or is not finite) is replaced
-    by bisection unless it is as short as the last ones, and the bracket shrinks at every step. It stops when every
+    by bisection, unless it is shorter than `SHORT` tolerances; the bracket shrinks at every step. It stops when every
     element's step is below `tolerance * max(1, |x|)`; that step is taken, so the error is about its square (its
-    cube with an `expansion`: the steps are then Halley's, of third order). A root outside
-    the bracket ends at the nearer bracket end, and its residual says so.
+    cube with an `expansion`: the steps are then Halley's, of third order). For a root
+    outside the bracket the result is the nearer bracket end, and the residual shows it.
 
     The derivative is that of the implicit function, $dx = -(\partial f/\partial a)\,da /
     (\partial f/\partial x)$, in both modes and to any order; 0 where there is no root or the function is flat.

@@ -30,7 +30,7 @@ def _log_add_jvp(primals, tangents):
 
 @jax.jit
 def log_add(a: Values, b: Values) -> Batch:
-    """ln(e^a + e^b) for finite a, b: no overflow; the derivative is the softmax of (a, b).
+    """Logarithm ln(e^a + e^b) for finite a, b: no overflow; the derivative is the softmax of (a, b).
 
     `jnp.logaddexp` also handles infinities and NaN, which more than doubles the operations of a differentiated power
     sum and the time to compile it.
@@ -52,7 +52,7 @@ def _softplus_jvp(primals, tangents):
 
 @jax.jit
 def softplus(x: Values) -> Batch:
-    """ln(1 + e^x) for finite x, without overflow: `log_add(x, 0)`, differentiated with respect to x only."""
+    """Softplus ln(1 + e^x) for finite x, without overflow: `log_add(x, 0)`, differentiated by x only."""
     return _softplus(x)
 
 
@@ -88,7 +88,7 @@ def smooth_sign(x: Values, width: Values) -> Batch:
 
 @jax.jit
 def power(x: Values, exponent: Scalar) -> Batch:
-    """x**exponent for x > 0, computed as exp(exponent ln x); relative error about 1e-16 |exponent ln x|.
+    """Power x**exponent for x > 0, computed as exp(exponent ln x); relative error about 1e-16 |exponent ln x|.
 
     On a CPU it takes an eighth of the time of x**exponent, for which XLA calls scalar code.
     """
@@ -124,7 +124,7 @@ def safe_norm(x: Values, y: Values, floor: float = NORM_FLOOR) -> Batch:
 
 @partial(jax.jit, static_argnames=("exponent",))
 def positive_power(x: Values, exponent: float) -> Batch:
-    """x**exponent for x > 0, 0 for x <= 0: value and gradient are finite everywhere for `exponent` > 1.
+    """Power x**exponent for x > 0, 0 for x <= 0: value and gradient are finite everywhere for `exponent` > 1.
 
     Two `where` keep the power from being formed at x <= 0, where its gradient would be NaN.
     """
@@ -134,14 +134,14 @@ def positive_power(x: Values, exponent: float) -> Batch:
 
 @jax.jit
 def smoothstep(t: Values) -> Batch:
-    """t^2 (3 - 2 t) with t clipped to [0, 1]: a step from 0 to 1 with a continuous slope."""
+    """Cubic t^2 (3 - 2 t) with t clipped to [0, 1]: a step from 0 to 1 with a continuous slope."""
     t = jnp.clip(t, 0.0, 1.0)
     return t * t * (3.0 - 2.0 * t)
 
 
 @partial(jax.jit, static_argnames=("width",))
 def nonnegative_pressure(pressure: Values, width: float = 1e6) -> Batch:
-    r"""p for p >= 0, $w(e^{p/w} - 1)$ for p < 0: value and slope are exact at 0, and the value stays above -w.
+    r"""Pressure p for p >= 0, $w(e^{p/w} - 1)$ for p < 0: value and slope are exact at 0, and the value stays above -w.
 
     Newton's method tries pressures slightly below zero, where `log1p(A p)` of a viscosity law would be undefined. A
     softplus would change value and slope at p = 0.

@@ -1,4 +1,4 @@
-"""Power series, and by them cosine and sine together: on a CPU XLA leaves those of doubles to scalar code."""
+"""Power series, and cosine and sine together by such series: on a CPU, XLA computes those of doubles in scalar code."""
 
 import math
 
@@ -8,14 +8,14 @@ import jax.numpy as jnp
 from .._types import Batch, Values
 
 _HALF_PI = (1.5707963267341256, 6.077100506506192e-11)
-"""pi/2: a number of 33 bits, whose multiples below 2^20 are exact, and the rest."""
+"""Two parts of pi/2: a number of 33 bits, whose multiples below 2^20 are exact, and the rest."""
 _LARGEST = 1e15
 _SINE = tuple((-1) ** k / math.factorial(2 * k + 1) for k in range(8))
 _COSINE = tuple((-1) ** k / math.factorial(2 * k) for k in range(9))
 
 
 def horner(coefficients: tuple[float, ...], x: Values) -> Batch:
-    """sum_k c_k x^k."""
+    """Polynomial sum_k c_k x^k."""
     total = jnp.zeros_like(x)
     for c in reversed(coefficients):
         total = total * x + c
@@ -45,8 +45,8 @@ def _cosine_and_sine_jvp(primals, tangents):
 
 @jax.jit
 def cosine_and_sine(angle: Values) -> tuple[Batch, Batch]:
-    r"""cos and sin of an angle, rad, in a quarter of the time of the two functions: Taylor's series of the angle less
-    the nearest multiple of pi/2.
+    r"""Cosine and sine of an angle, rad, in a quarter of the time of the two functions: Taylor's series of the angle
+    minus the nearest multiple of pi/2.
 
     The error is below 2.3e-16 for |angle| < 1e6 rad, and below that of two last bits of the angle beyond. The result is
     NaN from 1e15 rad on, where the last bits of the angle are whole turns.

@@ -1,8 +1,8 @@
 """First iterates of the stages of an implicit Runge-Kutta method, extrapolated from earlier stages.
 
-A stage takes the Lagrange polynomial through the rates of `MOST_NODES` earlier stages, of this step and then of the one
-before. A stage at the same place as an earlier one takes that one's rates. Without a step before, or after one that is
-much shorter, the weights are those of diffrax's tableau.
+The first iterate is the value of the Lagrange polynomial through the rates of up to `MOST_NODES` earlier stages, of
+this step and then of the previous one. A stage at the same place as an earlier one takes its rates. Without a previous
+step, or after a much shorter one, the weights are those of diffrax's tableau.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
     import diffrax as dfx
 
 MOST_NODES = 4
-"""Stages from which the first iterate is extrapolated."""
+"""Largest number of stages from which a first iterate is extrapolated."""
 MOST_GROWTH = 2.0
-"""Growth of the step above which the stages of the step before are not extrapolated."""
+"""Growth of the step above which the stages of the previous step are not used."""
 APART = 0.05
 """Distance of two stages, over the step, below which only one of them is a node."""
 INSIDE = 0.95
-"""Place in the step before up to which a stage is a node; its end is the start of this step."""
+"""Place in the previous step below which a stage can be a node; the end of that step is the start of this one."""
 
 
 def stage_places(tableau: "dfx.ButcherTableau") -> np.ndarray:
@@ -32,10 +32,10 @@ def stage_places(tableau: "dfx.ButcherTableau") -> np.ndarray:
 
 
 def stage_predictors(tableau: Any, length: Scalar, before: Scalar) -> Float[Array, "stage both"]:
-    """Weights of the stages of the step before, and behind them of this step, in the first iterate of each stage.
+    """Weights of the stages of the previous step, then of those of this step, in the first iterate of each stage.
 
-    **Arguments:** `tableau`: of diffrax; `length`, `before`: of this step and of the one before, s; `before` is 0 where
-    there is none.
+    **Arguments:** `tableau`: of diffrax; `length`, `before`: lengths of this step and of the previous one, s; `before`
+    is 0 if there is none.
     """
     places = stage_places(tableau)
     count = len(places)
@@ -71,7 +71,7 @@ def predictor_nodes(places: np.ndarray, stage: int) -> list[int]:
 
 
 def _apart(places: np.ndarray, candidates: list[int]) -> list[int]:
-    """The candidates that are no closer than `APART` to an earlier one."""
+    """The candidates that are further than `APART` from all those chosen before them."""
     chosen: list[int] = []
     for j in candidates:
         if all(abs(places[j] - places[k]) > APART for k in chosen):

@@ -110,11 +110,11 @@ def choice(
 
 
 def _field(read: Callable[[Any], Any], default: object, kwargs: dict[str, Any], said: dict[str, Any]) -> Any:
-    """The static field.
+    """A static field with a converter.
 
     **Arguments:**
-    - `read`: returns the stored value of a given one; raises `ValueError`.
-    - `said`: metadata; `scenes.table_of` makes the field of the schema of scene files from them.
+    - `read`: converts a given value to the stored one, or raises `ValueError`.
+    - `said`: metadata, from which `scenes.table_of` makes the field's schema in scene files.
     """
     if default is not dataclasses.MISSING:
         kwargs["default"] = default

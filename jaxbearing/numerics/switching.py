@@ -2,9 +2,10 @@ r"""A solver that chooses between an explicit and an implicit method by the stif
 
 tsit5 has two stages at the end of its step. The change of the rates over that of the states between them measures the
 largest rate $\rho$ of the system: $h\rho = h|k_7 - k_6|/|y_7 - y_6|$. If $h\rho$ stays near the limit of stability,
-about 3.3, stability and not accuracy decides the step, and kvaerno5 takes over (`kept_jacobian`). There
-$\rho$ is that of a power iteration with the kept Jacobian, one product in each step. tsit5 takes over again where its
-steps for stability, $h\rho/3.3$, would need fewer evaluations than the implicit step took.
+about 3.3, stability and not accuracy decides the step, and kvaerno5 takes over (`kept_jacobian`). During
+implicit steps $\rho$ comes from a power iteration with the kept Jacobian, one product in each step. tsit5 takes over
+again where it would cost less: where its steps for stability, $h\rho/3.3$ in place of one implicit step, would need
+fewer evaluations (`OVERHEAD`).
 
 **Reference:** Hairer and Wanner (1996), Solving Ordinary Differential Equations II, section IV.2, for the measure.
 """
@@ -24,19 +25,19 @@ from .implicit_interpolation import ImplicitInterpolation
 from .kept_jacobian import KeptJacobian, State
 
 STABLE = 3.3
-"""h rho up to which tsit5 is stable on the negative axis."""
+"""Largest h rho for which tsit5 is stable on the negative axis."""
 NEAR = 0.9
-"""Part of that limit from which on a step counts as one that stability limits."""
+"""Fraction of that limit above which stability counts as limiting the step."""
 STIFF_STEPS = 10
-"""Steps of tsit5 in a row that stability limits, after which kvaerno5 takes over."""
+"""Number of consecutive tsit5 steps limited by stability after which kvaerno5 takes over."""
 EASY_STEPS = 3
-"""Steps of kvaerno5 in a row that tsit5 would do cheaper, after which it takes over."""
+"""Number of consecutive kvaerno5 steps that would cost less with tsit5, after which tsit5 takes over."""
 OVERHEAD = 0.7
-"""Evaluations of tsit5 over those of kvaerno5 in the same time that cost the same."""
+"""Ratio of the evaluations of tsit5 to those of kvaerno5 at which both cost the same."""
 
 
 class Choice(NamedTuple):
-    """State of the integration, and how it is chosen.
+    """State of the integration, and of the choice of its method.
 
     - `stiff`: True if the next step is one of kvaerno5; `streak`: steps in a row that speak for the other method.
     - `direction`: last vector of the power iteration; `explicit`, `switches`: steps of tsit5, changes of the method.
@@ -51,7 +52,7 @@ class Choice(NamedTuple):
 
 
 class _Either(dfx.AbstractLocalInterpolation):
-    """Within a step: the polynomial of tsit5 where tsit5 took it, that of the implicit method otherwise."""
+    """Interpolation within a step: polynomial of tsit5 if tsit5 took it, otherwise that of the implicit method."""
 
     t0: Any
     t1: Any
@@ -70,7 +71,7 @@ class _Either(dfx.AbstractLocalInterpolation):
 
 
 class Switching(dfx.AbstractAdaptiveSolver):
-    """tsit5 or kvaerno5, see the module. **Arguments:** `implicit`: of `diffrax.Kvaerno5()`."""
+    """Either tsit5 or kvaerno5, see the module. **Arguments:** `implicit`: `KeptJacobian` of `diffrax.Kvaerno5()`."""
 
     term_structure: ClassVar[Any] = dfx.AbstractTerm
     interpolation_cls: ClassVar[Any] = _Either
@@ -86,7 +87,7 @@ class Switching(dfx.AbstractAdaptiveSolver):
     def init(self, terms: object, t0: Scalar, t1: Scalar, y0: ArrowPoint, args: object) -> Choice:
         kept = self.implicit.init(terms, t0, t1, y0, args)
         zero, size = jnp.asarray(0), kept.rate.size
-        # no symmetry, so that it has a part along every mode
+        # random, so that it has a part along every mode
         direction = jnp.asarray(np.random.default_rng(0).normal(size=size))
         return Choice(kept, jnp.asarray(False), zero, direction, zero, zero)
 

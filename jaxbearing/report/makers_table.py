@@ -1,4 +1,4 @@
-"""Makers' formulas beside the physics: on the screen, as JSON, as rows of a page."""
+"""Friction by makers' formulas compared with the physical model: on the screen, as JSON, as a table of a page."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -21,10 +21,10 @@ NAMES = {
     "palmgren_timken": "Palmgren, Timken",
     "timken_tapered": "Timken",
 }
-"""Formula -> its name in tables."""
+"""Name of a formula in the code -> its name in tables."""
 PARTS = ("rolling", "sliding", "seal", "drag", "viscous", "load")
 HEADINGS = ("", "total", "power", "ratio", *PARTS)
-"""Columns of the table: moments, the power, and the total over the physical one."""
+"""Columns of the table: total moment, power loss, ratio of the total to that of the physical model, partial moments."""
 NOTE = (
     "The formulas of makers are fits to catalogue bearings and differ among themselves by two to three; no result of "
     "the package contains them."
@@ -32,8 +32,10 @@ NOTE = (
 
 
 def print_comparison(found: Comparison, label: str, console: Console, full: bool = False) -> None:
-    """Totals and parts of the formulas beside the physical ones, then what was assumed, left or missing; in full all
-    columns."""
+    """Prints moments and losses of the physical model and of each formula, then assumptions and warnings.
+
+    **Arguments:** `full`: all columns, even if they do not fit into the width of the terminal.
+    """
     covered = [one for one in found.laws if one.total is not None]
     headline(label, "CONVERGED", "bold green", _duty(found), console)
     print_rule("Moments in N mm, power in W, ratio of the totals to the physical one", console)
@@ -55,17 +57,17 @@ def print_comparison(found: Comparison, label: str, console: Console, full: bool
 
 
 def comparison_rows(found: Comparison) -> list[tuple[str, ...]]:
-    """The physical model and the formulas, a text for each of `HEADINGS`; "-" for what is not there."""
+    """Rows of texts for the columns `HEADINGS`: the physical model, then each formula; "-" for a missing value."""
     return [_row("physical model", found.physical), *(_row(NAMES[one.law], one) for one in found.laws)]
 
 
 def comparison_notes(found: Comparison) -> list[str]:
-    """Ranges that are left, inputs that are missing, differences."""
+    """Notes in words: formulas used outside their range, missing inputs, and the notes of the comparison itself."""
     return [*_of_laws(found), *found.notes]
 
 
 def comparison_listing(found: Comparison) -> Listing:
-    """The table of a page."""
+    """The comparison as a table of the report page."""
     assumed = [f"{NAMES[one.law]}: assumed: {'; '.join(one.assumed)}" for one in found.laws if one.assumed]
     units = {"power": ", W", "ratio": " to the physical model", "": ""}
     headings = [f"{name}{units.get(name, ', N mm')}" for name in HEADINGS]
@@ -74,7 +76,7 @@ def comparison_listing(found: Comparison) -> Listing:
 
 
 def comparison_to_dict(found: Comparison) -> dict[str, Any]:
-    """All numbers in SI units; those that are not finite are `None`."""
+    """The comparison for JSON: numbers in SI units, `None` where they are not finite."""
     physical = found.physical
     return {
         "converged": True,

@@ -1,4 +1,4 @@
-"""Content of the report page of a solve, of any kind."""
+"""Content of the report page of a solution of any kind."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -10,7 +10,7 @@ from .tables import Column, Row
 
 @dataclass(frozen=True)
 class Sketch:
-    """A drawing: an SVG element, which is markup and no text, with heading and caption."""
+    """A drawing with heading and caption; `markup` is an SVG element, which is put into the page unescaped."""
 
     title: str
     markup: str
@@ -19,9 +19,9 @@ class Sketch:
 
 @dataclass(frozen=True)
 class Listing:
-    """A table of texts under a heading of its own, with remarks below it.
+    """A table of texts with its own heading, and remarks below it.
 
-    - `in_words`: the last column holds words and is set as text; all other columns behind the first hold numbers.
+    - `in_words`: True if the last column is set as text, not as numbers like the columns between it and the first.
     """
 
     title: str
@@ -33,15 +33,15 @@ class Listing:
 
 @dataclass(frozen=True)
 class Content:
-    """Parts of the page; what is empty is not on it.
+    """Sections of the report page; empty ones are left out.
 
     - `operation`: the operating point in words.
-    - `headlines`: name, value of the few results at the top.
-    - `facts`: name, text of further results in words, under `facts_title`.
-    - `not_modelled`: what the scene leaves out, in words.
-    - `convergence`: name, text on how the solve ended.
-    - `checks`: text of each check of the laws' ranges, whether it was left.
-    - `stiffness`: names of the rows and columns, texts of the rows with units; "-" where the model has none.
+    - `headlines`: name and value of the few results at the top.
+    - `facts`: name and text of further results, under the heading `facts_title`.
+    - `not_modelled`: effects that the scene leaves out, in words.
+    - `convergence`: name and text of each line on how the solve ended.
+    - `checks`: text of each range check of a law, and True if the range was left.
+    - `stiffness`: names of the rows and columns, and rows of texts with units; "-" for an entry that is not modelled.
     """
 
     kind: str

@@ -1,4 +1,4 @@
-"""Pictures of a solution, whatever its kind, and the files they are written to."""
+"""Plots of a solution of any kind, and files to which they are written."""
 
 import io
 import os
@@ -17,22 +17,24 @@ if TYPE_CHECKING:
     from .._scene import AbstractScene, AbstractSolution
 
 SUFFIXES = (".png", ".svg", ".pdf")
-"""Kinds of files that a figure can be written to."""
+"""Suffixes of the file formats of a figure."""
 
 
 def plot_solution(
     solution: "AbstractSolution", title: str, scene: "AbstractScene | None" = None
 ) -> "matplotlib.figure.Figure":
-    """A page of plots of one solution: of a bearing, power loss, loads, films, pressures and sliding speeds; of a
-    two-disk machine, its traction curves; of a shaft, its bending line, moments and cut forces.
+    """Plots one solution on a page.
+
+    The page shows power loss, loads, films, pressures and sliding speeds of a bearing; traction curves of a two-disk
+    machine; bending line, moments and internal forces of a shaft.
 
     **Arguments:**
     - `solution`: one solution that converged.
     - `title`: name of the scene, at the head of the page.
-    - `scene`: of the solution; a shaft is drawn to scale with it.
+    - `scene`: scene of the solution; if it is given, a shaft is also drawn to scale.
 
-    **Raises:** `ValueError` for a batch, and for a solution that did not converge: it has no results; `TypeError`
-    for another kind of solution.
+    **Raises:** `ValueError` for a batch, and for a solution that did not converge and so has no results; `TypeError`
+    for a solution of a kind that has no plots.
     """
     draw = output(solution, "plots", "plot")
     if np.ndim(solution.converged) != 0:
@@ -43,9 +45,9 @@ def plot_solution(
 
 
 def save_plot(figure: "matplotlib.figure.Figure", path: str | os.PathLike[str]) -> None:
-    """Write a figure in the format that the suffix says: png, svg or pdf. The file appears whole or not at all.
+    """Writes a figure in the format of the suffix, png, svg or pdf. The file appears whole or not at all.
 
-    **Raises:** `ValueError` for another suffix; `OSError` where the place cannot be written.
+    **Raises:** `ValueError` for another suffix; `OSError` if the file cannot be written.
     """
     suffix = Path(path).suffix.lower()
     check_suffix(path)
@@ -55,9 +57,9 @@ def save_plot(figure: "matplotlib.figure.Figure", path: str | os.PathLike[str]) 
 
 
 def check_suffix(path: str | os.PathLike[str]) -> None:
-    """Checks the suffix of a figure's file.
+    """Checks the suffix of the file of a figure.
 
-    **Raises:** `ValueError` for a suffix that no figure can have.
+    **Raises:** `ValueError` for a suffix that is not in `SUFFIXES`.
     """
     suffix = Path(path).suffix.lower()
     if suffix not in SUFFIXES:

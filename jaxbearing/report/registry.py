@@ -1,7 +1,7 @@
-"""The one list of kinds of results, with the folder that makes the outputs of each.
+"""Registry of the kinds of results, with the folder whose modules make the outputs of each kind.
 
-A folder has a module for each output that the kind has, with the function that `_FUNCTIONS` names. They are imported
-when they are wanted: a solve on the screen needs no reader of files and no library of charts.
+A folder has one module for each output of its kind, with the function that `_FUNCTIONS` names. Modules are imported
+only when they are needed: printing a solution needs neither file formats nor plotting libraries.
 """
 
 import importlib
@@ -20,13 +20,13 @@ FOLDERS = {
     "jaxbearing.ehl.solution.LineContactSolution": "line_contact",
     "jaxbearing.shafts.solution.ShaftSolution": "shaft",
 }
-"""Kinds of steady results, by their names: the classes of kinds that are not shown need not be imported."""
+"""Class name of a steady result -> folder. Names, not classes, so that unused classes need not be imported."""
 RUNS = {
     "jaxbearing.bearings.motion.history.History": "bearing.run",
     "jaxbearing.bearings.warming.history.WarmUpHistory": "bearing.warming",
     "jaxbearing.ehl.history.LineContactHistory": "line_contact.run",
 }
-"""Kinds of transient runs."""
+"""Class name of a transient run -> folder."""
 _FUNCTIONS = {
     "summary": "print_summary",
     "json_report": "to_dict",
@@ -35,17 +35,17 @@ _FUNCTIONS = {
     "page_content": "page_content",
     "animation": "animate",
 }
-"""Module of an output -> its function."""
+"""Module of an output -> name of the function in it."""
 
 
 def output(result: object, module: str, called: str, kinds: dict[str, str] = FOLDERS) -> Callable[..., Any]:
-    """The function that makes an output of this kind of result.
+    """The function that makes an output of a result.
 
     **Arguments:**
     - `module`: name of the output in `_FUNCTIONS`.
-    - `called`: the output in words, for the message.
+    - `called`: the output in words, for the error message.
 
-    **Raises:** `TypeError` for a kind that is not listed.
+    **Raises:** `TypeError` for a result whose class is not in `kinds`.
     """
     names = (f"{kind.__module__}.{kind.__qualname__}" for kind in type(result).__mro__)
     folder = next((kinds[name] for name in names if name in kinds), None)
@@ -56,9 +56,9 @@ def output(result: object, module: str, called: str, kinds: dict[str, str] = FOL
 
 
 def check_converged(solution: "AbstractSolution") -> None:
-    """Checks that a solution has results.
+    """Checks that a solution converged.
 
-    **Raises:** `ValueError` for a solution that did not converge.
+    **Raises:** `ValueError` if it, or any lane of a batch, did not.
     """
     if not bool(np.all(solution.converged)):
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")

@@ -1,22 +1,22 @@
 """Stiffness over shaft speed as a file of the rotordynamics package ROSS: `ross.BearingElement.load(file)`.
 
-**Axes.** ROSS has z along the shaft, x and y across it, right-handed. Here: (radial, lateral, axial) is right-handed
-too, radial along the load line. So z is the axial direction, and one angle, `load_direction` from x to the load line,
-turns radial and lateral into x and y. ROSS usually has the weight along -y: the default.
+**Axes.** ROSS has z along the shaft, and x and y across it, right-handed. Here (radial, lateral, axial) is right-handed
+too, with radial along the load line. So z is the axial direction, and one angle, `load_direction` from x to the load
+line, turns radial and lateral into x and y. The default is the usual one in ROSS: weight along -y.
 
-**What the coefficients are.** Tangent stiffness of the inner ring at the shaft speeds of the table, each with all other
-degrees of freedom of the ring held; the element of ROSS has no tilt and no coupling of z with x and y, so these are
-left out. The damping is 0 because the model is quasi-static: rolling bearings damp little, but not nothing, so add
-what you know.
+**Coefficients.** Tangent stiffness of the inner ring at the shaft speeds of the table, each with all other degrees of
+freedom of the ring held. The bearing element of ROSS has neither tilt nor coupling of z with x and y, so these are left
+out. The damping is 0 because the model is quasi-static; rolling bearings have a little damping, so add a value if you
+know it.
 
-**The axis of the table.** The coefficients belong to a shaft speed. ROSS 3 has `speed` for that, and reads `frequency`
-as the whirl frequency. ROSS 2 knows `frequency` only, and looks the table up at the frequency that it analyses; in a
-synchronous analysis (unbalance, a Campbell diagram's forward line) the two are the same. A file has the one or the
-other: ROSS 3 takes both as the axes of a table over two, and ROSS 2 refuses a table without `frequency`.
+**Axis of the table.** The coefficients belong to a shaft speed. ROSS 3 calls this axis `speed`, and reads `frequency`
+as the whirl frequency. ROSS 2 knows only `frequency`, and interpolates at the frequency of its analysis; in a
+synchronous analysis (unbalance, forward line of a Campbell diagram) this is the shaft speed. A file has only one of the
+two: with both, ROSS 3 expects a two-dimensional table, and without `frequency` ROSS 2 refuses the table.
 
-**Between the speeds** ROSS 3 lays a monotone cubic through the table, and a line beyond its ends. ROSS 2.3 lays a line
-(2 speeds), a parabola (3) or a cubic smoothing spline (4 and more), which meets the values of the table to a few N/m,
-and goes on beyond the first and the last speed without a word.
+**Interpolation.** ROSS 3 uses a monotone cubic between the speeds, and continues it linearly beyond the ends. ROSS 2.3
+uses a line (2 speeds), a parabola (3) or a cubic smoothing spline (4 or more), which meets the values of the table to a
+few N/m, and extrapolates beyond the first and the last speed without a warning.
 """
 
 import math
@@ -33,14 +33,14 @@ from .files import write_whole
 from .stiffness import StiffnessTable
 
 WEIGHT_DIRECTION = -math.pi / 2
-"""Angle of the load line from x, rad: along -y."""
+"""Default angle from x to the load line, rad: the load points along -y."""
 FEWEST_SPEEDS = 2
 Version = Literal[2, 3]
 NEWEST: Version = 3
 AXES: dict[Version, str] = {2: "frequency", 3: "speed"}
-"""Major version of ROSS -> its name of the axis of shaft speeds."""
+"""Major version of ROSS -> its name for the axis of shaft speeds."""
 TESTED: dict[Version, str] = {2: "2.3.0", 3: "3.1.0"}
-"""Versions that the files were read with."""
+"""Major version of ROSS -> release with which reading the files was tested."""
 _ZERO = ("cxx", "cxy", "cyx", "cyy", "czz")
 _TAG = re.compile(r"[A-Za-z0-9_-]+")
 
@@ -57,11 +57,11 @@ def ross_bearing(
 
     **Arguments:**
     - `load_direction`: angle of the load line from ROSS's x axis towards its y axis, rad.
-    - `node`: of the rotor; `tag`: name of the element, of letters, digits, _ and -.
-    - `version`: of ROSS, 2 or 3.
+    - `node`: node of the rotor; `tag`: name of the element, of letters, digits, _ and -.
+    - `version`: major version of ROSS, 2 or 3.
 
-    **Raises:** `ValueError` for fewer than 2 speeds (of one, ROSS makes a constant), a stiffness that is not finite, or
-    a table without the radial and the lateral freedom.
+    **Raises:** `ValueError` for fewer than 2 speeds (ROSS reads a single one as a constant), a stiffness that is not
+    finite, a table without the radial and the lateral degree of freedom, or another `tag`.
     """
     if len(table.speed) < FEWEST_SPEEDS:
         raise ValueError(f"a table over speed needs at least {FEWEST_SPEEDS} speeds, got {len(table.speed)}")
@@ -77,14 +77,14 @@ def ross_bearing(
 def element_of(
     speed: np.ndarray, stiffness: np.ndarray, load_direction: float, node: int, tag: str, version: Version = NEWEST
 ) -> dict[str, object]:
-    """Arguments of `ross.BearingElement` from stiffnesses of the five degrees of freedom; axes: speed, row, column."""
+    """Arguments of `ross.BearingElement` from the 5x5 stiffness matrices; axes of `stiffness`: speed, row, column."""
     axial, *across = (RING_FREEDOMS.index(name) for name in ("axial", "radial", "lateral"))
     cosine, sine = math.cos(load_direction), math.sin(load_direction)
-    # its columns: the radial and the lateral direction in x and y
+    # columns: unit vectors of the radial and the lateral direction in x and y
     turn = np.array([[cosine, -sine], [sine, cosine]])
     plane = turn @ stiffness[:, across][:, :, across] @ turn.T
     coefficients = {f"k{a}{b}": plane[:, i, j] for i, a in enumerate("xy") for j, b in enumerate("xy")}
-    # 0 of cylindrical rollers without flanges, which carry nothing along the axis
+    # kzz is 0 for cylindrical rollers without flanges, which carry no axial load
     coefficients |= {"kzz": stiffness[:, axial, axial]} | dict.fromkeys(_ZERO, np.zeros(len(speed)))
     lists = {name: values.tolist() for name, values in coefficients.items()}
     return {"n": node, "tag": tag, AXES[version]: speed.tolist(), **lists}
@@ -101,7 +101,7 @@ def ross_text(
 ) -> str:
     """The TOML file that `ross.BearingElement.load` reads. See `ross_bearing`.
 
-    **Arguments:** `scene_label`: which bearing this is, for whoever reads the file.
+    **Arguments:** `scene_label`: name of the bearing, for a comment of the file.
     """
     element = ross_bearing(table, load_direction=load_direction, node=node, tag=tag, version=version)
     said = [
@@ -130,10 +130,10 @@ def write_ross(
     tag: str = "bearing",
     version: Version = NEWEST,
 ) -> None:
-    """Write the file of `ross_text`, whole or not at all; one that is there is replaced.
+    """Writes the file of `ross_text`, whole or not at all; an existing file is replaced.
 
-    **Raises:** `ValueError` for a name that does not end in .toml, by which ROSS knows the format, and as
-    `ross_bearing`; `OSError` where it cannot be written.
+    **Raises:** `ValueError` for a name that does not end in .toml, by which ROSS recognises the format, and as
+    `ross_bearing`; `OSError` if the file cannot be written.
     """
     if not os.fspath(file).lower().endswith(".toml"):
         raise ValueError(f"the file must end in .toml, got {os.fspath(file)!r}")
@@ -142,5 +142,5 @@ def write_ross(
 
 
 def one_line(text: str) -> str:
-    """One line of a comment: TOML allows no control characters in it."""
+    """Text for a comment: in one line, with control characters escaped, which TOML does not allow there."""
     return "".join(char if char.isprintable() else repr(char)[1:-1] for char in " ".join(text.split()))

@@ -1,4 +1,4 @@
-"""A scene as a table: every field by its path in a scene file, with its unit."""
+"""A scene as a table: each field under its path in a scene file, with its unit."""
 
 import dataclasses
 from collections.abc import Iterator, Mapping
@@ -18,14 +18,16 @@ from .backends.screen import print_line, print_rule
 from .display import ZERO_CELSIUS, display_unit, displayed
 
 _NAMES = 40
-"""Columns of the names."""
+"""Width of the column of names, in characters."""
 _SIZES = {"Pa": ((1e8, "GPa", 1e-9), (1e5, "MPa", 1e-6), (0.0, "Pa", 1.0))}
-"""SI unit -> from which size on, which unit is shown, and the factor."""
+"""SI unit -> triples of least modulus, unit shown from there on, and factor to that unit."""
 
 
 def print_scene(scene: AbstractScene, console: Console) -> bool:
-    """Prints the fields of a scene, its parts below each other; `False` for a class that no scene file describes, and
-    for a batch of scenes."""
+    """Prints the fields of a scene, one part after the other.
+
+    It prints nothing and returns `False` for a batch of scenes and for a class that no scene file describes.
+    """
     model = model_of(scene)
     rows: list[tuple[tuple[str, ...], str | None]] = []
     if model is not None:
@@ -44,7 +46,7 @@ def print_scene(scene: AbstractScene, console: Console) -> bool:
 
 
 def _rows_of_shaft(scene: ShaftSystem, model: type[BaseModel]) -> Iterator[tuple[tuple[str, ...], str | None]]:
-    """The same as `_rows`, with the sections by their numbers, and bearings, sets and forces by their names."""
+    """Rows of a shaft as `_rows` yields them, with paths by section number and by name of bearing, set or force."""
     yield from _rows(dataclasses.replace(scene.shaft, sections=()), ("shaft",), model)
     for number, section in enumerate(scene.shaft.sections):
         yield from _rows(section, ("shaft", "sections", str(number + 1)), model)
@@ -54,7 +56,7 @@ def _rows_of_shaft(scene: ShaftSystem, model: type[BaseModel]) -> Iterator[tuple
                 yield path, text
         bearing = getattr(entry, "scene", None)
         bearing = bearing[0] if isinstance(bearing, tuple) else bearing
-        # loads and speeds of its own have no effect
+        # a bearing on a shaft gets its loads and speeds from the shaft, so its own are not shown
         for path, text in _rows(bearing, (word, name), model) if bearing is not None else ():
             if path[2] != "operation":
                 yield path, text
@@ -63,7 +65,7 @@ def _rows_of_shaft(scene: ShaftSystem, model: type[BaseModel]) -> Iterator[tuple
 
 
 def _rows(part: Any, inside: tuple[str, ...], model: type[BaseModel]) -> Iterator[tuple[tuple[str, ...], str | None]]:
-    """Path and text of every field that is given; no text where a number is one of a batch."""
+    """Path and text of each field that is given; the text is `None` for the numbers of a batch."""
     for field in dataclasses.fields(part):
         value, path = getattr(part, field.name), (*inside, field.name)
         if value is None or (isinstance(value, tuple) and not value):
@@ -84,12 +86,12 @@ def _rows(part: Any, inside: tuple[str, ...], model: type[BaseModel]) -> Iterato
 
 
 def _is_table(value: eqx.Module, model: type[BaseModel], path: tuple[str, ...]) -> bool:
-    """True if the part has a field of the name that the table at its place has."""
+    """True if the scene-file table at `path` has at least one field of the part."""
     return any(is_known(model, (*path, field.name)) for field in dataclasses.fields(value))
 
 
 def _text(value: Any, said: Mapping[str, Any]) -> str:
-    """**Arguments:** `said`: metadata of the field."""
+    """Text of a value with its unit. **Arguments:** `said`: metadata of the field."""
     if isinstance(value, str | bool | int):
         return str(value).lower() if isinstance(value, bool) else str(value)
     number, si = float(value), said.get("unit", "1")

@@ -1,15 +1,22 @@
-r"""The balance of a shaft, its outer rings and its springs, as linear algebra.
+r"""Equations of equilibrium of a shaft, its outer rings and its springs.
 
-Unknowns z: the displacement $u_0$ of the shaft's point x = 0, the forces s of the bearings on the shaft, where supports
-are elastic the displacements o of the outer rings, and of springs the displacements y of the rings that they press. The
-shaft is at $w = Tu_0 + Cs + w_e$, with its `compliance` C, and the ring of a bearing at $q = Az + a$ in its own frame,
-with the mirror R: $q_b = R_b(w_b - o_b) + (c_b + y)e_x$. The force f of the bearings balances
+The unknowns z are
+
+- the displacement $u_0$ of the shaft's point x = 0,
+- the forces s of the bearings on the shaft,
+- the displacements o of the outer rings, if their supports are elastic,
+- the displacement y of the outer rings that a spring presses, for each spring.
+
+The displacement of the shaft is $w = Tu_0 + Cs + w_e$, with its `compliance` C and its bending $w_e$ under given loads
+and weight. The displacement of an inner ring relative to its outer ring is $q = Az + a$ in the frame of the bearing.
+With the mirror R and the closure c it is $q_b = R_b(w_b - o_b) + (c_b + y)e_x$. The loads f that hold the inner rings
+obey
 
 $$\sum T^TRf = F_0,\quad s + Rf = 0,\quad Ho - Rf = 0,\quad ky + \sum f_x = F_s.$$
 
-With C before the second row this is the gradient of $\Pi = \frac12s^TCs + \frac12o^THo + \frac12ky^2 - F_sy - F_0u_0 +
-\sum W_b(q_b)$, convex where every bearing has a convex energy W. Shafts that are rigid, bearings at one place and
-bearings at x = 0 are no special cases, because C need not be regular.
+If the second row is multiplied by C, the rows are the gradient of $\Pi = \frac12s^TCs + \frac12o^THo + \frac12ky^2 -
+F_sy - F_0u_0 + \sum W_b(q_b)$. It is convex if every bearing has a convex energy W. C may be singular, so rigid shafts,
+bearings at the same position and bearings at x = 0 need no special treatment.
 """
 
 from typing import NamedTuple
@@ -28,12 +35,15 @@ from .mounting import Support
 from .scene import Place, ShaftSystem
 
 SOFTENING = 1e8
-"""Stiffness in whose units the forces are unknowns, N/m: a scale of the linear algebra and nothing else."""
+"""Stiffness by which unknown forces are divided to become lengths, N/m. It only scales the linear algebra."""
 
 
 class Balance(eqx.Module):
-    """See the module. Rows and columns of `linear` and `left` count loads in N and N m, `attach` displacements in m and
-    rad."""
+    """Matrices of the equations of the module.
+
+    - `attach`, `offset`: A and a of the displacements $q = Az + a$, m and rad.
+    - `linear`, `left`, `load`: the residual is `linear` z + `left` f - `load`, N and N m.
+    """
 
     attach: Float[Array, "port unknown"]
     offset: Float[Array, " port"]
@@ -41,11 +51,11 @@ class Balance(eqx.Module):
     linear: Float[Array, "unknown unknown"]
     load: Float[Array, " unknown"]
     energy: Float[Array, "unknown unknown"]
-    """Before residuals these make gradients: C in the rows of s, else 1."""
+    """Matrix that turns the residual into the gradient of the potential: C in the rows of s, else the identity."""
     span: Float[Array, ""]
     """Length by which tilts are multiplied, m."""
     force_scale: Float[Array, ""]
-    """Size of the given loads, N."""
+    """Norm of the given loads, the weight and the spring forces, N; at least 1 N."""
     springs: int = eqx.field(static=True)
     supported: bool = eqx.field(static=True)
 
@@ -56,11 +66,11 @@ class Balance(eqx.Module):
 
     @property
     def typical_load(self) -> Array:
-        """Share of the given loads of a bearing, N."""
+        """Given loads per bearing, N."""
         return self.force_scale / self.count
 
     def displacements(self, unknowns: Float[Array, " unknown"]) -> Float[Array, "bearing 5"]:
-        """Displacement of every inner ring against its outer ring at the port, closure included, m and rad."""
+        """Displacement of each inner ring relative to its outer ring at the port, closure included, m and rad."""
         return (self.attach @ unknowns + self.offset).reshape(self.count, 5)
 
     def residual(self, unknowns: Float[Array, " unknown"], force: Float[Array, "bearing 5"]) -> Array:
@@ -68,7 +78,7 @@ class Balance(eqx.Module):
         return self.linear @ unknowns - self.load + self.left @ force.ravel()
 
     def potential(self, unknowns: Float[Array, " unknown"], energies: Float[Array, " bearing"]) -> Array:
-        """Potential energy, J. **Arguments:** `energies`: of the bearings."""
+        """Potential energy, J. **Arguments:** `energies`: energy of each bearing, J."""
         own = self.energy @ (0.5 * self.linear @ unknowns - self.load)
         return unknowns @ own + jnp.sum(energies)
 
@@ -77,26 +87,26 @@ class Balance(eqx.Module):
         return step @ (self.energy @ residual)
 
     def inverse(self, stiffness: Float[Array, "bearing 5 5"]) -> Float[Array, "unknown unknown"]:
-        """Inverse of the derivatives of the residual. **Arguments:** `stiffness`: of the bearings in their frames."""
+        """Inverse of the Jacobian of the residual. **Arguments:** `stiffness`: of each bearing in its own frame."""
         return _inverse(self, stiffness)
 
     def lengths(self) -> Float[Array, "5"]:
-        """Factors that make lengths of the five freedoms."""
+        """Factors that turn the five degrees of freedom into lengths."""
         return jnp.stack([jnp.ones(()), jnp.ones(()), jnp.ones(()), self.span, self.span])
 
     def row_units(self) -> Float[Array, " unknown"]:
-        """Factors that make forces of the residuals."""
+        """Factors that turn the residuals into forces."""
         sets = (len(self.load) - self.springs) // 5
         return jnp.concatenate([jnp.tile(1.0 / self.lengths(), sets), jnp.ones(self.springs)])
 
     def column_units(self) -> Float[Array, " unknown"]:
-        """Unknowns for a unit of the scaled ones, lengths."""
+        """Factors that turn the scaled unknowns, which are lengths, into the unknowns."""
         length, more = self.lengths(), self.count if self.supported else 0
         parts = [1.0 / length, jnp.tile(SOFTENING * length, self.count), jnp.tile(1.0 / length, more)]
         return jnp.concatenate([*parts, jnp.ones(self.springs)])
 
     def parts(self, unknowns: Float[Array, " unknown"]) -> "Parts":
-        """The unknowns by their meaning."""
+        """The unknowns, split by their meaning."""
         n = self.count
         outer = unknowns[5 + 5 * n : 5 + 10 * n].reshape(n, 5) if self.supported else jnp.zeros((n, 5))
         end = len(unknowns) - self.springs
@@ -113,8 +123,13 @@ def _inverse(balance: Balance, stiffness: Array) -> Array:
 
 
 class Parts(NamedTuple):
-    """Displacement of the shaft's point x = 0, forces of the bearings on the shaft, displacements of the outer rings,
-    all in the frame of the shaft, and those of the springs."""
+    """Unknowns of the equations, in the frame of the shaft.
+
+    - `origin`: displacement of the shaft's point x = 0, m and rad.
+    - `forces`: forces of the bearings on the shaft, N and N m.
+    - `outer`: displacements of the outer rings, m and rad.
+    - `springs`: displacements of the rings that springs press, m; closing is positive.
+    """
 
     origin: Float[Array, "5"]
     forces: Float[Array, "bearing 5"]
@@ -123,8 +138,11 @@ class Parts(NamedTuple):
 
 
 class Spring(NamedTuple):
-    """Springs that press outer rings. **Arguments:** stiffness, N/m, force without displacement, N, and the numbers of
-    the bearings whose rings are pressed."""
+    """Springs that press outer rings.
+
+    **Arguments:** `stiffness`: N/m; `force`: force without displacement, N; `places`: indices of the bearings whose
+    outer rings are pressed.
+    """
 
     stiffness: Array
     force: Array
@@ -132,7 +150,7 @@ class Spring(NamedTuple):
 
 
 class Given(NamedTuple):
-    """The loads on a shaft: the forces, their positions, m, loads, N and N m, and torques, N m."""
+    """Given forces on a shaft: their positions, m, loads, N and N m, and torques, N m."""
 
     position: Float[Array, " force"]
     load: Float[Array, "force 5"]
@@ -140,7 +158,7 @@ class Given(NamedTuple):
 
 
 def given_forces(system: ShaftSystem) -> Given:
-    """The forces on the shaft; one that balances takes the torque that the others leave."""
+    """The given forces on the shaft. The torque of a force with `balances` makes all torques add up to 0."""
     forces: tuple[AbstractForce, ...] = system.forces
     if not forces:
         return Given(jnp.zeros(0), jnp.zeros((0, 5)), jnp.zeros(0))
@@ -154,7 +172,7 @@ def given_forces(system: ShaftSystem) -> Given:
 
 
 class Axis(NamedTuple):
-    """The shaft with all that acts on it, but its bearings."""
+    """The shaft and all that acts on it except its bearings."""
 
     beam: Beam | None
     given: Given
@@ -166,14 +184,17 @@ class Axis(NamedTuple):
         position: Float[Array, " bearing"],
         forces: Float[Array, "bearing 5"],
     ) -> Float[Array, "place 5"]:
-        """Displacements of the shaft at places. **Arguments:** see `Parts`; `position`: of the bearings, m."""
+        """Displacements of the shaft at the positions `at`, m and rad.
+
+        **Arguments:** `at`: m; `origin`, `forces`: as in `Parts`; `position`: positions of the bearings, m.
+        """
         found = jnp.einsum("pij,j->pi", shifts(at), origin) + self.bent_by_loads(at)
         if self.beam is None:
             return found
         return found + jnp.einsum("pbij,bj->pi", self.beam.compliance(at, position), forces)
 
     def bent_by_loads(self, at: Float[Array, " place"]) -> Float[Array, "place 5"]:
-        """Displacements of the shaft that is clamped at x = 0 under given forces and its weight."""
+        """Displacements of the shaft under given forces and its weight if it is clamped at x = 0."""
         if self.beam is None:
             return jnp.zeros((at.shape[0], 5))
         bent = self.beam.sagging(at)
@@ -182,7 +203,7 @@ class Axis(NamedTuple):
         return bent + jnp.einsum("pkij,kj->pi", self.beam.compliance(at, self.given.position), self.given.load)
 
     def total(self) -> Float[Array, "5"]:
-        """Load on the point x = 0 of forces and weight, N and N m."""
+        """Given forces and weight, reduced to the point x = 0, N and N m."""
         total = jnp.einsum("kij,ki->j", shifts(self.given.position), self.given.load) if len(self.given.load) else 0.0
         weight = jnp.zeros(5) if self.beam is None else self.beam.weight_at(jnp.zeros(()))
         return total + weight
@@ -193,8 +214,8 @@ def axis_of(system: ShaftSystem) -> Axis:
 
 
 def support_matrix(support: Support | None) -> tuple[Float[Array, "5 5"], np.ndarray]:
-    """Stiffness of the support of an outer ring, and which of its degrees of freedom are elastic; the others have 1 on
-    the diagonal."""
+    """Stiffness of the support of an outer ring, and a mask of its elastic degrees of freedom. Rigid ones have 1 on the
+    diagonal."""
     if support is None:
         return jnp.eye(5), np.zeros(5, bool)
     if support.matrix is not None:
@@ -212,7 +233,7 @@ def build_balance(
     closure: Float[Array, " bearing"],
     springs: tuple[Spring, ...],
 ) -> Balance:
-    """The balance of a system. **Arguments:** `position`, `closure`: of all bearings, m."""
+    """The equations of a system. **Arguments:** `position`, `closure`: of each bearing, m."""
     n = len(places)
     mirror = np.asarray([[place.sense, 1.0, 1.0, place.sense, place.sense] for place in places]).ravel()
     compliance = jnp.zeros((5 * n, 5 * n))
@@ -266,8 +287,8 @@ def build_balance(
 
 
 def span_of(system: ShaftSystem, places: tuple[Place, ...], position: Float[Array, " bearing"]) -> Array:
-    """Length by which tilts are multiplied, m: the shaft's; of a rigid one the largest distance of its bearings from
-    each other, or the pitch radius of the first."""
+    """Length by which tilts are multiplied, m: the length of the shaft. For a rigid shaft it is the largest distance
+    between two bearings, but at least the pitch radius of the first bearing (50 mm if it has none)."""
     if system.shaft.sections:
         return jnp.asarray(system.shaft.length)
     geometry = getattr(places[0].scene, "geometry", None)

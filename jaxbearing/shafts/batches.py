@@ -1,7 +1,8 @@
-"""The bearings of a system in batches: those of one family and structure are one stack of scenes, and one program.
+"""Batches of the bearings of a system. Bearings of the same family and structure form one stack of scenes, which one
+program solves.
 
-A linear bearing is a batch of its own kind. Speeds and loads of the scenes' operating points are replaced: the inner
-rings turn with the shaft, and every ring is held where the shaft holds it.
+Linear bearings have a batch class of their own. Speeds and loads of the scenes' operating points are replaced: the
+inner rings turn with the shaft, and the shaft prescribes their displacements.
 """
 
 import abc
@@ -36,9 +37,9 @@ approach."""
 
 
 def on_shaft(scene: AbstractBearing, speed: Array) -> AbstractBearing:
-    """The scene with the speed of the shaft and without loads: its ring is held.
+    """The scene with the speed of the shaft, and with prescribed displacements in place of loads.
 
-    Its ring tilts to first order, with the lever that `rating.tilt` says. A transient run is no concern of a shaft.
+    Its ring tilts to first order, with the lever that `rating.tilt` chooses. Settings of a transient run are removed.
     """
     axial = "axial" in scene.modelled_freedoms
     held = HeldDisplacement(axial=0.0 if axial else None, radial=0.0, lateral=0.0)
@@ -48,7 +49,7 @@ def on_shaft(scene: AbstractBearing, speed: Array) -> AbstractBearing:
 
 
 class AbstractBatch(eqx.Module):
-    """Some bearings of a system. **Arguments:** `places`: their numbers in the system."""
+    """Bearings of a system that one program solves. **Arguments:** `places`: their indices in the system."""
 
     places: eqx.AbstractVar[tuple[int, ...]]
 
@@ -58,9 +59,9 @@ class AbstractBatch(eqx.Module):
 
     @abc.abstractmethod
     def rows(self, expansion: Float[Array, " bearing"], at_rest: bool = False) -> AbstractRow | None:
-        """The argument of `initial`, `hold` and `force_at`: the bearings without friction, for the search.
+        """Models of the bearings without friction, for the search: the argument of `initial`, `hold` and `force_at`.
 
-        **Arguments:** `expansion`: of all bearings of the system; `at_rest`: whether nothing turns.
+        **Arguments:** `expansion`: of all bearings of the system, m; `at_rest`: True to set all speeds to 0.
         """
 
     @abc.abstractmethod
@@ -75,13 +76,13 @@ class AbstractBatch(eqx.Module):
     def force_at(
         self, rows: AbstractRow | None, displacement: Float[Array, "own 5"], state: RowState | None
     ) -> Float[Array, "own 5"]:
-        """The forces of `hold`, with first derivatives. **Arguments:** `state`: none of bearings without elements."""
+        """The forces of `hold` with first derivatives. **Arguments:** `state`: `None` for bearings without elements."""
 
 
 def spread(batches: tuple[AbstractBatch, ...], parts: list[Array], count: int) -> Array:
     """Joins the arrays of the batches to one array in the order of the bearings, with zeros for those in no batch.
 
-    **Arguments:** `count`: of all bearings of the system.
+    **Arguments:** `count`: number of all bearings of the system.
     """
     together = jnp.concatenate(parts)
     order = [place for batch in batches for place in batch.places]
@@ -95,8 +96,8 @@ def spread(batches: tuple[AbstractBatch, ...], parts: list[Array], count: int) -
 class RollingBatch(AbstractBatch):
     """Bearings with rolling elements: `scene` is a stack of scenes.
 
-    `dry` are the scenes of dry rollers that may tilt, by which the tilt acts on rollers that slide (`acting`). It is
-    `None` of all others, whose scenes may tilt themselves.
+    The model of rollers that slide has no tilt. `dry` is a stack of the same bearings with dry rollers, whose model has
+    one; it gives the effect of the tilt (`acting`). It is `None` if the scenes of the batch have a tilt themselves.
     """
 
     scene: AbstractBearing
@@ -105,7 +106,7 @@ class RollingBatch(AbstractBatch):
 
     @property
     def ports(self) -> AbstractBearing:
-        """The scenes that may tilt."""
+        """The scenes whose model has a tilt."""
         return self.scene if self.dry is None else self.dry
 
     def rows(self, expansion, at_rest=False):
@@ -131,7 +132,7 @@ class RollingBatch(AbstractBatch):
 
 
 class LinearBatch(AbstractBatch):
-    """Bearings that are known by their stiffness."""
+    """Bearings that are given by their stiffness."""
 
     stiffness: Float[Array, "own 5 5"]
     places: tuple[int, ...] = eqx.field(static=True)
@@ -143,7 +144,7 @@ class LinearBatch(AbstractBatch):
         return RowState(jnp.zeros((len(self.places), 0, 0)))
 
     def hold(self, rows, displacement, state):
-        """The symmetric part alone has an energy."""
+        """Energy, force and stiffness of the symmetric part of the stiffness; the other part has no energy."""
         even = 0.5 * (self.stiffness + jnp.swapaxes(self.stiffness, 1, 2))
         force = jnp.einsum("bij,bj->bi", even, displacement)
         return HeldRow(0.5 * jnp.sum(force * displacement, axis=1), force, even, state)
@@ -159,9 +160,9 @@ def solutions(
     expansion: Float[Array, " own"],
     options: NewtonOptions,
 ) -> Solution:
-    """Solutions of a stack of bearings whose rings are held at displacements of their ports.
+    """Solutions of a stack of bearings at prescribed displacements of their ports.
 
-    Grooves move to first order with a tilt.
+    A tilt moves the grooves to first order.
     """
 
     def one(scene: AbstractBearing, displacement: Array, expansion: Array) -> Solution:
@@ -179,8 +180,11 @@ def solutions(
 
 
 class Acting(NamedTuple):
-    """Forces and stiffness of a batch as `Port` has them, and the solutions of its own scenes. Rollers that slide have
-    the solutions of the dry ones too, with the tilt of the ring and without it."""
+    """Forces and stiffness of a batch, as in `Port`, and the solutions behind them.
+
+    - `own`: solutions of the scenes of the batch.
+    - `tilted`, `even`: solutions of the dry scenes with and without the tilt of the ring; `None` without dry scenes.
+    """
 
     force: Float[Array, "own 5"]
     stiffness: Float[Array, "own 5 5"]
@@ -203,11 +207,12 @@ def acting(
     options: NewtonOptions,
     when: Bool[Array, ""] | None = None,
 ) -> Acting:
-    r"""Forces and stiffness of a batch with its rings held.
+    r"""Forces and stiffness of a batch at prescribed displacements.
 
-    The model of rollers that slide has no tilt $\tau$. To its force P comes what the tilt changes of that of dry
-    rollers, T, whose inner raceways are larger by films h: $F = P(q) + T(q, \tau, h) - T(q, 0, h)$. A bearing that does
-    not tilt is that of its own model. The films are those of a typical `load` of a bearing, N, and not unknowns.
+    The model of rollers that slide has no tilt $\tau$. The effect of the tilt is taken from dry rollers whose inner
+    raceways are enlarged by the films h: $F = P(q) + T(q, \tau, h) - T(q, 0, h)$, with the force P of the sliding
+    rollers and the force T of the dry rollers. Without tilt the force is P. The films are those at a typical `load` of
+    a bearing, N; they are not unknowns.
     """
     own = solutions(batch.scene, displacement, expansion, options, when=when)
     if batch.dry is None:
@@ -232,8 +237,9 @@ def evenly_loaded(
     options: NewtonOptions,
     when: Bool[Array, ""],
 ) -> Solution:
-    """Rollers that slide and carry the force of `acting` across the axis evenly along their length: their films, cage
-    and losses are those of this load. Newton's iteration on the displacement, without steps where there is no tilt."""
+    """Solutions of rollers that slide and carry the radial and lateral force of `acting` evenly along their length.
+    Films, cage and losses are those of this load. Newton's iteration finds the radial and lateral displacement; without
+    tilt its steps are 0."""
 
     def better(state: tuple[Array, Solution], _: None) -> tuple[tuple[Array, Solution], None]:
         place, solution = state
@@ -243,13 +249,14 @@ def evenly_loaded(
         place = place.at[:, 1:3].add(jnp.clip(step, -LOAD_STEP, LOAD_STEP))
         return (place, solutions(batch.scene, place, expansion, options, when=when)), None
 
-    # a loop is compiled once, steps one after the other are compiled each
+    # the body of a loop is compiled once, unrolled steps are compiled one by one
     return jax.lax.scan(better, (displacement, found.own), None, length=LOAD_STEPS)[0][1]
 
 
 def with_carried_loads(scene: AbstractBearing, found: Acting, solution: Solution) -> Solution:
-    """The solution of a bearing whose rollers slide with the loads that they carry under the tilt of the ring, for the
-    life: those of its own model, and along the rollers what the tilt changes of the dry ones."""
+    """The solution of a bearing with sliding rollers, with the loads that they carry under the tilted ring. The life is
+    computed from these loads: the loads of its own model plus the change of the lamina loads of dry rollers by the
+    tilt."""
     tilted, even, own = found.tilted, found.even, found.own
     assert tilted is not None
     assert even is not None
@@ -275,13 +282,13 @@ def with_carried_loads(scene: AbstractBearing, found: Acting, solution: Solution
 
 
 def _dry(scene: AbstractBearing) -> AbstractBearing:
-    """A bearing whose rollers slide, without what makes them: its rollers may tilt."""
+    """A bearing with sliding rollers without contact laws, cage, drag, flange and oil: its dry rollers can tilt."""
     names = [name for name in ("contact", "cage", "drag", "flange", "oil") if getattr(scene, name, None) is not None]
     return dataclasses.replace(scene, **dict.fromkeys(names))
 
 
 def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ...]:
-    """All bearings of a system, those of one structure together."""
+    """Batches of all bearings of a system; bearings of the same structure share a batch."""
     groups: dict[tuple[Any, ...], list[tuple[int, AbstractBearing | LinearBearing]]] = {}
     for index, place in enumerate(places):
         scene = place.scene
@@ -303,10 +310,10 @@ def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ..
 
 
 def pressure_centre(scene: AbstractBearing) -> Float[Array, ""]:
-    r"""The point where the contact normals of the unloaded bearing meet the axis, counted from the port along $e_x$,
-    m: $-\frac{d_m}2 \tan\alpha$, with the angle of the drawing. Of tapered bearings it is the normal of the cup that
-    goes through the middles of the rollers; the normal at the middle of the cup's line meets the axis farther out, by
-    2.4 % in the built-in `tapered_example`."""
+    r"""Position of the point where the contact normals of the unloaded bearing meet the axis, measured from the port
+    along $e_x$, m: $-\frac{d_m}2 \tan\alpha$, with the contact angle of the drawing. For tapered roller bearings it is
+    the normal of the cup through the middles of the rollers. The normal at the middle of the cup's line meets the axis
+    farther out, by 2.4 % in the built-in `tapered_example`."""
     return -0.5 * jnp.asarray(scene.geometry.pitch_diameter) * jnp.tan(scene.one_way_angle)
 
 

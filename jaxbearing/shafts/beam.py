@@ -1,16 +1,18 @@
 r"""The shaft as a beam (Timoshenko), exact and without a mesh.
 
-Cut at a place s, the shaft has the compliance $c(s)$ = diag(1/EA, 1/$\kappa$GA, 1/$\kappa$GA, 1/EI, 1/EI) per length. A
-load at $x_j$ reaches the cut as $T(x_j - s)^T F$, and what the cut yields moves the place $x_i$ by $T(x_i - s)$ times
-it, with the shift T of `bearings.ring`. Of a shaft that is clamped at x = 0
+At a position s the shaft has the compliance per length $c(s)$ = diag(1/EA, 1/$\kappa$GA, 1/$\kappa$GA, 1/EI, 1/EI). A
+load $F_j$ at $x_j$ gives the load $T(x_j - s)^T F_j$ at s, and a deformation at s displaces the position $x_i$ by
+$T(x_i - s)$ times the deformation, with the shift T of `bearings.ring`. A shaft that is clamped at x = 0 is therefore
+displaced by
 
-$$u(x_i) = \int_0^{\min(x_i, x_j)} T(x_i - s)\,c(s)\,T(x_j - s)^T\,ds\,F_j,$$
+$$u(x_i) = \int_0^{\min(x_i, x_j)} T(x_i - s)\,c(s)\,T(x_j - s)^T\,ds\,F_j.$$
 
-whose integrand is a polynomial of the second degree in each section; with the shaft's weight it is of the third. Two
-points of Gauss integrate both exactly. The displacement of the free shaft is this one and $T(x)u_0$.
+The integrand is a polynomial of the second degree in each section; for the shaft's weight it is of the third degree.
+Two Gauss points integrate both exactly. A free shaft has in addition the displacement $T(x)u_0$.
 
-This is the finite element of Timoshenko's beam with Cowper's shear factor that is exact for loads at nodes and for
-uniform loads; here nodes at one place, and places that change their order, need no care.
+The result equals that of Timoshenko's finite element with Cowper's shear factor, which is exact for loads at nodes and
+for uniform loads. Here several nodes at the same position, and positions that change their order, need no special
+treatment.
 """
 
 from typing import NamedTuple
@@ -27,9 +29,11 @@ _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(2)
 
 
 def shear_factor(poisson_ratio: Array, ratio: Array) -> Float[Array, "..."]:
-    r"""$\kappa = 6(1+\nu)(1+m^2)^2/[(7+6\nu)(1+m^2)^2 + (20+12\nu)m^2]$ of a round section (Cowper 1966).
+    r"""Shear factor of a round section (Cowper 1966).
 
-    **Arguments:** `ratio`: m, inner over outer diameter.
+    $\kappa = 6(1+\nu)(1+m^2)^2/[(7+6\nu)(1+m^2)^2 + (20+12\nu)m^2]$.
+
+    **Arguments:** `poisson_ratio`: $\nu$; `ratio`: m, inner over outer diameter.
     """
     hollow = jnp.square(1.0 + jnp.square(ratio))
     more = (20.0 + 12.0 * poisson_ratio) * jnp.square(ratio)
@@ -37,28 +41,28 @@ def shear_factor(poisson_ratio: Array, ratio: Array) -> Float[Array, "..."]:
 
 
 class Beam(NamedTuple):
-    """Sections of a shaft, from x = 0: ends, m, compliances per length and weight per length, N/m."""
+    """Sections of a shaft from x = 0: start and end, m, compliances per length, and weight per length, N/m."""
 
     start: Float[Array, " section"]
     end: Float[Array, " section"]
     axial: Float[Array, " section"]
-    """1/EA, 1/N."""
+    """Axial compliance per length 1/EA, 1/N."""
     shear: Float[Array, " section"]
-    """1/(kappa G A), 1/N."""
+    """Shear compliance per length 1/(kappa G A), 1/N."""
     bending: Float[Array, " section"]
-    """1/EI, 1/(N m^2)."""
+    """Bending compliance per length 1/EI, 1/(N m^2)."""
     weight: Float[Array, "2 section"]
-    """Along Y and Z."""
+    """Weight per length along Y and Z, N/m."""
 
     def points(self, far: Float[Array, "..."]) -> tuple[Float[Array, "... section 2"], Float[Array, "... section 2"]]:
-        """Places of integration between 0 and `far`, m, and their weights, m, of every section."""
+        """Integration points of each section between 0 and `far`, m, and their weights, m."""
         wide = lambda values: values.reshape((1,) * far.ndim + values.shape)
         start = wide(self.start)
         half = 0.5 * (jnp.clip(far[..., None], start, wide(self.end)) - start)[..., None]
         return start[..., None] + half * wide(1.0 + _POINTS)[..., None, :], half * wide(_WEIGHTS)[..., None, :]
 
     def compliance(self, at: Float[Array, " i"], loaded: Float[Array, " j"]) -> Float[Array, "i j 5 5"]:
-        """Displacements at `at` of the shaft that is clamped at x = 0, per load at `loaded`."""
+        """Displacements at `at` per load at `loaded`, for a shaft that is clamped at x = 0."""
         near, far = at[:, None], loaded[None, :]
         place, weight = self.points(jnp.minimum(near, far))
         near, far = near[..., None, None] - place, far[..., None, None] - place
@@ -76,7 +80,7 @@ class Beam(NamedTuple):
         return jnp.stack([jnp.stack(row, axis=-1) for row in rows], axis=-2)
 
     def weight_at(self, place: Float[Array, "..."]) -> Float[Array, "... 5"]:
-        """Load of the weight of everything beyond a place on a cut there, N and N m."""
+        """Load on a cut at `place` by the weight of the shaft beyond it, N and N m."""
         wide = lambda values: values.reshape((1,) * place.ndim + values.shape)
         end = wide(self.end)
         cut = jnp.clip(place[..., None], wide(self.start), end)
@@ -86,7 +90,7 @@ class Beam(NamedTuple):
         return jnp.stack([jnp.zeros_like(forces[0]), *forces, *moments], axis=-1)
 
     def sagging(self, at: Float[Array, " i"]) -> Float[Array, "i 5"]:
-        """Displacements of the shaft that is clamped at x = 0 under its own weight."""
+        """Displacements under its own weight, for a shaft that is clamped at x = 0."""
         place, weight = self.points(at)
         load, lever = self.weight_at(place), at[:, None, None] - place
         total = lambda values: jnp.sum(weight * values, axis=(-2, -1))
@@ -118,7 +122,7 @@ def beam_of(shaft: Shaft) -> Beam | None:
 
 
 def gravity_along(gravity: Gravity | None) -> Float[Array, "2"]:
-    """Acceleration along Y and Z, m/s^2."""
+    """Acceleration of gravity along Y and Z, m/s^2."""
     if gravity is None:
         return jnp.zeros(2)
     azimuth = jnp.asarray(gravity.azimuth)
@@ -126,7 +130,7 @@ def gravity_along(gravity: Gravity | None) -> Float[Array, "2"]:
 
 
 def shifts(positions: Float[Array, " place"]) -> Float[Array, "place 5 5"]:
-    """T(x) of every position: displacement there of a rigid shaft, per displacement of its point x = 0."""
+    """Shift T(x) of each position: displacement of a rigid shaft there, per displacement of its point x = 0."""
     return jnp.stack([shift_matrix(one) for one in positions])
 
 
@@ -134,8 +138,8 @@ def element_stiffness(
     length: Array, outer: Array, inner: Array, material: Material
 ) -> tuple[Float[Array, "4 4"], Float[Array, ""]]:
     r"""Stiffness of Timoshenko's element of length L for (w, $\theta$) of both ends in one plane, with $\theta$ =
-    -tilt, and $\phi = 12EI/(\kappa GAL^2)$. It is the inverse of what `Beam.compliance` gives of one section, and what
-    other programs of rotor dynamics take."""
+    -tilt, and $\phi = 12EI/(\kappa GAL^2)$. With one end clamped it is the inverse of `Beam.compliance` of one section.
+    Other programs for rotor dynamics use this element."""
     area, inertia = jnp.pi / 4.0 * (outer**2 - inner**2), jnp.pi / 64.0 * (outer**4 - inner**4)
     shear_modulus = 0.5 * material.youngs_modulus / (1.0 + material.poisson_ratio)
     kappa = shear_factor(jnp.asarray(material.poisson_ratio), inner / outer)

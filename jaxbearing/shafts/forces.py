@@ -1,8 +1,9 @@
-r"""Forces on a shaft beside those of its bearings: points, gears, belts and masses.
+r"""Given forces on a shaft: point loads, gears, belts and masses.
 
-A force at azimuth $\varphi$ and radius r with the parts $F_x$ (along +X), $F_r$ (outwards) and $F_t$ (in the sense of
-rotation) has on the axis $F_Y = F_r\cos\varphi - F_t\sin\varphi$, $F_Z = F_r\sin\varphi + F_t\cos\varphi$, the moments
-$rF_x\cos\varphi$ about the tilt and $rF_x\sin\varphi$ about the lateral tilt, and the torque $rF_t$.
+A force with the components $F_x$ (along +X), $F_r$ (outwards) and $F_t$ (in the sense of rotation) acts at azimuth
+$\varphi$ and radius r. It is equivalent to a load on the axis: the forces $F_x$, $F_Y = F_r\cos\varphi -
+F_t\sin\varphi$ and $F_Z = F_r\sin\varphi + F_t\cos\varphi$, the moment $rF_x\cos\varphi$ on the tilt, the moment
+$rF_x\sin\varphi$ on the lateral tilt, and the torque $rF_t$.
 """
 
 import abc
@@ -27,7 +28,7 @@ class ActingForce(NamedTuple):
 
 
 class AbstractForce(Checked):
-    """Something that acts on the shaft at one position. `kind` is its word in scene files."""
+    """A force that acts on the shaft at one position. `kind` is its name in scene files."""
 
     part: ClassVar[str] = "force"
     kind: ClassVar[str]
@@ -38,25 +39,25 @@ class AbstractForce(Checked):
     @property
     @abc.abstractmethod
     def torque_given(self) -> Array:
-        """Torque on the shaft as it is given, N m."""
+        """Given torque on the shaft, N m."""
 
     @abc.abstractmethod
     def acting(self, torque: Array, gravity: Float[Array, "2"]) -> ActingForce:
         """Loads on the shaft.
 
         **Arguments:**
-        - `torque`: on the shaft, N m: the given one, or that which balances the others.
+        - `torque`: torque on the shaft, N m: the given torque, or the one that balances the other forces.
         - `gravity`: acceleration along Y and Z, m/s^2.
         """
 
     @property
     def balances(self) -> bool:
-        """True if its torque is the one that the other forces leave."""
+        """True if its torque balances the torques of the other forces."""
         return False
 
 
 class AbstractDrive(AbstractForce):
-    """A part that turns the shaft or is turned by it. Its torque is given, or is what the other forces leave."""
+    """A part that drives the shaft or is driven by it. Its torque is given or balances the other forces."""
 
     torque: eqx.AbstractVar[Scalar]
     balance: eqx.AbstractVar[bool]
@@ -71,7 +72,7 @@ class AbstractDrive(AbstractForce):
 
 
 def resolved(axial: Scalar, radial: Scalar, tangential: Scalar, azimuth: Scalar, radius: Scalar) -> Float[Array, "5"]:
-    """Loads on the axis of a force at an azimuth, rad, and a radius, m; see the module."""
+    """Load on the axis that is equivalent to a force at an azimuth, rad, and a radius, m (see the module)."""
     cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
     across = (radial * cosine - tangential * sine, radial * sine + tangential * cosine)
     return jnp.stack([jnp.asarray(axial), *across, radius * axial * cosine, radius * axial * sine])
@@ -82,17 +83,17 @@ def _position() -> float:
 
 
 class PointLoad(AbstractForce):
-    """A force, and where given a moment, at a point of the shaft.
+    """A force and a moment at a point of the shaft.
 
     **Arguments:**
-    - `name`: its name.
-    - `position`: along the shaft, m.
-    - `axial`, `radial`, `tangential`: parts of the force along +X, outwards, and in the sense of rotation, N.
-    - `azimuth`: of the point where it acts, rad.
+    - `name`: name of the force.
+    - `position`: position along the shaft, m.
+    - `axial`, `radial`, `tangential`: components of the force along +X, outwards, and in the sense of rotation, N.
+    - `azimuth`: azimuth of the point where the force acts, rad.
     - `radius`: distance of that point from the axis, m, >= 0.
-    - `moment`, `moment_lateral`: moments on the tilt and on the lateral tilt, N m: a positive one moves azimuth 0, or
-      azimuth 90 degrees, along +X. The vector of the moment is (0, moment_lateral, -moment).
-    - `torque`: about the axis, beside that of the tangential force, N m.
+    - `moment`, `moment_lateral`: moments on the tilt and on the lateral tilt, N m. If positive, they move azimuth 0 and
+      azimuth 90 degrees along +X. The moment vector is (0, moment_lateral, -moment).
+    - `torque`: torque about the axis in addition to that of the tangential force, N m.
     """
 
     kind: ClassVar[str] = "point"
@@ -124,16 +125,16 @@ class Gear(AbstractDrive):
     $F_t = T/r$, separating force $|F_t|\tan\alpha_n/\cos\beta$ towards the axis, axial force $F_t\tan\beta$.
 
     **Arguments:**
-    - `name`: its name.
-    - `position`: of the middle of the teeth, m.
-    - `torque`: on the shaft, N m, in the sense of positive speed: positive of the driven gear of a shaft that turns in
-      this sense.
+    - `name`: name of the gear.
+    - `position`: position of the middle of the teeth, m.
+    - `torque`: torque on the shaft, N m, positive in the sense of positive speed. It is positive for a gear that drives
+      the shaft, if the shaft turns in this sense.
     - `pitch_radius`: r, m, > 0.
-    - `azimuth`: of the mesh, rad.
+    - `azimuth`: azimuth of the mesh, rad.
     - `pressure_angle`: $\alpha_n$ in the normal section, rad.
-    - `helix_angle`: $\beta$, rad; its sign is the hand: with a positive one a positive torque presses the gear along
-      +X.
-    - `balance`: whether its torque is the one that the other forces leave, in place of `torque`.
+    - `helix_angle`: $\beta$, rad. Its sign is the hand of the helix: if it is positive, a positive torque pushes the
+      gear along +X.
+    - `balance`: true for a torque that balances the other forces, in place of `torque`.
     """
 
     kind: ClassVar[str] = "gear"
@@ -159,12 +160,12 @@ class Belt(AbstractDrive):
     """The pull of a belt.
 
     **Arguments:**
-    - `name`: its name.
-    - `position`: m.
+    - `name`: name of the belt.
+    - `position`: position along the shaft, m.
     - `force`: sum of the pulls of both strands, N.
-    - `azimuth`: of the direction of the pull, rad.
-    - `torque`: on the shaft, N m.
-    - `balance`: whether its torque is the one that the other forces leave, in place of `torque`.
+    - `azimuth`: azimuth of the direction of the pull, rad.
+    - `torque`: torque on the shaft, N m.
+    - `balance`: true for a torque that balances the other forces, in place of `torque`.
     """
 
     kind: ClassVar[str] = "belt"
@@ -182,9 +183,9 @@ class Belt(AbstractDrive):
 
 
 class Mass(AbstractForce):
-    """A disk whose weight acts; it needs `shaft.gravity`.
+    """A disk whose weight acts on the shaft; without `shaft.gravity` it has no effect.
 
-    **Arguments:** `name`: its name; `position`: m; `mass`: kg, >= 0.
+    **Arguments:** `name`: name of the disk; `position`: position along the shaft, m; `mass`: kg, >= 0.
     """
 
     kind: ClassVar[str] = "mass"
@@ -203,4 +204,4 @@ class Mass(AbstractForce):
 
 
 FORCES = {force.kind: force for force in (PointLoad, Gear, Belt, Mass)}
-"""Word of a scene file -> class of the force."""
+"""Kind of a force in scene files -> its class."""

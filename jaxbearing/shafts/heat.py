@@ -1,4 +1,5 @@
-"""One thermal network along shaft and housing: what is given, heat flow between neighbours, growth along the axis."""
+"""Common thermal network of bearings along shaft and housing: inputs, heat flow between neighbouring bearings, and
+axial thermal expansion."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any, ClassVar
@@ -21,17 +22,17 @@ SHAFT_NODE, HOUSING_NODE = 4, 5
 
 
 class ShaftThermal(Checked):
-    """The thermal networks of the bearings become one: heat flows along the shaft and in the housing between
-    neighbours, and shaft and housing grow along the axis with their temperatures.
+    """Common thermal network of the bearings: heat flows between neighbouring bearings along the shaft and in the
+    housing, and shaft and housing expand along the axis with their temperatures.
 
-    Each bearing with a table [thermal] brings its network of six nodes; the others have none. Between two bearings the
-    temperatures of shaft and housing change linearly, beyond the last ones they are constant.
+    Each bearing with a table [thermal] contributes its network of six nodes; the others have none. Between two bearings
+    the temperatures of shaft and housing change linearly, beyond the outermost ones they are constant.
 
     **Arguments:**
-    - `housing_expansion`: coefficient of thermal expansion of the housing, 1/K; that of the shaft is its material's.
-    - `housing_conductance`: between the housing nodes of neighbouring bearings, W/K.
-    - `shaft_conductance`: between the shaft nodes of neighbouring bearings, W/K; not given: that of the sections, with
-      the conductivity of the shaft's material.
+    - `housing_expansion`: coefficient of thermal expansion of the housing, 1/K. The shaft has that of its material.
+    - `housing_conductance`: conductance between the housing nodes of neighbouring bearings, W/K.
+    - `shaft_conductance`: conductance between the shaft nodes of neighbouring bearings, W/K. If not given, it follows
+      from the sections and the conductivity of their materials.
     """
 
     part: ClassVar[str] = "thermal"
@@ -69,7 +70,10 @@ class ShaftThermalResult(eqx.Module):
 
 
 def thermal_problems(thermal: ShaftThermal | None, shaft: Shaft, bearings: dict[str, Any]) -> Iterator[str]:
-    """Yields a sentence for each missing or conflicting input of one network. **Arguments:** `bearings`: by path."""
+    """Yields a sentence for each missing or conflicting input of the common network.
+
+    **Arguments:** `bearings`: scenes of the bearings by their paths.
+    """
     if thermal is None:
         return
     warm = {path: scene for path, scene in bearings.items() if getattr(scene, "thermal", None) is not None}
@@ -95,12 +99,12 @@ def _materials(shaft: Shaft) -> Sequence[Material]:
 
 
 def _conductivity(material: Material) -> Scalar:
-    """W/(m K), which `thermal_problems` asks for."""
+    """Conductivity, W/(m K); `thermal_problems` makes sure that it is given."""
     return material.conductivity
 
 
 def _ends(shaft: Shaft) -> Float[Array, " end"]:
-    """Ends of the sections, m, that of the first one included."""
+    """Ends of the sections, m, and before them the start x = 0 of the first one."""
     lengths = [jnp.asarray(section.length, dtype=float) for section in shaft.sections]
     return jnp.concatenate([jnp.zeros(1), jnp.cumsum(jnp.stack(lengths))]) if lengths else jnp.zeros(1)
 
@@ -111,7 +115,7 @@ def ascending(position: Float[Array, " bearing"]) -> Int[Array, " bearing"]:
 
 
 def gap_conductances(thermal: ShaftThermal, shaft: Shaft, position: Float[Array, " bearing"]) -> Float[Array, " gap"]:
-    r"""Conductance of the shaft in each gap, W/K: $1/\int dx/(kA)$. **Arguments:** `position`: ascending, m."""
+    r"""Conductance of the shaft per gap, W/K: $1/\int dx/(kA)$. **Arguments:** `position`: in ascending order, m."""
     if thermal.shaft_conductance is not None:
         return jnp.broadcast_to(jnp.asarray(thermal.shaft_conductance, dtype=float), (len(position) - 1,))
     ends = _ends(shaft)
@@ -126,7 +130,7 @@ def gap_conductances(thermal: ShaftThermal, shaft: Shaft, position: Float[Array,
 def between_neighbours(thermal: ShaftThermal, shaft: Shaft, position: Float[Array, " bearing"]) -> Array:
     """Conductances of shaft and housing between the nodes of all bearings, W/K, shape (6 n, 6 n).
 
-    **Arguments:** `position`: of the bearings with a network, m.
+    **Arguments:** `position`: positions of the bearings with a network, m.
     """
     order, count = ascending(position), len(position)
     gaps = {
@@ -143,7 +147,7 @@ def between_neighbours(thermal: ShaftThermal, shaft: Shaft, position: Float[Arra
 def flows_along(
     thermal: ShaftThermal, shaft: Shaft, position: Float[Array, " bearing"], temperatures: Float[Array, "bearing 6"]
 ) -> tuple[Float[Array, " gap"], Float[Array, " gap"]]:
-    """Heat along the shaft, and in the housing, in each gap towards +X, W."""
+    """Heat flow along the shaft and heat flow in the housing in each gap, W, positive towards +X."""
     order = ascending(position)
     falling = -jnp.diff(temperatures[order], axis=0)
     along = gap_conductances(thermal, shaft, position[order]) * falling[:, SHAFT_NODE]
@@ -157,10 +161,10 @@ def growth_along(
     temperatures: Float[Array, "bearing 6"],
     at: Float[Array, " place"],
 ) -> Float[Array, " place"]:
-    r"""Displacement of the shaft against the housing by their temperatures, m:
+    r"""Axial displacement of the shaft relative to the housing by thermal expansion, m:
     $\int_{x_{ref}}^x(\alpha_s(T_s - T_0) - \alpha_h(T_h - T_0))\,dx$, exact for temperatures that change linearly.
 
-    **Arguments:** `position`, `temperatures`: of the bearings with a network, m, K; `at`: places, m.
+    **Arguments:** `position`, `temperatures`: of the bearings with a network, m and K; `at`: positions, m.
     """
     order, ends = ascending(position), _ends(shaft)
     reference = jnp.reshape(jnp.asarray(shaft.strain_reference, dtype=float), (1,))

@@ -1,8 +1,8 @@
-"""Bearings on a shaft: one of them, matched sets of several, their preload and the support of their outer rings.
+"""Bearings on a shaft: single bearings, matched sets, their preload and the support of their outer rings.
 
-A bearing's own axis $e_x$ points along +X (`thrust` "+x", `<` in the picture of a set) or along -X ("-x", `>`): it is
-the direction in which an axial force on the inner ring presses the bearing together. The bearing is mirrored and not
-rotated, so that azimuths and the sense of rotation stay.
+A bearing's own axis $e_x$ points along +X (`thrust` "+x", `<` in the picture of a set) or along -X ("-x", `>`). An
+axial force on the inner ring in this direction closes the bearing. A bearing along -X is mirrored and not rotated, so
+azimuths and the sense of rotation stay the same.
 """
 
 from typing import Any, ClassVar, Literal
@@ -22,11 +22,11 @@ from ..numerics.ranges import CLOSURES, RANGES
 from ..numerics.structure import choice
 
 SENSES = {"+x": 1.0, "-x": -1.0, "<": 1.0, ">": -1.0}
-"""Word or sign of an orientation -> sense of the bearing's axis along that of the shaft."""
+"""Word or sign of an orientation -> 1 if the bearing's axis points along +X, -1 if it points along -X."""
 
 
 def _numbers(value: object) -> Any:
-    """A float64 array of a sequence or array of numbers; `None` stays."""
+    """Converts a sequence or array of numbers to a float64 array; keeps `None`."""
     if isinstance(value, list | tuple):
         traced = any(isinstance(one, jax.Array) for one in jax.tree.leaves(value))
         value = jnp.asarray(value) if traced else np.asarray(value, dtype=np.float64)
@@ -39,7 +39,7 @@ def _array(unit: str, description: str, **kwargs: Any) -> Any:
 
 
 class LinearBearing(eqx.Module):
-    """A bearing that is known by its stiffness alone: f = K q.
+    """A bearing that is given by its stiffness alone: f = K q.
 
     **Arguments:** `stiffness`: K in the bearing's own frame, shape (5, 5), rows and columns axial, radial, lateral,
     tilt and lateral tilt, N/m, N/rad, N m/m and N m/rad. It need not be symmetric.
@@ -55,8 +55,8 @@ class Support(Checked):
 
     **Arguments:**
     - `axial`, `radial`, `tilt`: stiffness along X, across X in all directions, and about all axes across X: N/m, N/m,
-      N m/rad. One that is left out is rigid.
-    - `matrix`: all of it, shape (5, 5), as in `LinearBearing`, in place of the three.
+      N m/rad. A degree of freedom without a stiffness is rigid.
+    - `matrix`: full stiffness matrix, shape (5, 5), as in `LinearBearing`, in place of these three.
     """
 
     part: ClassVar[str] = "support"
@@ -73,15 +73,15 @@ class Support(Checked):
 
 
 class Preload(Checked):
-    """Preload of a set: one of the following.
+    """Preload of a set, given in one of the following ways.
 
-    - `force`: the force between the two opposed groups in the mounted set at rest, without load, N. One closure is
-      found that is common to all bearings, and stays. That of no force is that of the first contact.
-    - `class_force`: the force at which ONE bearing of the set reaches the closure that all get, N, as makers define the
-      preload classes of universally ground bearings.
-    - `offset`: the closure of every bearing, m; a negative one is play.
-    - `spring_force`: the force of springs that press the outer rings of the last group of the set, mounted and at rest,
-      N; `spring_stiffness`: of these springs together, N/m: 0 for a constant force.
+    - `force`: axial force between the two opposed groups of the mounted set, at rest and without load, N. The closure
+      that gives it is the same for all bearings and stays fixed. For a force of 0 it is the closure at first contact.
+    - `class_force`: axial force at which ONE bearing of the set reaches the closure that all bearings get, N. Makers
+      define the preload classes of universally ground bearings in this way.
+    - `offset`: closure of every bearing, m; a negative closure is play.
+    - `spring_force`: force of springs that press the outer rings of the last group of the set, mounted and at rest, N;
+      `spring_stiffness`: stiffness of these springs together, N/m, 0 for a constant force.
     """
 
     part: ClassVar[str] = "preload"
@@ -112,13 +112,13 @@ class MountedBearing(Checked):
     """One bearing on a shaft.
 
     **Arguments:**
-    - `name`: its name.
-    - `scene`: the bearing. Speeds and loads of its operating point have no effect, but that of the outer ring.
-    - `position`: of its row (middle of the rollers, plane of the unloaded balls), m.
-    - `thrust`: where an axial force on the inner ring presses it together, "+x" or "-x".
-    - `closure`: added to the axial displacement in the bearing's own frame, m: of a bearing that is adjusted.
-    - `expansion`: expansion of the inner raceway's radius less that of the outer one, m.
-    - `support`: of the outer ring; `None` for a rigid one.
+    - `name`: name of the bearing.
+    - `scene`: the bearing. Loads and inner speed of its operating point have no effect; its outer speed has.
+    - `position`: position of its row (middle of the rollers, plane of the unloaded balls), m.
+    - `thrust`: direction in which an axial force on the inner ring closes the bearing, "+x" or "-x".
+    - `closure`: closure of an adjusted bearing, m: it is added to the axial displacement in the bearing's own frame.
+    - `expansion`: expansion of the inner raceway's radius less that of the outer raceway, m.
+    - `support`: elastic support of the outer ring; `None` for a rigid support.
     """
 
     part: ClassVar[str] = "bearing"
@@ -133,12 +133,12 @@ class MountedBearing(Checked):
 
     @property
     def sense(self) -> float:
-        """1 if the bearing's axis points along +X, else -1."""
+        """Sense of the bearing: 1 if its axis points along +X, else -1."""
         return SENSES[self.thrust]
 
 
 def _demand_each(name: str, values: object, bound: str) -> None:
-    """Checks each of several numbers of a set. **Raises:** `ValueError` for known ones beyond their bound."""
+    """Checks all numbers of an array of a set. **Raises:** `ValueError` for known numbers outside their bound."""
     if not isinstance(values, np.ndarray | np.generic | float | jax.Array):
         return
     fine = array_module(values).all(RANGES[bound].holds(values))
@@ -146,19 +146,19 @@ def _demand_each(name: str, values: object, bound: str) -> None:
 
 
 class MatchedSet(Checked):
-    """Several bearings that are ground to each other and mounted side by side.
+    """Bearings that are matched by grinding and mounted side by side.
 
     **Arguments:**
-    - `name`: of the set; its bearings are called `name.1`, `name.2` ...
-    - `picture`: one sign a bearing from -X to +X, the sign is the cone of its contact lines: `<` has its axis along +X
-      and `>` along -X. `<>` is an O arrangement, `><` an X arrangement, `<<` a tandem.
-    - `scene`: the bearing, or a tuple with one for each sign.
+    - `name`: name of the set; its bearings are called `name.1`, `name.2` ...
+    - `picture`: one sign for each bearing from -X to +X, which shows the cone of its contact lines. The axis of `<`
+      points along +X and that of `>` along -X. `<>` is an O arrangement, `><` an X arrangement, `<<` a tandem.
+    - `scene`: the bearing, or a tuple with a bearing for each sign.
     - `position`: middle between the first and the last row, m.
-    - `distance`: of neighbouring rows, m; or one for each gap, shape (n - 1,).
-    - `preload`: `None` if there is none: all bearings then touch and carry nothing.
+    - `distance`: distance of neighbouring rows, m, or a distance for each gap, shape (n - 1,).
+    - `preload`: preload of the set; with `None` all bearings touch and carry nothing.
     - `mismatch`: additional closure of each bearing, m, shape (n,); `None` for 0.
-    - `expansion`: expansion of the inner raceways' radius less that of the outer ones, m.
-    - `support`: of each outer ring; `None` for rigid ones.
+    - `expansion`: expansion of the inner raceways' radius less that of the outer raceways, m.
+    - `support`: elastic support of each outer ring; `None` for rigid supports.
     """
 
     part: ClassVar[str] = "set"
@@ -211,7 +211,7 @@ class MatchedSet(Checked):
 
     @property
     def senses(self) -> tuple[float, ...]:
-        """1 for each bearing whose axis points along +X, else -1."""
+        """Sense of each bearing: 1 if its axis points along +X, else -1."""
         return tuple(SENSES[sign] for sign in self.picture)
 
     def positions(self) -> Float[Array | np.ndarray, " bearing"]:

@@ -1,7 +1,7 @@
 """Dotted paths of the numbers of a shaft, as scene files have them: `bearing.rear.position`,
 `bearing.rear.geometry.diametral_clearance`, `set.front.preload.force`, `force.pinion.torque`,
 `shaft.sections.2.outer_diameter`. Bearings, sets and forces are found by their names, sections by their numbers from 1.
-So are the bearings of a set that differ: `set.front.bearing.2.geometry.n_balls`.
+Different bearings of a set are numbered from 1 too: `set.front.bearing.2.geometry.n_balls`.
 """
 
 import dataclasses
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
 Bearing = TypeVar("Bearing")
 LISTS = {"bearing": "bearings", "set": "sets", "force": "forces"}
-"""First word of a path -> field of `ShaftSystem` that holds what it is about."""
+"""First word of a path -> field of `ShaftSystem` that it refers to."""
 _BEARING = "scene"
 """Field of a mounted bearing, or of a set, that holds the bearing; paths leave it out."""
 NUMBERED = "bearing"
-"""Word of a path before the number of one of the different bearings of a set."""
+"""Word of a path before the number of a bearing in a set of different bearings."""
 _Changes = dict[tuple[str, ...], Any]
 
 
@@ -32,7 +32,7 @@ def replaced(system: "ShaftSystem", changes: object) -> "ShaftSystem":
 
     **Arguments:** `changes`: dotted path -> value in SI, or a part.
 
-    **Raises:** `AttributeError` for a path that the system does not have; `TypeError` for what is no mapping.
+    **Raises:** `AttributeError` for a path that the system does not have; `TypeError` if `changes` is no mapping.
     """
     if not isinstance(changes, Mapping) or not all(isinstance(path, str) for path in changes):
         raise TypeError(f"replace takes a mapping from dotted paths to values, got {changes!r}")
@@ -59,7 +59,7 @@ def replaced(system: "ShaftSystem", changes: object) -> "ShaftSystem":
 
 
 def entries_of(system: "ShaftSystem", word: str) -> tuple[Any, ...]:
-    """The bearings, sets or forces that a path may name, or the sections."""
+    """The bearings, sets, forces or sections of the system. **Arguments:** `word`: a key of `LISTS`, or "section"."""
     return system.shaft.sections if word == "section" else getattr(system, LISTS[word])
 
 
@@ -72,7 +72,7 @@ def names_of(system: "ShaftSystem", word: str) -> tuple[str, ...]:
 
 
 def _place(system: "ShaftSystem", word: str, name: str) -> int:
-    """**Raises:** `AttributeError` for a name that is not there."""
+    """Index of the entry with this name. **Raises:** `AttributeError` if there is none."""
     names = names_of(system, word)
     if name not in names:
         whole = f"shaft.sections.{name}" if word == "section" else f"{word}.{name}"
@@ -102,7 +102,7 @@ def _changed(entry: Any, changes: _Changes, above: str) -> Any:
 
 
 def _of_bearings(scenes: tuple[Bearing, ...], changes: Mapping[str, object], above: str) -> tuple[Bearing, ...]:
-    """The bearings of a set that differ: a change is of the one that its path numbers, or of all.
+    """Changes different bearings of a set: the bearing whose number is in the path, or all if there is no number.
 
     **Raises:** `AttributeError` for a number that the set does not have.
     """
@@ -121,7 +121,7 @@ def _of_bearings(scenes: tuple[Bearing, ...], changes: Mapping[str, object], abo
 
 
 def _number(keys: list[str], count: int) -> int | None:
-    """The place of a bearing by its number from 1; `None` where there is none."""
+    """Index of a bearing from its number, which counts from 1; `None` if there is no such bearing."""
     given = keys[0] if keys else ""
     return int(given) - 1 if given.isdecimal() and 1 <= int(given) <= count else None
 
@@ -134,8 +134,8 @@ _NUMBERED = re.compile(r"(bearings|sets|forces)\.(\d+)\.(.*)")
 
 
 def path_in_file(system: "ShaftSystem", path: str) -> str:
-    """The path of scene files of a number that a tree of numbers has at `bearings.0.scene.geometry.conformity_inner`:
-    `bearing.rear.geometry.conformity_inner`."""
+    """Path in scene files of a path in the tree of numbers: `bearing.rear.geometry.conformity_inner` for
+    `bearings.0.scene.geometry.conformity_inner`."""
     found = _NUMBERED.fullmatch(path)
     if found is None:
         place = re.fullmatch(r"shaft\.sections\.(\d+)\.(.*)", path)

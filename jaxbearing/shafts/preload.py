@@ -1,7 +1,7 @@
-"""Preload of matched sets: closures and springs from the mounted set, which is at rest and carries no load.
+"""Preload of matched sets: closures and springs of the mounted set at rest and without load.
 
-Along its axis the mounted set has one unknown for each of its two groups, the axial displacement of its bearings: the
-forces of the bearings of a group add up to the preload. Half of both displacements together is the closure.
+The bearings of a set form two opposed groups. The unknown of each group is the axial displacement of its bearings, at
+which their forces add up to the preload. The closure is half the sum of both displacements.
 """
 
 from typing import NamedTuple
@@ -19,28 +19,28 @@ from .mounting import Preload
 from .scene import Place, ShaftSystem
 
 FIRST_TRIAL = 5e-5
-"""First axial displacement that is tried, m."""
+"""Axial displacement of the first trial, m."""
 TRIALS = 100
-"""Most trials of the search for a closure."""
+"""Largest number of trials of a search."""
 BALANCED = 1e-16
-"""Last step of the search for the mounted set's place, m."""
+"""Step at which the search for the axial position of the mounted set ends, m."""
 TOLERANCE = 1e-13
 """Relative error of the preload, and of the displacement, at which the search ends."""
 SMALL_FORCE = 1e-9
-"""Force from whose place that of the first contact is found, N: balls are less than 1 pm away from it there."""
+"""Force, N, from whose displacement that at first contact is extrapolated. For balls they differ by less than 1 pm."""
 EXPONENT = 2.0 / 3.0
-"""The force to this power grows nearly in proportion to the displacement of balls."""
+"""Exponent n for which force^n of balls is nearly proportional to their displacement."""
 
 
 class Rest(NamedTuple):
-    """Bearings of preloaded sets at rest, without expansion by growth, displaced along their axes alone."""
+    """Batches with the bearings of preloaded sets at rest, without expansion and with axial displacements only."""
 
     batches: tuple[AbstractBatch, ...]
     rows: list[AbstractRow | None]
 
 
 def at_rest(batches: tuple[AbstractBatch, ...], preloaded: np.ndarray) -> Rest:
-    """The batches that have a bearing of a preloaded set. **Arguments:** `preloaded`: whether each bearing is one."""
+    """The batches with a bearing of a preloaded set. **Arguments:** `preloaded`: True for each such bearing."""
     own = tuple(batch for batch in batches if np.any(preloaded[batch.index]))
     return Rest(own, [batch.rows(jnp.zeros(len(preloaded)), at_rest=True) for batch in own])
 
@@ -50,7 +50,7 @@ def _displacements(axial: Float[Array, " bearing"]) -> Float[Array, "bearing 5"]
 
 
 class _Held(NamedTuple):
-    """Axial forces, N, and axial stiffness, N/m, 0 of bearings without a row in `Rest`; states of the rows by batch."""
+    """Axial force, N, and axial stiffness, N/m, of each bearing, 0 for those outside `Rest`; row states by batch."""
 
     force: Float[Array, " bearing"]
     slope: Float[Array, " bearing"]
@@ -59,7 +59,7 @@ class _Held(NamedTuple):
 
 @once
 def _held(rest: Rest, axial: Float[Array, " bearing"]) -> _Held:
-    """The bearings held; not differentiated."""
+    """Forces, stiffness and states of the rows at given axial displacements; not differentiated."""
     displacement = _displacements(axial)
     found = []
     for batch, rows in zip(rest.batches, rest.rows, strict=True):
@@ -74,7 +74,7 @@ def _held(rest: Rest, axial: Float[Array, " bearing"]) -> _Held:
 def axial_forces(rest: Rest, axial: Float[Array, " bearing"], states: list[RowState]) -> Float[Array, " bearing"]:
     """Axial forces, N, with first derivatives.
 
-    **Arguments:** displacements, closures included, m; states of the rows there.
+    **Arguments:** `axial`: axial displacements, closures included, m; `states`: states of the rows at them.
     """
     displacement = _displacements(axial)
     parts = [
@@ -94,16 +94,16 @@ class _Search(NamedTuple):
 
 
 class Group(NamedTuple):
-    """Bearings that carry a force together: which ones, of all, and the force, N."""
+    """Bearings that carry a force together. **Arguments:** `members`: mask over all bearings; `force`: N."""
 
     members: np.ndarray
     force: Array
 
 
 def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearing"]) -> Float[Array, " group"]:
-    """Axial displacement of each group at which it carries its force, m, with first derivatives. A group without a
-    force has that of the first contact, to which the displacement tends with the force: one step from the place of
-    `SMALL_FORCE` along the power `EXPONENT` of the force. Its derivative by the force, infinite there, is taken as 0.
+    """Axial displacement at which each group carries its force, m, with first derivatives. For a force of 0 it is the
+    displacement at first contact: it is extrapolated from `SMALL_FORCE`, with force^`EXPONENT` linear in the
+    displacement. The derivative with respect to the force is infinite there and is taken as 0.
 
     **Arguments:** `additional`: closure of each bearing beyond that of its group, m.
     """
@@ -140,15 +140,22 @@ def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearin
     place, held = end.place, end.held
     slope = jnp.maximum(members @ held.slope, 1.0)
     force = members @ axial_forces(rest, members.T @ place + additional, held.states)
-    # one step of Newton's has the derivatives of the root
+    # one Newton step gives the derivatives of the root
     carried = place - (force - target) / slope
     return jnp.where(forces > 0, carried, carried - target / (EXPONENT * slope))
 
 
 class Mounted(NamedTuple):
-    """The mounted sets: closures of all bearings, m, the springs, and by the names of the sets the
-    closure of each bearing by the preload, m, the force between the groups, N, the load that unloads one, N, the
-    number of the spring, and the largest displacement of a bearing under the force that is asked for, m."""
+    """The mounted sets. Dictionaries have the names of the sets as keys.
+
+    - `closure`: closure of each bearing, m.
+    - `springs`: springs that press outer rings.
+    - `closures`: closure of each bearing of a set by its preload, m.
+    - `forces`: force between the groups, N.
+    - `losses`: axial load that unloads a group, N.
+    - `spring_numbers`: index of the spring of a set.
+    - `asked`: largest displacement of a group under the given force, m.
+    """
 
     closure: Float[Array, " bearing"]
     springs: tuple[Spring, ...]
@@ -160,7 +167,7 @@ class Mounted(NamedTuple):
 
 
 def groups_of(places: tuple[Place, ...], number: int) -> tuple[np.ndarray, np.ndarray]:
-    """Members of both groups of a set among all bearings, that of its last bearing second."""
+    """Masks over all bearings of the two groups of a set; the second group is that of its last bearing."""
     own = np.asarray([place.set_index == number for place in places])
     last = next(place.sense for place in reversed(places) if place.set_index == number)
     second = own & np.asarray([place.sense == last for place in places])
@@ -202,8 +209,8 @@ def mount(system: ShaftSystem, places: tuple[Place, ...], batches: tuple[Abstrac
 def _travels(
     rest: Rest, places: tuple[Place, ...], sets: list[tuple[int, str, Preload]], closure: Float[Array, " bearing"]
 ) -> tuple[dict[str, Array], dict[str, Array]]:
-    """Sum and largest of the axial displacements of both groups of each set under its preload, m; of a class force the
-    displacement of its first bearing alone."""
+    """Sum and maximum of the axial displacements of the two groups of each set under its preload, m. For a class force
+    both are the displacement of the first bearing alone."""
     groups: list[Group] = []
     owner: list[str] = []
     additional = closure
@@ -228,7 +235,7 @@ def _mounted(
     rest: Rest, sets: dict[str, tuple[np.ndarray, np.ndarray]], closure: Float[Array, " bearing"]
 ) -> tuple[dict[str, Array], dict[str, Array]]:
     """Force between the groups of each set at rest without load, and the axial load on the group with more bearings
-    that unloads the other one, N. **Arguments:** groups by the names of the sets."""
+    that unloads the other one, N. **Arguments:** `sets`: masks of the two groups by the name of the set."""
     if not sets:
         return {}, {}
     first = np.stack([max(both, key=np.sum) for both in sets.values()]).astype(float)
@@ -249,7 +256,7 @@ def _mounted(
     slope = jnp.maximum((first + second) @ held.slope, 1.0)
     place = place - signs @ axial_forces(rest, closure + signs.T @ place, held.states) / slope
     mounted = first @ axial_forces(rest, closure + signs.T @ place, held.states)
-    # the last bearing of the other group that carries is lost where its closure is used up
+    # the other group is unloaded where the closure of its last loaded bearing is used up
     largest = jnp.max(jnp.where(second > 0, closure[None], -jnp.inf), axis=1)
     lost = closure + signs.T @ largest
     held = _held(fixed[0], jax.lax.stop_gradient(lost), when=jnp.all(jnp.isfinite(lost)))
@@ -258,5 +265,5 @@ def _mounted(
 
 
 def _nothing(rest: Rest, axial: Float[Array, " bearing"]) -> _Held:
-    """Zeros, to begin a loop with. **Arguments:** `axial`: any displacements."""
+    """Zeros with which a loop starts. **Arguments:** `axial`: displacements, of which only the shape matters."""
     return _held(rest, jnp.zeros_like(axial), when=jnp.asarray(False))

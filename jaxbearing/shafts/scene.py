@@ -27,17 +27,17 @@ if TYPE_CHECKING:
 
 
 MOST_BEARINGS = 500
-"""Bearings of a system: its equations are dense, and the time to compile its program grows by about a second a
-bearing."""
+"""Largest number of bearings of a system. The equations are dense, and each bearing adds about a second to the time
+that the program needs to compile."""
 MOST_STATES = 10_000
-"""States of a duty cycle: each of them is a scene of its own until the program has it, about 0.1 s."""
+"""Largest number of states of a duty cycle. Each state is first made as a scene of its own, which takes about 0.1 s."""
 
 
 class SystemLife(Checked):
     """Inputs of the life of all bearings together.
 
-    **Arguments:** `weibull`: slope of the distribution of every bearing's life, 1.5 in API 610; `None` for that of the
-    standards, 10/9 of ball and 9/8 of roller bearings.
+    **Arguments:** `weibull`: Weibull slope of every bearing's life, 1.5 in API 610; `None` for the slopes of the
+    standards, 10/9 for ball and 9/8 for roller bearings.
     """
 
     part: ClassVar[str] = "life"
@@ -50,9 +50,9 @@ class ShaftState(Checked):
 
     **Arguments:**
     - `share`: its share of the time, above 0 and at most 1; the shares of all states add up to 1.
-    - `changes`: what differs from the scene: dotted path -> SI value, such as `{"force.pinion.torque": 50.0,
+    - `changes`: values that differ from the scene: dotted path -> SI value, such as `{"force.pinion.torque": 50.0,
       "shaft.speed": 300.0}`; bearings, sets and forces are found by their names.
-    - `name`: its name; left out: its number.
+    - `name`: name of the state; if not given, its number.
     """
 
     part: ClassVar[str] = "state"
@@ -63,8 +63,8 @@ class ShaftState(Checked):
 
 
 class Place(NamedTuple):
-    """One bearing of a system, from a set or alone. `closure` and `expansion` are those that it is given by itself,
-    m; `set_index` is the number of its set, or `None`."""
+    """One bearing of a system, single or of a set. `closure`: its own given closure, without the preload of its set,
+    m; `expansion`: as given, m; `set_index`: index of its set, `None` for a single bearing."""
 
     name: str
     scene: AbstractBearing | LinearBearing
@@ -80,18 +80,18 @@ class ShaftSystem(AbstractScene):
     """A shaft on bearings, with all that acts on it. `jaxbearing.solve` finds its equilibrium.
 
     **Arguments:**
-    - `shaft`: dimensions, speed, weight.
-    - `sets`, `bearings`: on the shaft. `places` has all bearings, those of the sets first.
-    - `forces`: that act on the shaft.
+    - `shaft`: dimensions, speed and weight of the shaft.
+    - `sets`, `bearings`: matched sets and single bearings. `places` has all bearings, those of the sets first.
+    - `forces`: forces on the shaft besides those of its bearings.
     - `housing`: stiffness of a housing that holds all outer rings, shape (5 n, 5 n) in the frame of the shaft, five
       degrees of freedom for each of the bearings in the order of `places`; `None`: each outer ring has its own support.
-    - `states`: of a duty cycle; without any there is one state, that of the scene.
+    - `states`: states of a duty cycle; if there are none, the scene itself is the only state.
     - `life`: inputs of the life of the system.
     - `thermal`: joins the thermal networks of the bearings along shaft and housing; `None`: each has its own.
 
     **Raises:** `ValueError` for names that are given twice, for no bearing, for positions beyond the ends of the shaft,
-    for flexible outer rings and that nothing holds, for shares that do not add up to 1, and for a state whose scene
-    would be refused; `AttributeError` for a state that changes what is not there.
+    for flexible outer rings that nothing holds, for shares that do not add up to 1, and for a state whose scene is
+    invalid; `AttributeError` for a state that changes a path that does not exist.
     """
 
     kind: ClassVar[str] = "shaft"
@@ -143,8 +143,8 @@ class ShaftSystem(AbstractScene):
         yield from self._of_states()
 
     def _of_states(self) -> Iterator[str | ValueError]:
-        """Problems of the states: of their shares, and of the scene that each of them makes. Traced numbers of these
-        scenes are judged where they are solved (`steady`)."""
+        """Problems of the states: their shares, and the scene of each state. Traced numbers of these scenes are checked
+        in the solve (`steady`)."""
         shares = numbers_or_none(*(state.share for state in self.states))
         if not self.states or shares is None:
             return
@@ -177,8 +177,8 @@ class ShaftSystem(AbstractScene):
             yield from refusals_of(demand, f"{path} must lie within the length of the shaft", inside, message)
 
     def _shapes(self) -> Iterator[str]:
-        """Problems of flexible outer rings: something must hold each of them in its place, and loads from outside must
-        not act on what holds it."""
+        """Problems of flexible outer rings: each needs something that holds it in place, and must not have an outer
+        load if the shaft has an elastic support or housing there."""
         found = []
         for place in self.places:
             ring = place.scene.outer_ring if isinstance(place.scene, AbstractBearing) else None
@@ -203,13 +203,13 @@ class ShaftSystem(AbstractScene):
         return f"bearing.{place.name}" if place.set_index is None else f"set.{self.sets[place.set_index].name}"
 
     def _path_of(self, place: Place) -> tuple[str, str]:
-        """Path of the position of a bearing, and which bearing of a set it is, in words."""
+        """Path of the position of a bearing, and for a bearing of a set the words that name it."""
         which = "" if place.set_index is None else f"{place.name} at "
         return f"{self._table_of(place)}.position", which
 
     @property
     def places(self) -> tuple[Place, ...]:
-        """All bearings: those of the sets in their order, then those that stand alone."""
+        """All bearings: those of the sets in their order, then the single bearings."""
         found = []
         for index, one in enumerate(self.sets):
             mismatch = np.zeros(one.count) if one.mismatch is None else one.mismatch
@@ -223,9 +223,9 @@ class ShaftSystem(AbstractScene):
         return tuple(found)
 
     def replace(self, changes: Any) -> "ShaftSystem":
-        """A copy with other values; keys are the dotted paths of scene files (`paths`), values SI numbers or parts.
+        """A copy with other values. `changes`: dotted path of scene files (`paths`) -> SI number or part.
 
-        **Raises:** as `AbstractScene.replace`.
+        **Raises:** the errors of `AbstractScene.replace`.
         """
         return replaced(self, changes)
 

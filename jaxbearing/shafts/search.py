@@ -59,7 +59,7 @@ ANCHOR = 0.1
 gives a unique position to a shaft that floats in its clearance without load. It exerts no force, and is 1e-9 of the
 stiffness of a loaded bearing."""
 NEWTON_TRIALS = 60
-"""Most trials of the second stage."""
+"""Largest number of trials of the second stage."""
 ROUNDED_STEP = 1e-16
 """Displacement, m, below which a Newton step counts as round-off."""
 MOST_ROUNDED = 1e-7

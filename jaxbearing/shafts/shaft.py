@@ -2,7 +2,7 @@
 
 Frame of a shaft: X along it, Y at azimuth 0, Z at azimuth 90 degrees. The speed is positive from Y to Z. A point of the
 shaft has the five degrees of freedom of a bearing's ring (`bearings.ring`) in this frame: axial, radial (Y), lateral
-(Z), and two tilts, with which azimuth 0 and azimuth 90 degrees move along +X.
+(Z), and two tilts. Positive tilts move azimuth 0 and azimuth 90 degrees along +X.
 """
 
 from typing import ClassVar
@@ -17,17 +17,17 @@ from ..materials import Material
 from ..numerics.checks import Checked, demand, numbers_or_none
 
 STEEL = Material(np.float64(206e9), np.float64(0.3), np.float64(7850.0))
-"""Material of a shaft that names none."""
+"""Default material of a shaft."""
 
 
 class Section(Checked):
-    """A cylindrical part of a shaft, solid or hollow. A cone is several of them.
+    """A cylindrical part of a shaft, solid or hollow. A cone is approximated by several sections.
 
     **Arguments:**
     - `length`: m, > 0.
     - `outer_diameter`: m, > 0.
-    - `inner_diameter`: of the bore, m, below the outer one; 0 for a solid section.
-    - `material`: if it is not that of the shaft.
+    - `inner_diameter`: diameter of the bore, m, below the outer one; 0 for a solid section.
+    - `material`: material of the section; `None` for that of the shaft.
     """
 
     part: ClassVar[str] = "shaft.sections"
@@ -51,11 +51,11 @@ class Section(Checked):
 
 
 class Gravity(Checked):
-    """The weight of the shaft and of the masses on it acts across the shaft.
+    """Gravity across the shaft. It acts on the shaft and on the masses on it.
 
     **Arguments:**
     - `acceleration`: m/s^2, >= 0.
-    - `azimuth`: direction in which it acts, rad, from Y in the sense of rotation; pi is downwards where Y points up.
+    - `azimuth`: direction of gravity, rad, from Y towards Z; pi is downwards if Y points up.
     """
 
     part: ClassVar[str] = "shaft.gravity"
@@ -65,17 +65,17 @@ class Gravity(Checked):
 
 
 class Shaft(Checked):
-    """A stepped shaft, or without sections a rigid one.
+    """A stepped shaft; without sections it is rigid.
 
     **Arguments:**
     - `speed`: rad/s, positive from Y to Z. It is the speed of every inner ring.
-    - `sections`: from x = 0 in the direction of +X. Without any the shaft is rigid, has no weight and no ends.
-    - `material`: of the sections that name none.
-    - `gravity`: `None` for a weightless shaft.
+    - `sections`: sections from x = 0 along +X. Without sections the shaft is rigid and has no weight and no ends.
+    - `material`: material of the sections without a material of their own.
+    - `gravity`: gravity across the shaft; `None` for a weightless shaft.
     - `thermal_strain`: thermal strain of the shaft less that of the housing,
-      $\\alpha_s\\Delta T_s - \\alpha_h\\Delta T_h$: bearings whose rings are located rigidly on both are closed or
-      opened by it in proportion to their distance from `strain_reference`.
-    - `strain_reference`: point of the shaft that does not move against the housing, m.
+      $\\alpha_s\\Delta T_s - \\alpha_h\\Delta T_h$. It closes or opens the bearings, whose rings are located rigidly on
+      both, in proportion to their distance from `strain_reference`.
+    - `strain_reference`: position of the point of the shaft that does not move relative to the housing, m.
     """
 
     part: ClassVar[str] = "shaft"

@@ -27,13 +27,13 @@ class BearingOnShaft(eqx.Module):
     """One bearing of a solved shaft.
 
     **Arguments:** the labels of the fields describe them; others are
-    - `ring`: displacement of the inner ring against the outer one at the port (on the axis, in the plane of the
+    - `ring`: displacement of the inner ring relative to the outer ring at the port (on the axis, in the plane of the
       unloaded balls or in the middle of the rollers), in the bearing's frame, without closure.
-    - `solution`: results of the bearing's own family with its ring held where the shaft holds it, of rollers that slide
-      under the same force across the axis without tilt; `None` of a linear bearing.
-    - `life`: `None` without a rating in the bearing's scene.
-    - `name`, `sense`: its name; 1 if its axis points along +X, else -1.
-    - `sliding_difference`: of rollers that slide, whose own model has no tilt; `None` of all others.
+    - `solution`: results of the bearing's own family at the displacement that the shaft prescribes. For rollers that
+      slide they are those under the same radial and lateral force without tilt. `None` for a linear bearing.
+    - `life`: life of the bearing; `None` without a rating in the bearing's scene.
+    - `name`, `sense`: name of the bearing; 1 if its axis points along +X, else -1.
+    - `sliding_difference`: only for rollers that slide, whose own model has no tilt; else `None`.
     """
 
     position: _Number = eqx.field(metadata=label("m", "position along the shaft"))
@@ -98,7 +98,7 @@ class ShaftNodes(eqx.Module):
 
 
 class SetResult(eqx.Module):
-    """A matched set. What it has no preload for is `None`.
+    """Results of a matched set. Fields that do not apply to its kind of preload are `None`.
 
     **Arguments:** the labels of the fields describe them.
     """
@@ -122,8 +122,8 @@ class SetResult(eqx.Module):
 class TorqueBalance(eqx.Module):
     """Torques about the shaft's axis, N m, positive in the sense of positive speed: `forces` + `drive` = `bearings`.
 
-    **Arguments:** `forces`: of gears, belts and tangential loads; `bearings`: sum of the torques that turn the inner
-    rings against friction; `drive`: what is left for the drive to give; `power`: of the shaft, N m rad/s.
+    **Arguments:** `forces`: torque of gears, belts and tangential loads; `bearings`: sum of the torques that turn the
+    inner rings against friction; `drive`: torque that the drive must add; `power_loss`: losses of all bearings, W.
     """
 
     forces: _Number = eqx.field(metadata=label("N m", "sum of the torques of the forces"))
@@ -137,10 +137,10 @@ def _of_system(unit: str, description: str):
 
 
 class SystemLifeResult(AtReliability):
-    """Life of all bearings together, of each kind that all of them have: the time that 90 % of such shafts, or the part
-    `reliability`, survive with all bearings. Lives count millions of revolutions of the shaft.
+    """Life of all bearings together, for each kind of life that all of them have: 90 % of such shafts, or for Lnmr the
+    fraction `reliability`, reach it without the failure of a bearing. Revolutions are those of the shaft.
 
-    With bearings that are rated for different reliabilities there is no Lnmr of the system.
+    There is no Lnmr of the system if the bearings are rated for different reliabilities.
     """
 
     Lnmr_hours: _Number | None = _of_system("h", "modified reference rating life of the system at the reliability n")
@@ -166,10 +166,11 @@ class SystemLifeResult(AtReliability):
 
 
 class DutyResult(eqx.Module):
-    """A duty cycle: first the damage of all states adds up for each bearing, then the bearings make the system.
+    """Lives under a duty cycle. The damage of all states is added for each bearing; the lives of the bearings give the
+    life of the system.
 
-    **Arguments:** `lives`: of each rated bearing by its name; `system`: `None` if a bearing has no rating; `names`: of
-    the states; `states`: their solutions, stacked along a first axis of every array.
+    **Arguments:** `lives`: life of each rated bearing by its name; `system`: life of the system, `None` if a bearing
+    has no rating; `names`: names of the states; `states`: their solutions, stacked along a first axis of every array.
     """
 
     lives: dict[str, SpectrumLife]
@@ -195,13 +196,13 @@ class ShaftSolution(AbstractSolution):
     With a duty cycle it is the solution of the first state, and `duty` has all of them.
 
     **Arguments:** the labels of the fields describe them; others are
-    - `bearings`: by name, those of sets first.
-    - `sets`: by name.
-    - `life`: of the system; `None` if a bearing has no rating.
-    - `thermal`: the network along shaft and housing; `None` where the bearings have no common one.
+    - `bearings`: results of the bearings by name, bearings of sets first.
+    - `sets`: results of the matched sets by name.
+    - `life`: life of the system; `None` if a bearing has no rating.
+    - `thermal`: common thermal network along shaft and housing; `None` if there is none.
     - `checks`: text of a warning or rule -> True if it applies.
-    - `softest`: the freedom, of the node or bearing that it names, along which the iterate ran away where there is no
-      equilibrium: index into `freedom_names`.
+    - `softest`: degree of freedom along which the search ran away if there is no equilibrium: index into
+      `freedom_names`, which also name the bearing.
     """
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
@@ -244,7 +245,7 @@ class ShaftSolution(AbstractSolution):
         return f"{status.text} after {steps} steps: scaled residual {float(self.residual_norm):.3g}"
 
     def _runaway(self) -> str:
-        """One sentence on temperatures beyond their limit, with the hottest node of the first state that has such."""
+        """One sentence on a thermal runaway, with the hottest node of the first state that has one."""
         if self.duty is not None:
             lane = int(np.argmax(np.asarray(self.duty.states.status) == Status.THERMAL_RUNAWAY))
             state = jax.tree.map(lambda leaf: leaf[lane], self.duty.states)

@@ -55,7 +55,7 @@ TOO_MUCH_PRELOAD = (
     "set.{0}.preload: its bearings carry no such force: one would close by {{:.4g}} mm, and an equilibrium is sought "
     f"within {1e3 * FARTHEST:g} mm"
 )
-"""Cause of a failed solve, with the name of a set."""
+"""Cause of a failed solve, to be filled with the name of a set and a displacement in mm."""
 EMPTY = 0.01
 """Part of the preload below which a bearing of a set counts as unloaded."""
 MISSING_SHOULDER = (
@@ -63,19 +63,20 @@ MISSING_SHOULDER = (
     "carries the axial force in this direction"
 )
 LIGHT = 1.0
-"""Load on a ball, N, above which this warning counts it."""
+"""Load on a ball, N, above which the ball counts for `MISSING_SHOULDER`."""
 STEEP_TILT = 1e-3
-"""Tilt of an inner ring against its outer ring, rad, beyond which makers warn."""
+"""Tilt of an inner ring relative to its outer ring, rad, above which makers of bearings warn."""
 
 
 def solve_shaft(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
-    """Steady state: pure, jit-able, vmap-able, with first derivatives; never raises for a failed solve."""
+    """Steady state of a shaft. The function is pure, works under `jit` and `vmap`, has first derivatives, and never
+    raises for a failed solve."""
     with own_roots():
         return _duty(system, options) if system.states else _solve(system, options)
 
 
 def _duty(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
-    """All states of a duty cycle, one after the other by one program."""
+    """Solves all states of a duty cycle one after the other, with one program."""
     base = dataclasses.replace(system, states=())
     states = [jax.tree.map(as_float, base.replace(state.changes)) for state in system.states]
     structures = {jax.tree.structure(state) for state in states}
@@ -100,7 +101,7 @@ def _duty(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
 
 
 def _any_state(checks: Checks) -> Checks:
-    """Checks that apply in a state. **Arguments:** those of all states, along the first axis."""
+    """Checks that apply in any state. **Arguments:** `checks`: of all states, stacked along the first axis."""
     ranges = {text: jnp.any(flag) for text, flag in checks.ranges.items()}
     return Checks(ranges, jnp.any(checks.broken, axis=0), tuple(f"{rule} in every state" for rule in checks.rules))
 
@@ -108,7 +109,7 @@ def _any_state(checks: Checks) -> Checks:
 def _duty_lives(
     system: ShaftSystem, found: ShaftSolution, shares: Array, speeds: Array
 ) -> tuple[dict[str, SpectrumLife], SystemLifeResult | None]:
-    """Lives of all rated bearings under the duty cycle by name, and that of the system."""
+    """Life of each rated bearing under the duty cycle by name, and life of the system (`None` if one has no rating)."""
     rated = {name: one.life for name, one in found.bearings.items() if one.life is not None}
     states = lambda life: [jax.tree.map(lambda leaf, at=at: leaf[at], life) for at in range(len(shares))]
     lives = {name: spectrum_life(states(life), shares, speeds) for name, life in rated.items()}
@@ -147,7 +148,11 @@ def _at(
     grown: Float[Array, " bearing"] | None,
     options: NewtonOptions,
 ) -> ShaftSolution:
-    """The equilibrium. **Arguments:** `grown`: displacement of the shaft against the housing by growth, m."""
+    """The equilibrium and its results.
+
+    **Arguments:** `grown`: axial displacement of the shaft relative to the housing by thermal expansion, at each
+    bearing, m; `None` for 0.
+    """
     position, closure = _positions(places), mounted.closure
     if grown is not None:
         closure = closure + np.asarray([place.sense for place in places]) * grown
@@ -287,7 +292,7 @@ def _bearings(
 
 
 def _with_life_of(scene: AbstractBearing, rated: Solution, shown: Solution) -> Solution:
-    """A solution with the life of another one of the same bearing, whose loads count."""
+    """The solution `shown` with the life from the loads of `rated`, another solution of the same bearing."""
     found = with_life(scene, rated)
     return dataclasses.replace(shown, life=found.life, checks=found.checks, notes=found.notes)
 

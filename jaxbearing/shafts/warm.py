@@ -34,12 +34,12 @@ from .scene import Place, ShaftSystem
 from .solution import ShaftSolution
 
 SolveAt = Callable[[tuple[Place, ...], Mounted, Array], ShaftSolution]
-"""From bearings without networks, the mounted preload and the growth along the axis at each bearing, m, to a solution
-of the shaft."""
+"""Function of the bearings without networks, the mounted preload and the axial displacement of the shaft relative to
+the housing at each bearing, m, that returns the solution of the shaft."""
 
 
 class _Way(eqx.Module):
-    """Conductance to the ambient of a node as a law of its temperature, W/K, that adds that of the oil flow."""
+    """Conductance of a node to the ambient plus that of the oil flow, W/K, as a function of its temperature."""
 
     own: Any
     oil: Float[Array, ""]
@@ -63,13 +63,14 @@ class _Warm:
         inlets = [inlet_temperature(scene) for scene, one in zip(self.scenes, self.networks, strict=True) if one.oil]
         coldest = [jnp.asarray(one.ambient, dtype=float) for one in self.networks]
         self.coldest = jnp.min(jnp.stack([*coldest, *(jnp.asarray(one, dtype=float) for one in inlets)]))
-        """Every temperature outside is reckoned from the coldest one: all heat that comes in is positive."""
+        """Lowest temperature of all ambients and oil inlets, K, the ambient of the network. Warmer ambients and inlets
+        bring in heat, which is therefore never negative."""
         assert system.thermal is not None
         self.joined = between_neighbours(system.thermal, system.shaft, self.position)
-        """Conductances between the nodes of neighbours, W/K."""
+        """Conductances between the nodes of neighbouring bearings, W/K."""
 
     def network(self) -> Network:
-        """All nodes; conductances between them come with the losses."""
+        """Network of the nodes of all bearings. The conductances between them come with the losses."""
         nodes: list[str] = []
         ways: list[_Way] = []
         for name, one in zip(self.names, self.networks, strict=True):
@@ -84,12 +85,12 @@ class _Warm:
         return temperatures.reshape(len(self.index), NODES)
 
     def to_neighbours(self, temperatures: Float[Array, " node"]) -> Float[Array, "bearing 6"]:
-        """Heat that flows from each node to those of neighbouring bearings, W."""
+        """Heat flow from each node to the nodes of neighbouring bearings, W."""
         flows = self.joined * (temperatures[:, None] - temperatures[None, :])
         return self.each(jnp.sum(flows, axis=1))
 
     def start(self) -> Float[Array, " node"]:
-        """The temperatures at which the search begins: those of the start that a bearing gives, or cold."""
+        """Temperatures at which the search begins: `thermal.start` of a bearing if it is given, else a cold start."""
         starts = [
             one.start() if scene.thermal.start is None else jnp.full(NODES, scene.thermal.start)
             for scene, one in zip(self.scenes, self.networks, strict=True)
@@ -102,7 +103,7 @@ class _Warm:
         return jnp.concatenate(known) if len(known) == len(found) else None
 
     def from_outside(self, number: int, heat: NodeHeat, temperatures: Float[Array, "6"]) -> Float[Array, "6"]:
-        """Heat that ambient and oil bring in, which are warmer than the coldest temperature outside, W."""
+        """Heat that ambient and oil of a bearing bring in because they are warmer than `coldest`, W."""
         one, outside = self.networks[number], heat.to_ambient
         assert outside is not None
         laws = zip(one.to_ambient, temperatures, strict=True)
@@ -114,7 +115,7 @@ class _Warm:
 
 
 def solve_warm_shaft(system: ShaftSystem, solve: SolveAt) -> ShaftSolution:
-    """The solution at the temperatures where all heat that is made leaves."""
+    """The solution of a shaft at its steady temperatures, at which all heat of the losses leaves."""
     thermal, shaft, places, warm = system.thermal, system.shaft, system.places, _Warm(system)
     assert thermal is not None
     cold = tuple(place._replace(scene=_without_network(place.scene)) for place in places)
@@ -158,7 +159,8 @@ def _without_network(scene: AbstractBearing | LinearBearing) -> AbstractBearing 
 
 
 def _answer(system: ShaftSystem, warm: _Warm, state: ThermalState) -> ShaftSolution:
-    """The solution of the shaft at the temperatures found, with these; of a lane that failed, NaN."""
+    """The solution of the shaft at the temperatures found, with the thermal results added; all of it is NaN if the
+    search failed."""
     solution, heats = state.losses.other
     ended: ShaftSolution = state.ended.other[0]
     good = state.status == Status.CONVERGED

@@ -4,9 +4,9 @@ The balance of node k, with heat counted positive into the node, is
 
 $$R_k(T) = \sum_j G_{kj}(T_j - T_k) - G_{k}^a(T_k - T_a) - [k = oil]\,\frac{\dot m c_p}{\xi}(T_k - T_{in}) + P_k(T) .$$
 
-The network knows no bearing: the heat $P_k$ is given by a function of the node temperatures (`losses`), behind which a
-whole bearing may be solved. G is symmetric, so the sum of all balances is the total loss less the heat that leaves with
-the oil and to the ambient.
+The network does not depend on the kind of bearing. A function of the node temperatures (`losses`) gives the heat $P_k$;
+it may solve a whole bearing. G is symmetric, so the sum of all balances is the total loss less the heat that leaves
+with the oil and to the ambient.
 """
 
 from collections.abc import Callable, Mapping
@@ -31,7 +31,7 @@ NODES: dict[int, tuple[str, ...]] = {
 }
 """Names of the nodes of the usual networks, by their number."""
 LAST_BITS = 4.0 * 2.0**-52
-"""Relative error of a temperature that rounding stands for: a heat flow is not known better than that."""
+"""Relative rounding error of a temperature. It limits the accuracy of heat flows."""
 
 AmbientConductance: TypeAlias = Scalar | Callable[[Array], Array]
 """Conductance to the ambient, W/K, >= 0: a number, or a function of the temperature of its node, K."""
@@ -65,7 +65,7 @@ OilFlow.__init__.__doc__ = """**Arguments:**
 
 
 class NodeHeat(eqx.Module):
-    """Heat into the nodes at given temperatures, and what else was computed with it."""
+    """Heat into the nodes at given temperatures, and other results of the same evaluation."""
 
     heat: Float[Array, " node"]
     status: Int[Array, ""] = eqx.field(default_factory=lambda: jnp.asarray(int(Status.CONVERGED)))
@@ -87,15 +87,15 @@ NodeHeat.__init__.__doc__ = """**Arguments:**
 """
 
 Losses: TypeAlias = Callable[[Array], NodeHeat]
-"""Function of the node temperatures, K, shape (node,), to the heat into the nodes."""
+"""Function of the node temperatures, K, shape (node,), that returns the heat into the nodes."""
 
 
 class HeatFlows(NamedTuple):
     """Heat flows of a network at given temperatures.
 
-    `into_nodes`: from other nodes, ambient and oil, W, + into the node, shape (node,); `to_oil`, `to_ambient`: heat
-    that leaves the network, W; `rounding`, `rounding_out`: errors of `into_nodes` and of the heat that leaves from the
-    last bits of the temperatures, W.
+    `into_nodes`: heat into each node from other nodes, ambient and oil, W, shape (node,); `to_oil`, `to_ambient`: heat
+    that leaves the network, W; `rounding`, `rounding_out`: rounding errors of `into_nodes` and of the heat that leaves,
+    W.
     """
 
     into_nodes: Float[Array, " node"]
@@ -141,7 +141,7 @@ class Network(Checked):
 
     @property
     def oil_node(self) -> int | None:
-        """Index of the node that holds the oil: that named `oil`, or the only one."""
+        """Index of the node that holds the oil: the node `oil` or the only node; `None` if there is neither."""
         if len(self.nodes) == 1:
             return 0
         return self.nodes.index("oil") if "oil" in self.nodes else None
@@ -156,7 +156,7 @@ class Network(Checked):
     def flows(self, temperatures: Float[Array, " node"], losses: NodeHeat | None = None) -> HeatFlows:
         """Heat flows at node temperatures.
 
-        **Arguments:** `temperatures`, K; `losses`: for the conductances that they add, `None` for none.
+        **Arguments:** `temperatures`: K; `losses`: the conductances that they contain are added; `None` for none.
         """
         between = jnp.asarray(self.between, dtype=float)
         ambient = jnp.stack(
@@ -169,7 +169,7 @@ class Network(Checked):
             between = between + losses.between
         if losses is not None and losses.to_ambient is not None:
             ambient = ambient + losses.to_ambient
-        # from node to node first: the two flows of a pair then differ in nothing but their sign
+        # flows from node to node, so that the two flows of a pair differ only in their sign
         conduction = jnp.sum(between * (temperatures[None, :] - temperatures[:, None]), axis=1)
         lost = ambient * (temperatures - self.ambient)
         size = jnp.abs(temperatures)
@@ -184,7 +184,7 @@ class Network(Checked):
         return HeatFlows(into, to_oil, jnp.sum(lost), *rounding)
 
     def residual(self, temperatures: Float[Array, " node"], losses: NodeHeat) -> Float[Array, " node"]:
-        """R, W: the heat that each node takes and does not pass on; 0 in a steady state."""
+        """Balance R of each node, W: heat that it takes in less heat that it gives off; 0 in a steady state."""
         return self.flows(temperatures, losses).into_nodes + losses.heat
 
     def oil_out(self, temperatures: Float[Array, " node"]) -> Float[Array, ""] | None:
@@ -252,7 +252,7 @@ def conductances_between(
     plain = all(known(value) is not None for value in places.values())
     rows = [[places.get((min(i, j), max(i, j)), 0.0) for j in range(len(nodes))] for i in range(len(nodes))]
     if plain:
-        # numbers that are known stay so: they are judged
+        # known numbers stay known, so that they can be checked
         return np.asarray(rows, dtype=float)
     return jnp.stack([jnp.stack([jnp.asarray(one, dtype=float) for one in row]) for row in rows])
 
@@ -260,8 +260,8 @@ def conductances_between(
 class Slopes(NamedTuple):
     """Derivatives with respect to the node temperatures, W/K, shape (node, node).
 
-    `conduction`: K, the derivative of -(R - P), of all that is no loss, with that of the conductances; `losses`: that
-    of P. The Jacobian of the balances is their difference.
+    `conduction`: K, the derivative of -(R - P), with the derivatives of the conductances; `losses`: the derivative of
+    the losses P. The Jacobian of the balances is `losses` less `conduction`.
     """
 
     conduction: Float[Array, "node node"]
@@ -269,23 +269,24 @@ class Slopes(NamedTuple):
 
     @property
     def jacobian(self) -> Float[Array, "node node"]:
-        """dR/dT, W/K."""
+        """Jacobian dR/dT of the balances, W/K."""
         return self.losses - self.conduction
 
 
 def thermal_margin(slopes: Slopes) -> Float[Array, ""]:
-    r"""$1 - \max\operatorname{Re}\,\mathrm{eig}(K^{-1}\,\partial P/\partial T)$, a number.
+    r"""Thermal margin $1 - \max\operatorname{Re}\,\mathrm{eig}(K^{-1}\,\partial P/\partial T)$, a number.
 
-    It is 1 without feedback of temperature on the losses, above 1 where warmer nodes make less heat everywhere, and
-    falls to 0 exactly at a fold, beyond which there is no steady state. It needs no heat capacities. A positive margin
-    does not say that the state is reached after a cold start at speed (`warm_up` does), nor that it does not oscillate
-    (`thermal_rate` does).
+    It is 1 if the temperature does not affect the losses, above 1 if warmer nodes make less heat everywhere, and 0
+    exactly at a fold, beyond which there is no steady state. It needs no heat capacities. A positive margin guarantees
+    neither that a cold start at speed reaches the state (`warm_up` shows this), nor that oscillations die out
+    (`thermal_rate` shows this).
     """
     return 1.0 - jnp.max(jnp.linalg.eigvals(lapack.solve(slopes.conduction, slopes.losses)).real)
 
 
 def thermal_rate(slopes: Slopes, capacity: Float[Array, " node"]) -> Float[Array, ""]:
-    r"""$\max\operatorname{Re}\,\mathrm{eig}(C^{-1}J)$, 1/s: a steady state is stable where it is negative.
+    r"""Growth rate of disturbances, $\max\operatorname{Re}\,\mathrm{eig}(C^{-1}J)$, 1/s; a steady state is stable if it
+    is negative.
 
     **Arguments:** `capacity`: heat capacity of each node, J/K, > 0.
     """
@@ -293,7 +294,7 @@ def thermal_rate(slopes: Slopes, capacity: Float[Array, " node"]) -> Float[Array
 
 
 def slopes_at(network: Network, losses: Losses, temperatures: Float[Array, " node"]) -> Slopes:
-    """K and dP/dT by forward differentiation of the losses and of the conductances; differentiable itself.
+    """Slopes K and dP/dT by forward differentiation of the losses and conductances; they can be differentiated again.
 
     **Arguments:** `losses`: function of the node temperatures; `temperatures`: K, shape (node,).
     """

@@ -1,4 +1,4 @@
-"""Parts of the search for steady temperatures: the problem, an evaluation of it, a step from one to the next."""
+"""Parts of the search for steady temperatures: the problem, its evaluation at a point, the step to the next point."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -15,33 +15,32 @@ from .network import LAST_BITS, HeatFlows, NodeHeat, Slopes
 GOING = -1
 """Status of a search that has not ended."""
 STEP_CAP = 40.0
-"""Longest step of one node, K."""
+"""Largest change of a node temperature in one step, K."""
 SHORT_STEP = 1e-6
-"""A step below this, K, is taken whatever the balances do: rounding may keep them from falling."""
+"""Length of a step, K, below which it is always accepted: rounding may keep the balances from falling."""
 RISE = 2.0
-"""Factor by which a step of Broyden's iteration may let the largest balance grow, relative to the total loss, which
-changes too. Where rollers skid, a search that asks for a fall at each step got stuck in 9 of 24 bearings, this in
-none."""
+"""Factor by which the largest balance, relative to the total loss, may grow in a step of Broyden's iteration. With
+skidding rollers, a search that demands a decrease in every step got stuck in 9 of 24 bearings, this search in none."""
 HALVINGS = 8
-"""Times that a step is halved before the iteration has failed."""
+"""Number of halvings of a step after which the iteration has failed."""
 SMALLEST_LOSS = 1e-6
-"""The balances are compared with the total loss, or with this part of the heat that leaves if that is more: for a
+"""Part of the heat that leaves which replaces the total loss as the scale of the balances if it is larger, as in a
 network without losses."""
 
 
 class ThermalOptions(eqx.Module):
-    """Tolerance and limits of the search; they shape the program.
+    """Tolerance and limits of the search. They are fixed in the compiled program.
 
     **Arguments:**
     - `tolerance`: largest balance of a node in a steady state as a part of the total loss (a number).
-    - `jacobian`: `when_needed`: Newton's iteration with the exact Jacobian follows where Broyden's has failed, and the
-      program holds the derivative of the losses. `never`: it does not, and is compiled in about half the time; the
-      pseudo-transient then updates its matrix from differences.
-    - `stability`: whether the slopes at the root are wanted; not with `never`.
-    - `quasi_newton_solves`, `newton_steps`, `time_steps`: most evaluations of the losses by Broyden's iteration, by
-      Newton's, and by the pseudo-transient (a number each).
+    - `jacobian`: `when_needed`: if Broyden's iteration fails, Newton's iteration with the exact Jacobian follows; the
+      program contains the derivative of the losses. `never`: there is no Newton's iteration, and the program compiles
+      in about half the time; the pseudo-transient run then updates its matrix from differences.
+    - `stability`: True to compute the slopes at the root; not with `never`.
+    - `quasi_newton_solves`, `newton_steps`, `time_steps`: largest number of evaluations of the losses in Broyden's
+      iteration, in Newton's iteration, and in the pseudo-transient run.
 
-    **Raises:** `ValueError` for an option that is none of these.
+    **Raises:** `ValueError` for an invalid option.
     """
 
     tolerance: float = constant("tolerance", 1e-11, bound="> 0")
@@ -58,7 +57,7 @@ class ThermalOptions(eqx.Module):
 
 @eqx.filter_jit
 def _evaluated(losses: Callable[[Array], NodeHeat], temperatures: Array) -> NodeHeat:
-    """All loops of the search share one trace of the losses."""
+    """The losses at temperatures. All loops of the search share one trace of this function."""
     found = losses(temperatures)
     return jax.tree.map(lambda one: jnp.asarray(one, dtype=jnp.result_type(one)), found)
 
@@ -66,9 +65,9 @@ def _evaluated(losses: Callable[[Array], NodeHeat], temperatures: Array) -> Node
 class Problem(NamedTuple):
     """Input of a search: a pytree whose leaves are the parameters.
 
-    `losses(temperatures)`, `flows(temperatures, heat)`: the losses, and the flows of the network with the conductances
-    that they add; they close over nothing. `start`: temperatures, K; `capacity`: heat capacities, J/K, or `None`;
-    `limit`: temperature that no node may pass, K.
+    `losses(temperatures)`: the losses; `flows(temperatures, heat)`: heat flows of the network, with the conductances
+    that the losses add. Both functions close over nothing. `start`: first temperatures, K; `capacity`: heat capacities,
+    J/K, or `None`; `limit`: temperature that no node may exceed, K.
     """
 
     losses: Callable[[Array], NodeHeat]
@@ -78,13 +77,13 @@ class Problem(NamedTuple):
     limit: Float[Array, ""]
 
     def losses_at(self, temperatures: Array) -> NodeHeat:
-        """The losses, all of them arrays: what is constant leaves a traced function as a plain number."""
+        """The losses with all numbers as arrays (a traced function would return constants as plain numbers)."""
         return _evaluated(self.losses, temperatures)
 
 
 class Point(NamedTuple):
-    """Evaluation at temperatures: losses, and balances R, W. In units of the total loss: `norm`, the largest balance of
-    a node, and `whole`, that of the network; both less what rounding explains."""
+    """Evaluation at temperatures: `losses`, and `residual`, the balances R, W. `norm` is the largest balance of a node
+    and `whole` that of the network, both less their rounding errors and in units of the total loss."""
 
     losses: NodeHeat
     residual: Float[Array, " node"]
@@ -112,7 +111,7 @@ def point_at(losses: NodeHeat, flows: HeatFlows) -> Point:
     total, leaving = jnp.sum(losses.heat), jnp.abs(flows.to_oil) + jnp.abs(flows.to_ambient)
     scale = jnp.maximum(total, SMALLEST_LOSS * leaving)
     scale = jnp.where(scale == 0.0, 1.0, scale)
-    # conductances far above the others make the balance of a node a matter of last bits; the sum knows none of them
+    # very large conductances make the balance of a node a matter of rounding; in the sum of the balances they cancel
     whole = jnp.abs(total - flows.to_oil - flows.to_ambient) - LAST_BITS * jnp.abs(total) - flows.rounding_out
     norm = jnp.max(jnp.maximum(jnp.abs(residual) - flows.rounding, 0.0))
     return Point(losses, residual, norm / scale, jnp.maximum(whole, 0.0) / scale)
@@ -123,14 +122,14 @@ def square(problem: Problem) -> Float[Array, "node node"]:
 
 
 def no_point(problem: Problem) -> Point:
-    """A point of the shape that an evaluation has."""
+    """Placeholder with the shapes of an evaluation: zeros, and infinite norms."""
     shape = jax.eval_shape(problem.losses_at, problem.start)
     losses = jax.tree.map(lambda leaf: jnp.zeros(leaf.shape, leaf.dtype), shape)
     return Point(losses, jnp.zeros_like(problem.start), jnp.asarray(jnp.inf), jnp.asarray(jnp.inf))
 
 
 def evaluate(problem: Problem, temperatures: Array) -> tuple[Array, Array, NodeHeat, HeatFlows]:
-    """Heat that flows into the nodes, heat of the losses, W; and the losses and flows with all that they say."""
+    """Heat that flows into the nodes and heat of the losses, W, followed by the complete losses and flows."""
     losses = problem.losses_at(temperatures)
     flows = problem.flows(temperatures, losses)
     return flows.into_nodes, losses.heat, losses, flows
@@ -149,7 +148,7 @@ def linearised(problem: Problem, temperatures: Array) -> tuple[Point, Slopes]:
 
 
 class Line(NamedTuple):
-    """A step from a base: the trial stands at the base plus a part of the step, 2^-halvings."""
+    """Step of a line search: `trial` is `base` plus 2^-`halvings` times `step`."""
 
     base: Float[Array, " node"]
     step: Float[Array, " node"]
@@ -161,9 +160,9 @@ class Line(NamedTuple):
         return cls(start, jnp.zeros_like(start), jnp.asarray(0), start)
 
     def goes_on(self, accepted: Bool[Array, ""], step: Float[Array, " node"]) -> "Line":
-        """The next trial: along a new step where this one was accepted, else half as far along the old one."""
+        """The next trial: along the new step if this trial was accepted, else half as far along the old step."""
         base = jnp.where(accepted, self.trial, self.base)
-        # the direction is kept: steps of which single nodes were cut took up to 25 solves instead of 15
+        # the direction is kept: with single nodes cut, a search took up to 25 solves instead of 15
         capped = step / jnp.maximum(jnp.max(jnp.abs(step)) / STEP_CAP, 1.0)
         step = jnp.where(accepted, capped, self.step)
         halvings = jnp.where(accepted, 0, self.halvings + 1)
@@ -177,8 +176,8 @@ class Line(NamedTuple):
     def accepts(
         self, point: Point, before: Float[Array, ""], first: Bool[Array, ""], rise: float = 1.0
     ) -> Bool[Array, ""]:
-        """True if a trial is taken. **Arguments:** `before`: norm at the base; `first`: there is no base yet; `rise`:
-        factor by which the norm may grow."""
+        """True if the trial is accepted. **Arguments:** `before`: norm at the base; `first`: True if there is no base
+        yet; `rise`: factor by which the norm may grow."""
         short = jnp.max(jnp.abs(self.trial - self.base)) < SHORT_STEP
         return ~point.broken & (first | short | (point.norm <= rise * before))
 

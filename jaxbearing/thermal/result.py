@@ -1,4 +1,4 @@
-"""Temperatures and heat flows of a bearing with a thermal network, labelled."""
+"""Results of a bearing with a thermal network: temperatures and heat flows with their labels."""
 
 import dataclasses
 import itertools
@@ -23,7 +23,7 @@ def _temperature(of: str) -> Any:
 
 
 class NodeTemperatures(eqx.Module):
-    """Temperatures of the nodes; those that the network does not have are `None`."""
+    """Temperatures of the nodes; `None` for nodes that the network does not have."""
 
     bearing: _Number | None = _temperature("the whole bearing")
     inner_ring: _Number | None = _temperature("the inner ring")
@@ -39,7 +39,7 @@ def _flow(source: str, sink: str) -> Any:
 
 
 class HeatPaths(eqx.Module):
-    """Heat that flows along each conductance; negative: the other way round."""
+    """Heat flow along each conductance; it is negative if heat flows the other way."""
 
     inner_ring_elements: _Number | None = _flow("inner ring", "elements")
     outer_ring_elements: _Number | None = _flow("outer ring", "elements")
@@ -62,8 +62,8 @@ class ThermalResult(eqx.Module):
     """Steady temperatures of a bearing, and where its losses go. Results of a search that failed are NaN.
 
     **Arguments:** the labels of the fields describe them; others are
-    - `last`: temperature of each node where the search ended, K, of one that failed too.
-    - `nodes`: names.
+    - `last`: temperature of each node where the search ended, K, also if it failed.
+    - `nodes`: names of the nodes.
     """
 
     temperatures: NodeTemperatures
@@ -89,7 +89,7 @@ class ThermalResult(eqx.Module):
 
     @property
     def unstable(self) -> Bool[Array, ""] | None:
-        """True in a state that a bearing would leave: margin not above 0, or a rate above 0; `None` if not computed."""
+        """True if the state is unstable: `margin` <= 0 or `rate` > 0; `None` if they are not computed."""
         if self.margin is None:
             return None
         beyond = self.margin <= 0.0
@@ -100,8 +100,8 @@ class ThermalResult(eqx.Module):
         return jnp.stack([getattr(self.temperatures, name) for name in self.nodes])
 
     def paths(self) -> dict[tuple[str, str], _Number]:
-        """Heat that flows from the first to the second of two nodes, W; the second may be `ambient`, or `neighbours`. A
-        negative number flows the other way round."""
+        """Heat flow from the first to the second node of each pair, W, negative if it flows the other way. The second
+        node may be `ambient` or `neighbours`."""
         ends = itertools.product(self.nodes, (*self.nodes, "ambient", "neighbours"))
         found = {(first, second): getattr(self.flows, f"{first}_{second}", None) for first, second in ends}
         return {pair: flow for pair, flow in found.items() if flow is not None}
@@ -131,7 +131,8 @@ class ThermalResult(eqx.Module):
 
 
 def named(kind: type[Named], values: dict[str, Array]) -> Named:
-    """An object with the values that it has a field for; zero conductances have no path."""
+    """An object of class `kind` with the `values` for which it has fields. Other values, the heat along conductances of
+    0, are dropped."""
     known = {field.name for field in dataclasses.fields(kind)}
     return kind(**{name: value for name, value in values.items() if name in known})
 

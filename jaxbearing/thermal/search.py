@@ -1,10 +1,10 @@
-r"""The search for the steady temperatures of a network: Broyden's iteration, then Newton's, then the warm-up.
+r"""The search for the steady temperatures of a network: Broyden's iteration, then Newton's, then steps in time.
 
-A loss function may hold the solve of a whole bearing, which is dear to compile and to run. So the search is two loops,
-each around one evaluation. The first takes Broyden's steps from $B_0 = -K$, the part of the Jacobian that is known
-without a derivative of the losses. The second goes on only where the first has failed, or where somebody wants the
-Jacobian at the root: Newton's steps with the exact Jacobian, and where they fail as well, implicit Euler steps in time
-from the start (pseudo-transient), which end where a real start ends.
+A loss function may contain the solve of a whole bearing, which takes long to compile and to run. The search is
+therefore two loops around one evaluation each. The first loop is Broyden's iteration from $B_0 = -K$, the part of the
+Jacobian that is known without a derivative of the losses. The second loop runs only if the first has failed, or if the
+Jacobian at the root is wanted. It takes Newton's steps with the exact Jacobian. If they fail too, it takes implicit
+Euler steps in time from the start (pseudo-transient run), which end where a real start ends.
 """
 
 from typing import NamedTuple
@@ -33,23 +33,27 @@ from .point import (
 )
 
 FIRST_TIME_STEP = 1.0
-"""First step of the pseudo-transient, s."""
+"""First time step of the pseudo-transient run, s."""
 SHORTEST_TIME_STEP = 1e-9
-"""A pseudo-transient whose steps become shorter has failed, s."""
+"""Time step below which the pseudo-transient run has failed, s."""
 LONGEST_TIME_STEP = 1e12
-"""Time steps grow no further, s: they are Newton's steps then."""
+"""Largest time step, s; implicit Euler steps of this length are Newton's steps."""
 INNER_STEPS = 12
-"""Newton's steps of one time step, before it is shortened."""
+"""Number of Newton steps in a time step after which the time step is shortened."""
 INNER_STEP = 1e-9
-"""Largest Newton step of a time step that has succeeded, K."""
+"""Length of a Newton step below which the time step has succeeded, K."""
 UNKNOWN_TIME = 100.0
-"""Time constant of every node where its heat capacity is unknown, s."""
+"""Time constant of every node if the heat capacities are not known, s."""
 
 
 class Ended(NamedTuple):
-    """The end of a search. `temperatures`: where it ended, finite; a root only if `status` says so; `point`: there;
-    `slopes`: at the root, `None` unless wanted; `solves`, `derivatives`: evaluations of the losses, all, and those
-    among them with the derivative."""
+    """The end of a search.
+
+    - `temperatures`: temperatures where it ended, finite; they are a root only if `status` is `CONVERGED`.
+    - `point`: evaluation there.
+    - `slopes`: slopes at the root; `None` if they are not wanted.
+    - `solves`, `derivatives`: number of evaluations of the losses, and of those with the derivative.
+    """
 
     temperatures: Float[Array, " node"]
     point: Point
@@ -60,7 +64,7 @@ class Ended(NamedTuple):
 
 
 def search(problem: Problem, options: ThermalOptions) -> Ended:
-    """Both loops, one after the other; nothing in here is differentiated from outside."""
+    """Runs both loops one after the other. The result is not differentiated; `solve` adds the derivatives."""
     quasi = _quasi_newton(problem, options)
     again = (quasi.status == GOING) | (options.stability & (quasi.status == Status.CONVERGED))
     later = _second_loop(problem, options, quasi, again)
@@ -75,9 +79,13 @@ def search(problem: Problem, options: ThermalOptions) -> Ended:
 
 
 class _QuasiNewton(NamedTuple):
-    """State of Broyden's iteration. `point`: at the base; `matrix`: in the place of the Jacobian; `conduction`: K at
-    the start, without the derivatives of conductances that the losses add; `spent`: it has failed, and the second loop
-    goes on."""
+    """State of Broyden's iteration.
+
+    - `point`: evaluation at the base.
+    - `matrix`: approximate Jacobian.
+    - `conduction`: K at the start, without the derivatives of the conductances that the losses add.
+    - `spent`: True if the iteration has no steps left; without a root, the second loop then takes over.
+    """
 
     line: Line
     point: Point
@@ -105,7 +113,7 @@ def _quasi_newton(problem: Problem, options: ThermalOptions) -> _QuasiNewton:
         following = line.goes_on(accepted, -lapack.solve_vector(matrix, point.residual))
         found = accepted & point.balanced(options.tolerance)
         spent = following.stuck | (state.passes + 1 >= options.quasi_newton_solves)
-        # without losses at the start there is nothing to search from
+        # if the losses cannot be computed at the start, the search cannot begin
         lost = first & point.broken
         status = jnp.where(lost, point.failure, jnp.where(found, int(Status.CONVERGED), GOING))
         kept = jax.tree.map(lambda new, old: jnp.where(accepted | first, new, old), point, state.point)
@@ -126,9 +134,12 @@ def _quasi_newton(problem: Problem, options: ThermalOptions) -> _QuasiNewton:
 class _Second(NamedTuple):
     """State of the second loop: Newton's iteration, then steps in time.
 
-    `line`: of Newton's iteration; in time, `line.base` is the temperature at the end of the last step and `line.trial`
-    the iterate of this one. `point`: at the base (Newton), at the last iterate (in time); `matrix`: the last Jacobian;
-    `marching`: in time; `time_step`, s; `inner`: iterates of this step so far.
+    - `line`: line search of Newton's iteration. During the steps in time `line.base` holds the temperatures after the
+      last time step, and `line.trial` the iterate of the current one.
+    - `point`: evaluation at the base (Newton) or at the last iterate (in time).
+    - `matrix`: last Jacobian, or its approximation.
+    - `marching`: True during the steps in time.
+    - `time_step`: s; `inner`: number of iterates of the current time step.
     """
 
     line: Line
@@ -148,7 +159,7 @@ class _Second(NamedTuple):
 
 
 def _second_loop(problem: Problem, options: ThermalOptions, quasi: _QuasiNewton, begins: Array) -> _Second:
-    """Newton's iteration and the pseudo-transient, in a loop that takes no pass where it does not begin."""
+    """Newton's iteration and the pseudo-transient run in one loop, which takes no pass if `begins` is False."""
     exact = options.jacobian == "when_needed"
     capacity = problem.capacity
     if capacity is None:
@@ -166,7 +177,7 @@ def _second_loop(problem: Problem, options: ThermalOptions, quasi: _QuasiNewton,
         pick = lambda a, b: jax.tree.map(lambda x, y: jnp.where(state.marching, x, y), a, b)
         following = pick(in_time, newton) if exact else in_time
         found = following.status == Status.CONVERGED
-        # Newton gave up: from the start again, in time
+        # Newton's iteration has failed: steps in time begin from the start
         turns = ~found & ~following.marching & (following.newton >= options.newton_steps)
         line = jax.tree.map(lambda x, y: jnp.where(turns, x, y), Line.at(problem.start), following.line)
         wanted = slopes if options.stability else None
@@ -191,12 +202,13 @@ def _second_loop(problem: Problem, options: ThermalOptions, quasi: _QuasiNewton,
 
 
 def _newton_pass(state: _Second, point: Point, matrix: Array, options: ThermalOptions) -> _Second:
-    """One step of Newton's iteration, judged as Broyden's are; one that has failed is told by its count."""
+    """One step of Newton's iteration. It is accepted if the norm does not grow. `newton`, the number of steps, is set
+    to its limit if the iteration has failed."""
     accepted = state.line.accepts(point, state.point.norm, state.newton == 0)
     following = state.line.goes_on(accepted, -lapack.solve_vector(matrix, point.residual))
     found = accepted & point.balanced(options.tolerance)
     stuck = following.stuck | (point.broken & (state.newton == 0))
-    # the root is where the point is, not one step further
+    # the root is the point of the evaluation, not the next trial
     line = jax.tree.map(lambda x, y: jnp.where(found, x, y), Line.at(state.line.trial), following)
     return state._replace(
         line=line,
@@ -215,11 +227,11 @@ def _time_pass(
     plain: Array,
     options: ThermalOptions,
 ) -> _Second:
-    """One Newton step of implicit Euler's $C(T - T_n)/h = R(T)$; a step in time that succeeds is followed by one of
-    twice its length, one that fails is tried again with a quarter of it."""
+    """One Newton step of implicit Euler's equation $C(T - T_n)/h = R(T)$. After a time step that succeeds the next one
+    is twice as long; a time step that fails is repeated with a quarter of its length."""
     level, trial = state.line.base, state.line.trial
     if options.jacobian == "never":
-        # from one iterate to the next, if they differ by more than rounding; before the first there is none
+        # the update needs two iterates that differ by more than rounding
         step, change = state.line.step, point.residual - state.point.residual
         moved = (state.passes > 0) & ~point.broken & ~state.point.broken & (jnp.max(jnp.abs(step)) > SHORT_STEP)
         matrix = jnp.where(moved, rank_one(matrix, step, change), matrix)
@@ -243,7 +255,7 @@ def _time_pass(
     return state._replace(
         line=Line(at_rest(trial, new_level), following - trial, jnp.asarray(0), at_rest(trial, following)),
         point=point,
-        # what differences have spoilt is begun anew
+        # after a failure the matrix, which may be spoilt by differences, starts from conduction again
         matrix=jnp.where(again, plain, matrix),
         time_step=time_step,
         inner=jnp.where(done | again, 0, state.inner + 1),

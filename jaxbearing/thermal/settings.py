@@ -14,7 +14,7 @@ from .solve import LIMIT
 
 Part = TypeVar("Part", bound=Checked)
 ROOM_TEMPERATURE = 293.15
-"""Temperature of the ambient where a scene does not give it, K."""
+"""Default temperature of the ambient, K."""
 
 
 def _conductance(between: str) -> Any:
@@ -22,10 +22,10 @@ def _conductance(between: str) -> Any:
 
 
 class Conductances(Checked):
-    """Conductances that are given; those that are not are computed from sizes, contacts and oil.
+    """Given conductances; the others are computed from dimensions, contacts and oil.
 
-    `_ambient` ends what leads to the ambient: of a network of four nodes from the rings, through shaft and housing; of
-    six nodes from shaft and housing.
+    Fields that end in `_ambient` lead to the ambient: in a network of four nodes from the rings, through shaft and
+    housing, and in a network of six nodes from shaft and housing.
     """
 
     part: ClassVar[str] = "thermal.conductance"
@@ -50,8 +50,8 @@ def _capacity(of: str) -> Any:
 
 
 class Capacities(Checked):
-    """Heat capacities that are given; those of the bearing itself are computed else, those of shaft and housing are not
-    known. Only the rate of disturbances and the search by steps in time use them."""
+    """Given heat capacities. If not given, those of the bearing itself are computed, and those of shaft and housing are
+    not known. Only the growth rate of disturbances and the search by steps in time use them."""
 
     part: ClassVar[str] = "thermal.capacity"
 
@@ -69,7 +69,7 @@ def _factor(of: str) -> Any:
 
 
 class ConductanceFactors(Checked):
-    """Factors of groups of conductances, computed or given."""
+    """Factors of groups of conductances, both computed and given ones."""
 
     part: ClassVar[str] = "thermal.factor"
 
@@ -122,21 +122,22 @@ class Thermal(Checked):
     """A thermal network around the bearing: the temperatures of its parts are results.
 
     **Arguments:**
-    - `nodes`: number of temperatures, 1: the whole bearing; 4: rings, elements and oil; 6: shaft and housing too.
+    - `nodes`: number of nodes. 1: the whole bearing; 4: rings, elements and oil; 6: shaft and housing too.
     - `ambient`: temperature of the ambient, K.
-    - `oil_inlet`: temperature at which oil enters, K; not given: `operation.oil_temperature`.
-    - `mixing`: 1 where the oil in the bearing is well mixed, 1/2 where its temperature rises linearly.
-    - `rolling_to_oil`: part of the rolling resistance that heats the oil in the inlet of the contacts; unknown.
-    - `limit`: temperature that no node may pass, K: beyond 250 degC no law of an oil holds.
-    - `start`: temperature of all nodes where the search begins, K; not given: that of oil inlet or ambient, whichever
-      is higher.
-    - `jacobian`: `when_needed`: Newton's iteration goes on where Broyden's fails, before steps in time do. `never`: it
-      does not, and the program is compiled in half the time. Not given: `when_needed` with `stability`, else `never`.
-    - `stability`: whether margin and rate are computed; it takes one Jacobian more.
-    - `housing_diameter`, `housing_area`: outside diameter, m, and surface, m^2, of a housing in still air; not given:
-      the reference heat flow of ISO 15312 leads to the ambient.
-    - `emissivity`: of that surface.
-    - `conductance`, `capacity`, `factor`, `share`: what is given of these instead of computed.
+    - `oil_inlet`: temperature of the oil that enters, K; if not given, `operation.oil_temperature`.
+    - `mixing`: 1 if the oil in the bearing is well mixed, 1/2 if its temperature rises linearly from inlet to outlet.
+    - `rolling_to_oil`: part of the rolling resistance that heats the oil in the inlet of the contacts; an assumption.
+    - `limit`: temperature that no node may exceed, K: above 250 degC no law of an oil is valid.
+    - `start`: temperature of all nodes where the search begins, K; if not given, that of oil inlet or ambient,
+      whichever is higher.
+    - `jacobian`: `when_needed`: if Broyden's iteration fails, Newton's iteration follows before steps in time. `never`:
+      there is no Newton's iteration, and the program compiles in half the time. If not given, `when_needed` with
+      `stability`, else `never`.
+    - `stability`: true to compute margin and rate, which takes one more Jacobian.
+    - `housing_diameter`, `housing_area`: outside diameter, m, and surface, m^2, of a housing in still air; if not
+      given, the conductance to the ambient is that of the reference heat flow of ISO 15312.
+    - `emissivity`: emissivity of the surface of the housing.
+    - `conductance`, `capacity`, `factor`, `share`: given values in place of computed ones.
     """
 
     part: ClassVar[str] = "thermal"
@@ -170,7 +171,7 @@ class Thermal(Checked):
 
     @property
     def exact_jacobian(self) -> Literal["when_needed", "never"]:
-        """`jacobian` as it is given, or as `stability` needs it."""
+        """The given `jacobian`, else the value that `stability` needs."""
         if self.jacobian is not None:
             return self.jacobian
         return "when_needed" if self.stability else "never"

@@ -1,4 +1,4 @@
-"""Shares of each loss of a bearing that go to the nodes of a thermal network, and the oil temperature of the loss.
+"""Shares of each loss of a bearing that heat the nodes of a thermal network, and the oil temperature of each loss.
 
 | loss | to | temperature of its oil |
 |---|---|---|
@@ -9,8 +9,8 @@
 | `cage_pilot` | half the guiding ring, half the oil | mean of the two |
 | `drag` | oil | oil |
 
-In a network of one node everything goes there, and has its temperature. The last part of each loss is 1 less the
-others, so no heat is lost between a bearing and its network.
+In a network of one node all losses heat this node, and all oil has its temperature. The last share of each loss is 1
+less the others, so no heat is lost between a bearing and its network.
 """
 
 import dataclasses
@@ -41,7 +41,7 @@ LOSSES = (
 RINGS = ("inner_ring", "outer_ring")
 FLANGE_RINGS = (*RINGS, "both")
 SUM_ERROR = 1e-9
-"""Largest difference from 1 of the sum of shares that are all given."""
+"""Largest error of the sum of given shares, which must be 1."""
 
 
 def loss_shares(
@@ -57,12 +57,14 @@ def loss_shares(
     """The part of each loss that goes to each node, shape (node,), by the name of the loss.
 
     **Arguments:**
-    - `nodes`: names: one, or the rings, elements and oil, with or without others, which get nothing.
+    - `nodes`: names of the nodes: one node, or the rings, elements and oil; further nodes get nothing.
     - `inner_ring`, `outer_ring`: part of the heat of a raceway that goes into its ring (`conductances`); 1/2 for two
-      bodies that are equal.
-    - `rolling_to_oil`: part of the rolling resistance that stays in the oil; unknown, from 0 to 1.
-    - `guiding_ring`: of the cage, `inner_ring` or `outer_ring`; `flange_ring`: with the flanges, or `both`.
-    - `given`: own parts by the names of loss and node. The last node that is named gets 1 less the others.
+      equal bodies.
+    - `rolling_to_oil`: part of the rolling resistance that stays in the oil, from 0 to 1; an assumption.
+    - `guiding_ring`: ring that guides the cage, `inner_ring` or `outer_ring`; `flange_ring`: ring with the flanges, or
+      `both`.
+    - `given`: given parts in place of these, by the names of loss and node. The last node that is named gets 1 less the
+      others.
 
     **Raises:** `ValueError` for an unknown name, a known part outside of 0 to 1, and parts whose sum is not 1.
     """
@@ -92,7 +94,7 @@ def _rolling(ring: str, to_ring: Scalar, to_oil: Scalar) -> dict[str, Scalar | N
 
 
 def _row(name: str, nodes: tuple[str, ...], parts: Mapping[str, Scalar | None]) -> Float[Array, " node"]:
-    """Parts by node, the last that is named formed from the others."""
+    """Parts of one loss by node. The last part that is named is 1 less the others."""
     names = NODES[4] if len(nodes) == 1 else nodes
     wrong = [node for node in parts if node not in names]
     if wrong or not parts:
@@ -117,9 +119,9 @@ def node_heat(
 ) -> Float[Array, " node"]:
     """Heat into each node, W, shape (node,).
 
-    **Arguments:** `losses`: W, by name, `None` for one that is not modelled; `shares`: of `loss_shares`.
+    **Arguments:** `losses`: W, by name, `None` for a loss that is not modelled; `shares`: result of `loss_shares`.
 
-    **Raises:** `ValueError` for a loss without shares, and where there is no loss.
+    **Raises:** `ValueError` for a loss without shares, and if there is no loss.
     """
     there = {name: loss for name, loss in losses.items() if loss is not None}
     for name in there:
@@ -156,11 +158,11 @@ def oil_temperatures(
     guiding_ring: str = "inner_ring",
     flange_ring: str = "inner_ring",
 ) -> OilTemperatures:
-    """Oil temperature of each interaction: the mean of the two parts that it lies between.
+    """Oil temperature of each interaction: the mean temperature of the two parts that it is between.
 
     **Arguments:** `nodes`: names; `temperatures`: K; `guiding_ring`, `flange_ring`: as for `loss_shares`.
 
-    **Raises:** `ValueError` for a ring of another name.
+    **Raises:** `ValueError` for an unknown name of a ring.
     """
     require_choice("guiding_ring", guiding_ring, RINGS)
     require_choice("flange_ring", flange_ring, FLANGE_RINGS)

@@ -1,8 +1,9 @@
 r"""Steady temperatures of a network whose losses depend on them.
 
-The losses may be a bearing solve: everything that the function closes over (speed, load, oil, clearance ...) is a
-parameter of the root. Its derivative is that of the implicit function, $dT/dp = -J^{-1}\partial R/\partial p$, in both
-modes and to any order; the Jacobian is computed for it only where a derivative is asked for.
+The losses may come from the solve of a bearing: everything that their function closes over (speed, load, oil, clearance
+...) is a parameter p of the root. Derivatives follow from the implicit function theorem, $dT/dp =
+-J^{-1}\partial R/\partial p$, in forward and reverse mode and to any order. The Jacobian is computed for them only if a
+derivative is asked for.
 """
 
 import dataclasses
@@ -28,18 +29,18 @@ from .search import Ended
 from .search import search as search_root
 
 LIMIT = 523.15
-"""Temperature that no node may pass, K: beyond 250 degC no law of an oil holds."""
+"""Temperature that no node may exceed, K: above 250 degC no law of an oil is valid."""
 
 UNSTABLE = "unstable: a bearing would leave this state"
-"""Warning of a steady state that is a root and no more."""
+"""Warning for a root of the balances that is not stable."""
 START_NOTE = Information(
     "a stable steady state need not be reached by a start at speed: only a transient run (simulate) says so"
 )
-"""Note beside margin and rate."""
+"""Note that accompanies margin and rate."""
 
 
 class ThermalState(eqx.Module):
-    """Steady state of a network. Every result is NaN where `status` is not `CONVERGED`, but for `last` and `ended`."""
+    """Steady state of a network. If `status` is not `CONVERGED`, every result except `last` and `ended` is NaN."""
 
     nodes: tuple[str, ...] = eqx.field(static=True)
     status: Int[Array, ""] = eqx.field(metadata=label("1", "status of the search, index of the list of statuses"))
@@ -74,19 +75,19 @@ class ThermalState(eqx.Module):
 
     @property
     def hottest(self) -> Int[Array, ""]:
-        """Index of the hottest node where the search ended: the one that ran away."""
+        """Index of the hottest node where the search ended; in a thermal runaway it is the node that ran away."""
         return jnp.argmax(self.last)
 
     @property
     def unstable(self) -> Bool[Array, ""] | None:
-        """True in a state that a bearing would leave: margin not above 0, or a rate above 0; `None` if not computed."""
+        """True if the state is unstable: `margin` <= 0 or `rate` > 0; `None` if they are not computed."""
         if self.margin is None:
             return None
         beyond = self.margin <= 0.0
         return beyond if self.rate is None else beyond | (self.rate > 0.0)
 
     def sentence(self) -> str:
-        """The end of the search in one sentence, of one state with known numbers."""
+        """One sentence on the end of the search. It needs a single state with known numbers."""
         node = int(np.argmax(np.asarray(self.last)))
         status, there = Status(int(self.status)), float(self.last[node])
         place = f"{self.nodes[node].replace('_', ' ')} at {there:.2f} K ({there - 273.15:.2f} degC)"
@@ -109,19 +110,19 @@ def solve_network(
 ) -> ThermalState:
     """The steady temperatures of a network; never raises for a search that fails.
 
-    Under `jax.vmap` each lane has its own status, and a lane that fails changes no other. With several steady states
-    the cold start ends in the coolest one in all cases tried; where a real start runs away although a steady state is
-    there, only `warm_up` says so.
+    Under `jax.vmap` each lane has its own status, and a lane that fails changes no other. If there are several steady
+    states, the search from a cold start found the coolest one in all cases tried. Only `warm_up` shows if a real start
+    runs away although there is a steady state.
 
     **Arguments:**
     - `losses(temperatures)`: heat into the nodes at node temperatures, K, shape (node,). It may close over traced
       numbers; a bearing solve inside starts from its own guess each time.
-    - `start`: temperatures of the first evaluation, K; `Network.start` where not given. It is not differentiated.
+    - `start`: temperatures of the first evaluation, K; `Network.start` if not given. It is not differentiated.
     - `capacity`: heat capacity of each node, J/K, > 0: for `rate`, and for the pseudo-transient, which otherwise gives
       each node a time constant of 100 s.
-    - `limit`: temperature, K: a node that passes it ends the search with `THERMAL_RUNAWAY`.
-    - `options`: tolerance, limits, and whether `margin` and `rate` are computed (`stability`). They carry no derivative
-      here: differentiate `thermal_margin(slopes_at(...))` at the temperatures found.
+    - `limit`: temperature, K: a node that exceeds it ends the search with `THERMAL_RUNAWAY`.
+    - `options`: tolerance, limits, and `stability`, with which `margin` and `rate` are computed. Their values here have
+      no derivatives: for these, differentiate `thermal_margin(slopes_at(...))` at the temperatures found.
     """
     options = ThermalOptions() if options is None else options
     begin = network.start() if start is None else jnp.asarray(start, dtype=float)
@@ -166,7 +167,8 @@ def solve_network(
 
 
 def _closed(network: Network, losses: Losses, start: Array, capacity: Array | None, limit: Array) -> Problem:
-    """The problem with functions that close over nothing: what they closed over are leaves. Each is traced once."""
+    """The problem with functions that close over nothing: the numbers that they closed over become leaves. Each is
+    traced once."""
 
     def of_arrays(temperatures: Array) -> NodeHeat:
         return jax.tree.map(jnp.asarray, losses(temperatures))
@@ -177,7 +179,7 @@ def _closed(network: Network, losses: Losses, start: Array, capacity: Array | No
 
 
 def _stability(slopes: Slopes | None, solved: Array, capacity: Array | None) -> tuple[Array | None, Array | None]:
-    """Margin and rate where the slopes are known; of a lane that failed, finite numbers that mean nothing."""
+    """Margin and rate, `None` if the slopes are not known. A lane that failed gets finite numbers without meaning."""
     if slopes is None:
         return None, None
     there = Slopes(*(jnp.where(solved, matrix, jnp.eye(matrix.shape[0])) for matrix in slopes))
@@ -190,7 +192,7 @@ def _margin_and_rate(given: tuple[Slopes, Array | None]) -> tuple[Array, Array |
 
 
 class _Root(NamedTuple):
-    """Temperatures, finite, and the losses there; of a lane that failed, no root."""
+    """Temperatures, which are finite, and the losses there. In a lane that failed they are no root."""
 
     temperatures: Float[Array, " node"]
     losses: NodeHeat
@@ -211,7 +213,7 @@ def _root_jvp(primals: tuple[Problem], tangents: tuple[Problem], *, options: The
     (problem,), (problem_dot,) = primals, tangents
     root = _root(problem, options=options)
     solved = root.status == Status.CONVERGED
-    # a lane that failed passes no derivative, in either direction: NaN times zero must not reach what lanes share
+    # a lane that failed passes no derivative, in either mode: NaN times zero would spoil what all lanes share
     select = lambda dot: jnp.where(solved, dot, 0.0)
     problem_dot = jax.tree.map(select, problem_dot)
     moved, fixed = eqx.partition(
@@ -235,7 +237,7 @@ def _root_jvp(primals: tuple[Problem], tangents: tuple[Problem], *, options: The
 
 
 def _with_roots(losses: Losses) -> Losses:
-    """The same losses, with the roots of the searches behind them."""
+    """The same losses, which also return the roots of the searches inside them."""
 
     def noting(temperatures: Array) -> NodeHeat:
         with recorded_roots() as roots:
@@ -246,7 +248,7 @@ def _with_roots(losses: Losses) -> Losses:
 
 
 def _at_known_root(network: Network, losses: Losses, root: _Root, stiffness: bool) -> _Root:
-    """The root that was found before, with its first derivatives. Nothing is searched for, neither here nor behind the
+    """The root that was found before, with its first derivatives. There is no search, neither here nor inside the
     losses."""
 
     def balances(temperatures: Array) -> tuple[Array, NodeHeat]:
@@ -271,8 +273,11 @@ class _Place(NamedTuple):
 
 @eqx.filter_custom_jvp
 def _known_place(balances: Callable[[Array], tuple[Array, NodeHeat]], *, place: _Place) -> tuple[Array, NodeHeat]:
-    """Temperatures and floats of the losses. **Arguments:** `balances`: from temperatures to their residual and to the
-    floats of the losses; it closes over nothing."""
+    """Temperatures and floats of the losses at a known root, with first derivatives.
+
+    **Arguments:** `balances`: function of the temperatures that returns the residual and the floats of the losses; it
+    closes over nothing.
+    """
     return place.temperatures, place.found
 
 
@@ -291,7 +296,7 @@ def _known_place_jvp(
         evaluate = lambda numbers, temperatures: eqx.combine(numbers, fixed)(temperatures)
         return jax.jvp(evaluate, (moved, place.temperatures), (given, step))[1]
 
-    # the direction that is asked for and those of the temperatures go through one copy of the derivative
+    # one batched derivative serves the direction that is asked for and the directions of the temperatures
     first = jax.tree.map(lambda dot: jnp.zeros((1 + size, *dot.shape)).at[0].set(dot), balances_dot)
     residuals, slopes = jax.vmap(along)(first, jnp.eye(1 + size, size, -1))
     jacobian = jnp.where(place.solved, residuals[1:].T, jnp.eye(size))

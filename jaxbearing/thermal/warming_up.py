@@ -1,11 +1,11 @@
 r"""Temperatures of a network in time, $C_k\,dT_k/dt = R_k(T, t)$: warm-up, changes of speed and load, overheating.
 
-The bearing behind the losses is in its steady state for the temperatures of each instant: its own motion is faster by
-five orders. The equations are stiff (times of seconds to hours) and integrated by an ESDIRK method with the dense
-Jacobian of the few temperatures.
+At each instant the bearing is in its steady state for the temperatures of this instant: its own motion is faster by
+five orders of magnitude. The equations are stiff (time constants of seconds to hours) and are integrated by an ESDIRK
+method with the dense Jacobian of the few temperatures.
 
-A steady state that is stable need not be reached: a cold housing may let the inner ring run away at speeds at which
-the warm bearing would be safe. Neither the thermal margin nor the rate says so; only this run does.
+A stable steady state need not be reached: with a cold housing the inner ring may run away at speeds at which the warm
+bearing would be safe. Neither the thermal margin nor the rate shows this; only this run does.
 """
 
 import dataclasses
@@ -29,29 +29,29 @@ from .network import HeatFlows, Network, NodeHeat
 from .solve import LIMIT
 
 LossesInTime: TypeAlias = Callable[[Array, Array], NodeHeat]
-"""Function of the node temperatures, K, shape (node,), and the time, s, to the heat into the nodes."""
+"""Function of the node temperatures, K, shape (node,), and the time, s, that returns the heat into the nodes."""
 NetworkInTime: TypeAlias = Callable[[Array], Network]
-"""Function of the time, s, to the network: for an oil inlet, a flow or an ambient that change."""
+"""Function of the time, s, that returns the network, for an oil inlet, a flow or an ambient that changes."""
 
 INTEGRALS = 3
-"""Energies that are integrated beside the temperatures: of the losses, to the oil, to the ambient."""
+"""Number of energies that are integrated with the temperatures: of the losses, to the oil, to the ambient."""
 ENERGY = 1e3
-"""Unit of these, J: with it one tolerance serves for temperatures and energies."""
+"""Unit of these energies, J, with which one tolerance suits temperatures and energies."""
 EVENT_TOLERANCE = 1e-6
 """Tolerance of the time at which a node passes the limit: relative, and absolute in s."""
 SHORTEST_STEP = 1e-6
-"""A run whose steps would have to be shorter has failed, s, where the options do not say: no time constant of a bearing
-is as short."""
+"""Default step below which a run has failed, s: no time constant of a bearing is as short."""
 DIFFERENCE = 1e-3
-"""Difference of temperature of which a matrix of differences is made, K."""
+"""Temperature difference for derivatives by finite differences, K."""
 STAGE_NOISE = 1e-3
-"""Change of the stages below which they are solved, in units of the tolerance: the noise of the losses is less."""
+"""Change of the stages below which they count as solved, in units of the tolerance. The noise of the losses is
+smaller."""
 AHEAD = 1e3
-"""Distance beyond the end of a failed run at which the losses are evaluated, in shortest steps."""
+"""Time beyond the end of a failed run at which the losses are evaluated, in units of the shortest step."""
 
 
 class WarmUp(eqx.Module):
-    """Temperatures and heat flows of a transient run. Instants that it has not reached are NaN."""
+    """Temperatures and heat flows of a transient run. Values at instants that it has not reached are NaN."""
 
     nodes: tuple[str, ...] = eqx.field(static=True)
     status: Int[Array, ""] = eqx.field(metadata=label("1", "status of the run, index of the list of statuses"))
@@ -86,20 +86,20 @@ def warm_up(
 ) -> WarmUp:
     """Temperatures from time 0 on; never raises for a run that fails.
 
-    A node that passes `limit` ends the run at that instant, with the status `THERMAL_RUNAWAY`. Where the losses cannot
-    be computed, steps are shortened; a run that cannot go on has the status of the losses just beyond its end, or
+    A node that exceeds `limit` ends the run at that instant, with the status `THERMAL_RUNAWAY`. If the losses cannot be
+    computed, steps are shortened. A run that cannot go on has the status of the losses just beyond its end, or
     `DIVERGED` if they can be computed there.
 
     **Arguments:**
-    - `network`: or a function of the time, s, to it, with the same nodes at all times.
-    - `losses(temperatures, time)`: heat into the nodes; tables of speed or load are read by the time, s.
+    - `network`: the network, or a function of the time, s, that returns it, always with the same nodes.
+    - `losses(temperatures, time)`: heat into the nodes; speed or load may be looked up in tables at the time, s.
     - `capacity`: heat capacity of each node, J/K, > 0.
-    - `times`: instants that are wanted, s, increasing, > 0; the last one ends the run.
-    - `start`: temperatures at time 0, K; that of the ambient where not given.
-    - `limit`: temperature that no node may pass, K.
-    - `options`: solver by name, tolerance relative and in units of 1 K and 1 kJ; `kvaerno5` and 1e-5 where not given.
+    - `times`: instants of the results, s, increasing, > 0; the last one ends the run.
+    - `start`: temperatures at time 0, K; if not given, that of the ambient.
+    - `limit`: temperature that no node may exceed, K.
+    - `options`: solver by name, tolerance relative and in units of 1 K and 1 kJ; if not given, `kvaerno5` and 1e-5.
     - `jumps`: times at which a table has a jump or a kink, s: a step ends there.
-    - `adjoint`: of diffrax; reverse mode where not given, `diffrax.ForwardMode()` for the other.
+    - `adjoint`: adjoint of diffrax: by default one for reverse mode; `diffrax.ForwardMode()` for forward mode.
     """
     chosen = usual_options() if options is None else options
     at_time: NetworkInTime = (lambda time: network) if isinstance(network, Network) else network
@@ -114,12 +114,12 @@ def warm_up(
 
 
 def usual_options() -> IntegratorOptions:
-    """Options of a run that says none."""
+    """Default options of a run."""
     return IntegratorOptions(solver="kvaerno5", max_steps=4096, shortest_step=SHORTEST_STEP)
 
 
 class Balance(NamedTuple):
-    """The equations of a run: temperatures, K, and behind them the energies, in `ENERGY`, in one state."""
+    """The equations of a run. Its state is the temperatures, K, followed by the energies in units of `ENERGY`."""
 
     network: NetworkInTime
     losses: LossesInTime
@@ -139,10 +139,14 @@ class Balance(NamedTuple):
 
 
 class Reached(NamedTuple):
-    """States at the instants, not finite beyond the end; the last state and its time, s; how it ended; its steps.
+    """The course of a run.
 
-    `step_times`, `step_states`: ends of all steps, s, and the states there, not finite beyond the last one; `None` if
-    they are not asked for.
+    - `states`: states at the instants, not finite beyond the end; `last`, `end`: last state, and its time, s.
+    - `finished`, `hot`, `out_of_steps`: True if the run reached its last instant, if a node exceeded the limit, or if
+      the number of steps was used up.
+    - `accepted`, `rejected`: number of accepted and rejected steps.
+    - `step_times`, `step_states`: ends of all steps, s, and the states there, not finite beyond the last one; `None` if
+      they are not asked for.
     """
 
     states: Float[Array, "time component"]
@@ -172,9 +176,9 @@ def integrate(
 ) -> Reached:
     """Integrates from time 0 and energies of 0 to the last of the times.
 
-    **Arguments:** as those of `warm_up`; `first_step`: that is tried first, s; it is guessed where not given;
-    `differences`: whether the matrix of the stages is made of differences. The program is smaller then, takes the same
-    steps, and cannot be differentiated; `steps`: whether the ends of the steps are kept.
+    **Arguments:** `first_step`: length of the first step, s; if not given, it is guessed; `differences`: True for a
+    matrix of the stages by finite differences: the program is then smaller, takes the same steps, and cannot be
+    differentiated; `steps`: True to keep the ends of the steps; the others as for `warm_up`.
     """
     size = begin.size
     kept = (dfx.SubSaveAt(ts=times), dfx.SubSaveAt(t1=True), *((dfx.SubSaveAt(steps=True),) if steps else ()))
@@ -222,12 +226,12 @@ def integrate(
 def _with_differences(
     rates: Callable[[Array, Array, None], Array], begin: Float[Array, " node"]
 ) -> Callable[[Array, Array, None], Array]:
-    """The rates, whose derivative by the temperatures is made of differences. Nothing depends on the energies, and the
-    derivative by the time, which the integrator does not ask for, is left out."""
+    """The rates, with derivatives with respect to the temperatures by finite differences. Nothing depends on the
+    energies. There is no derivative with respect to time, because the integrator does not ask for it."""
     size, example = begin.size, jnp.concatenate([begin, jnp.zeros(INTEGRALS)])
     closed = eqx.filter_closure_convert(lambda time, state: rates(time, state, None), jnp.zeros(()), example)
     numbers, rest = eqx.partition(closed, eqx.is_array)
-    # a derivative by anything else would be wrong: it is refused
+    # derivatives with respect to anything else would be wrong and are refused
     numbers = nondifferentiable(numbers)
     # one function of the program, which is called from many places
     evaluate = jax.jit(lambda numbers, time, state: eqx.combine(numbers, rest)(time, state))
@@ -305,7 +309,7 @@ def _history(
 
 
 def run_status(found: Reached, of_losses: Array) -> Int[Array, ""]:
-    """The status with which a run ended. **Arguments:** `of_losses`: their status just beyond the end."""
+    """The status with which a run ended. **Arguments:** `of_losses`: status of the losses just beyond the end."""
     failed = jnp.where(found.out_of_steps, int(Status.NOT_CONVERGED), int(Status.DIVERGED))
     failed = jnp.where(of_losses == Status.CONVERGED, failed, of_losses)
     ended = jnp.where(found.hot, int(Status.THERMAL_RUNAWAY), failed)

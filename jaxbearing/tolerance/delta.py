@@ -4,11 +4,12 @@ $$\mu_y = y(\mu) + \sum_s g_s\,(E[u_s] - u_s(\mu))$$
 $$\sigma_y^2 = \sum_k \Big(d_k + \sum_s g_s\beta_s a_{sk}\Big)^2\sigma_k^2
 + \sum_s g_s^2(\mathrm{Var}\,u_s - \beta_s^2\sigma_s^2)$$
 
-$d_k$ is the derivative of the result by field $k$ while the seats press as they do at the mean, $g_s$ that by what
-presses the rings at seat $s$ (`seats`), $a_{sk}$ that of the interference in operation, $\beta_s$ the gain. Without a
-seat that may come loose this is $\sigma_y^2 = \sum_k (\partial y/\partial x_k)^2\sigma_k^2$. All fields are independent
-of each other, but for those of a posterior: these add $\partial y/\partial x_k\,\partial y/\partial x_j\,C_{kj}$ for
-each two of them, and are followed along the principal axes of their distribution, which are independent.
+$u_s$ is the interference that presses the rings at seat $s$ (`seats`). $d_k$ is the derivative of the result by field
+$k$ with all $u_s$ fixed, $g_s$ its derivative by $u_s$, $a_{sk}$ the derivative of the interference in operation by
+field $k$, $\beta_s$ the gain. If no seat may come loose, this is
+$\sigma_y^2 = \sum_k (\partial y/\partial x_k)^2\sigma_k^2$. All fields are independent of each other, except those of a
+posterior: these add $\partial y/\partial x_k\,\partial y/\partial x_j\,C_{kj}$ for each two of them, and are followed
+along the principal axes of their distribution, which are independent.
 """
 
 from collections.abc import Callable, Mapping
@@ -33,15 +34,15 @@ LIKELY = 0.9
 _SHARES = (np.arange(20_001) + 0.5) / 20_001
 """Middles of equally likely parts of a distribution."""
 _MIXED = 400
-"""Values of a distribution that are mixed with a normal variable, whose curve is smooth."""
+"""Number of values of a distribution that are added to a normal variable; few suffice, as its curve is smooth."""
 _TAIL = 1e-12
-"""Share beyond the ends between which a limit is searched for."""
+"""Probability outside of the interval in which a limit is searched for."""
 _HALVINGS = 40
-"""Steps of that search: 1e-12 of the first distance."""
+"""Number of bisections in that search; they end at 1e-12 of the first interval."""
 _ROUND_OFF = 1e-12
-"""Part of the variance that is none."""
+"""Fraction of the variance that counts as round-off."""
 _BENT = 0.1
-"""Departure from a straight line, of the distance between the worst cases, that a note is made of."""
+"""Departure from a straight line, over the distance between the worst cases, above which a note is given."""
 
 
 @dataclass(frozen=True)
@@ -49,9 +50,9 @@ class _Lines:
     """Derivatives of one result.
 
     **Arguments:**
-    - `direct`: by each field, while the seats press as they do at the mean.
-    - `pressed`: by what presses the rings, seat by seat.
-    - `running`: of the interference in operation by each field, seat by seat.
+    - `direct`: derivative by each field, with the interference that presses the rings fixed.
+    - `pressed`: derivative by the interference that presses the rings, seat by seat.
+    - `running`: derivative of the interference in operation by each field, seat by seat.
     """
 
     direct: dict[str, float]
@@ -59,7 +60,10 @@ class _Lines:
     running: dict[str, dict[str, float]]
 
     def by(self, path: str, gains: Mapping[str, float]) -> float:
-        """Derivative by a field, where the seats follow their interference by so much."""
+        """Derivative by a field.
+
+        **Arguments:** `gains`: change of what presses the rings with the interference in operation, seat by seat.
+        """
         seats = (slope * gains[seat] * self.running[seat][path] for seat, slope in self.pressed.items())
         return self.direct[path] + sum(seats)
 
@@ -69,8 +73,8 @@ def spreads_of(
 ) -> tuple[dict[str, Spread], list[str]]:
     """Scatter of each result, and notes in words.
 
-    **Arguments:** `found`: at the means, of a solve that converged; `evaluated`: gives it elsewhere, or `None`
-    for numbers that the scene refuses.
+    **Arguments:** `found`: results and derivatives at the means, from a solve that converged; `evaluated`: gives them
+    at other numbers, or `None` for numbers that the scene refuses.
     """
     seats = _seats(scatter, found)
     at_tight = found
@@ -119,7 +123,7 @@ def _good(found: Slopes) -> bool:
 
 
 def _seats(scatter: Scatter, found: Slopes) -> dict[str, Seat]:
-    """The seats whose pressing part may bend within the scatter."""
+    """The seats whose pressing interference may have a bend within the scatter."""
     seats = {}
     for name in scatter.seats:
         assert scatter.fits is not None
@@ -136,7 +140,7 @@ def _seats(scatter: Scatter, found: Slopes) -> dict[str, Seat]:
 def _lines(name: str, scatter: Scatter, seats: Mapping[str, Seat], found: Slopes, at_tight: Slopes) -> _Lines:
     slopes = {path: float(found.slopes[name][path]) for path in scatter.fields}
     if name in _OF_SEAT.values():
-        # the interference itself does not bend
+        # the interference itself has no bend
         return _Lines(slopes, {}, {})
     pressed = {seat: float(at_tight.slopes[name][name_of(seat)]) for seat in seats}
     running = {seat: {p: float(found.slopes[_OF_SEAT[seat]][p]) for p in scatter.fields} for seat in seats}
@@ -145,13 +149,13 @@ def _lines(name: str, scatter: Scatter, seats: Mapping[str, Seat], found: Slopes
         for path in scatter.fields:
             slopes[path] -= pressed[seat] * one.slope * running[seat][path]
         if name_of(seat) in slopes:
-            # an interference acts by what presses the rings, and not otherwise
+            # an interference acts only by its part that presses the rings
             slopes[name_of(seat)] = 0.0
     return _Lines(slopes, pressed, running)
 
 
 def _parts(slopes: Mapping[str, float], scatter: Scatter) -> dict[str, float]:
-    """Part of each field in the variance of a linear result. Two fields that scatter together part their covariance."""
+    """Part of each field in the variance of a linear result; fields that scatter together share their covariance."""
     parts = {path: (slopes[path] * one.deviation) ** 2 for path, one in scatter.fields.items()}
     for (path, other), covariance in scatter.covariances.items():
         parts[path] += slopes[path] * slopes[other] * covariance
@@ -174,8 +178,8 @@ def _moments(lines: _Lines, scatter: Scatter, seats: Mapping[str, Seat]) -> tupl
 
 
 def _curves(scatter: Scatter, evaluated: Evaluated) -> dict[str, list[Slopes]]:
-    """Solves over the distribution of each field that is known to a factor only, at `SHARES` of it, all others as they
-    are: too far for a straight line. Fields of which one fails are left out."""
+    """Solves over the distribution of each lognormal field, at `SHARES` of it, the others at their nominal values: such
+    a field scatters too far for a straight line. Fields for which a solve fails are left out."""
     found = {}
     for path, one in scatter.fields.items():
         if one.shape == "lognormal" and path not in scatter.together:
@@ -187,12 +191,12 @@ def _curves(scatter: Scatter, evaluated: Evaluated) -> dict[str, list[Slopes]]:
 
 
 _AXIS = Distribution(0.0, 1.0)
-"""A number along a principal axis of a posterior."""
+"""Distribution of the coordinate along a principal axis of a posterior."""
 
 
 def _along_axes(scatter: Scatter, evaluated: Evaluated) -> list[list[Slopes] | None]:
-    """Solves along each principal axis of the fields that scatter together, at `SHARES` of it; `None` for an axis of
-    which one fails."""
+    """Solves along each principal axis of the fields that scatter together, at `SHARES` of it; `None` for an axis on
+    which a solve fails."""
     if scatter.joint is None:
         return []
     found: list[list[Slopes] | None] = []
@@ -206,7 +210,7 @@ def _along_axes(scatter: Scatter, evaluated: Evaluated) -> list[list[Slopes] | N
 def _axis_steps(
     scatter: Scatter, slopes: Mapping[str, float], value: float, along: list[np.ndarray | None]
 ) -> dict[str, np.ndarray]:
-    """Change of a result along each principal axis, at equally likely numbers; by a line where solves failed."""
+    """Change of a result along each principal axis, at equally likely coordinates; linear where solves failed."""
     if scatter.joint is None:
         return {}
     tangent = scatter.joint.tangent * np.array([slopes[path] for path in scatter.joint.fields])
@@ -227,11 +231,11 @@ def _likely(
     curves: Mapping[str, np.ndarray],
     along: list[np.ndarray | None],
 ) -> tuple[float, float]:
-    """Results below which 5 and 95 % of the bearings are, of the linear model; what the seats add beyond their lines
-    counts as a normal variable.
+    """Results below which 5 % and 95 % of the bearings are, by the linear model; the nonlinear part of the seats counts
+    as a normal variable.
 
-    **Arguments:** `value`: result at the nominal values; `shift` of the mean from it; `curves`: the result at `SHARES`
-    of those fields that are followed by solves instead of a line; `along`: the same of the principal axes of fields
+    **Arguments:** `value`: result at the nominal values; `shift` of the mean from it; `curves`: results at `SHARES`
+    of the fields that are followed by solves instead of a line; `along`: the same for the principal axes of the fields
     that scatter together.
     """
     slopes = {path: lines.by(path, gains) for path in scatter.fields}
@@ -263,7 +267,7 @@ def _likely(
 
 
 def _mixed_quantile(around: np.ndarray, deviation: float, share: float) -> float:
-    """Value below which a share of a sum is: one of equally likely numbers, and a normal variable."""
+    """Quantile of a sum: one of the equally likely numbers `around`, plus a normal variable."""
     if deviation == 0.0:
         return float(np.quantile(around, share))
     step = max(1, around.size // _MIXED)
@@ -283,8 +287,8 @@ def _mixed_quantile(around: np.ndarray, deviation: float, share: float) -> float
 def _corners(
     name: str, scatter: Scatter, seats: Mapping[str, Seat], lines: _Lines, found: Slopes, at_tight: Slopes
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Numbers of the scene in both worst cases of a result: all fields at those of their limits that make it small by
-    its derivatives, and large."""
+    """Numbers of the scene in both worst cases of a result: all fields at the limits that make it smallest,
+    and largest, by its derivatives."""
     if name == "fit.contact_angle" and not any((*lines.direct.values(), *lines.pressed.values())):
         # without clearance the angle is 0, and so is its slope: its worst cases are those of the clearance
         lines = _lines("fit.clearance", scatter, seats, found, at_tight)
@@ -295,7 +299,7 @@ def _corners(
         if slopes[path]:
             low[path], high[path] = (one.lowest, one.highest) if slopes[path] > 0.0 else (one.highest, one.lowest)
     if scatter.joint is not None:
-        # the limits of all of them at once are further than any of their numbers
+        # all of them at their own limits at once would be outside of their joint distribution
         offset, _ = scatter.joint.steepest(slopes)
         low |= scatter.joint.at(-SIGMAS * offset)
         high |= scatter.joint.at(SIGMAS * offset)
@@ -325,7 +329,7 @@ def _percent(share: float) -> str:
 def _bent_notes(
     spreads: Mapping[str, Spread], scatter: Scatter, at_ends: Mapping[str, tuple[Slopes | None, ...]]
 ) -> list[str]:
-    """Notes on results that do not follow their derivatives as far as the limits of the fields."""
+    """Notes on results that are not linear up to the limits of the fields, or whose solve fails there."""
     bent, failed = [], []
     for name, spread in spreads.items():
         if not spread.moves:
@@ -352,7 +356,7 @@ def _bent_notes(
 
 
 def _reach(spread: Spread, scatter: Scatter, high: bool) -> float:
-    """Distance of a worst case from the result at the means, if the derivatives held as far as that."""
+    """Distance of a worst case from the result at the means, by the derivatives at the means."""
     reach = 0.0 if scatter.joint is None else SIGMAS * scatter.joint.steepest(spread.derivatives)[1]
     for path, slope in spread.derivatives.items():
         if path in scatter.together:

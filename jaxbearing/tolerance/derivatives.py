@@ -18,7 +18,7 @@ from ..solve import _solve_any, solve_with_roots
 from .results import names_in, values_of
 
 ALWAYS = ("fit.clearance", "fit.interference_inner", "fit.interference_outer")
-"""Results that are computed in any case, where a scene has them."""
+"""Results that are always computed if a scene has them."""
 
 
 class Slopes(NamedTuple):
@@ -55,7 +55,7 @@ _kept_slopes = KeptProgram(_slopes, quick=True)
 
 
 def computed(solution: AbstractSolution, wanted: Sequence[str] | None) -> tuple[str, ...]:
-    """Names of the results that the program gives. **Raises:** as `names_in`."""
+    """Names of the results to compute: those wanted, and `ALWAYS`. **Raises:** as `names_in`."""
     fit = getattr(solution, "fit", None)
     there = (name for name in ALWAYS if fit is not None and getattr(fit, name.partition(".")[2]) is not None)
     return tuple(dict.fromkeys((*names_in(solution, wanted), *there)))
@@ -69,7 +69,7 @@ def slopes_at(
 
     **Arguments:** `numbers`: dotted path -> SI value; `wanted`: names of results, see `names_in`.
 
-    **Raises:** `ValueError` for a name that is no result; a failed solve is a solution with its status.
+    **Raises:** `ValueError` for a name that is no result; a failed solve raises nothing, its solution has a status.
     """
     names = None if wanted is None else tuple(wanted)
     given = {path: jnp.asarray(value, jnp.float64) for path, value in numbers.items()}

@@ -13,13 +13,13 @@ from .results import Label
 from .scatter import Scatter
 
 FEWEST_FOR_TAILS = 1000
-"""Samples from which on 0.135 % of them is more than one."""
+"""Least number of samples for tails by quantiles: 0.135 % of them is then more than one sample."""
 _TAIL = 0.00135
 """Share of a normal distribution beyond three deviations, on one side."""
 
 
 def cases_of(scatter: Scatter, count: int, seed: int) -> Cases:
-    """So many random samples, independent of each other but for the fields that scatter together.
+    """Random samples (`count`) of the fields, which are independent except those that scatter together.
 
     The first samples of a longer run with the same seed are those of a shorter one.
 
@@ -57,13 +57,14 @@ def sampled(dataset: xr.Dataset, labels: Mapping[str, Label]) -> dict[str, Sampl
 
 
 def failures_in(dataset: xr.Dataset) -> dict[str, int]:
-    """Why samples have no results, and how many, the most frequent reason first."""
+    """Reasons why samples have no results -> number of such samples, the most frequent reason first."""
     texts = dataset["failure"].values.astype(object).tolist()
     return dict(collections.Counter(text for text in texts if text).most_common())
 
 
 def _statistics(values: np.ndarray) -> Sampled:
-    """Standard errors: of the mean s/sqrt(n), of the deviation from the fourth moment, for any distribution."""
+    """Statistics of a result; standard errors for any distribution: s/sqrt(n) of the mean, of the deviation from the
+    fourth moment."""
     values = values[np.isfinite(values)]
     n = values.size
     if n < 2:

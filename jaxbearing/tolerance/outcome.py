@@ -1,4 +1,4 @@
-"""The scatter that tolerances give the results of a scene."""
+"""Scatter of the results of a scene, caused by tolerances."""
 
 import math
 from collections.abc import Mapping
@@ -10,7 +10,7 @@ import numpy as np
 from ..distribution import SIGMAS, Distribution
 
 _ROUND_OFF = 1e-9
-"""Scatter relative to a result that the tolerance of the solver alone may cause."""
+"""Relative scatter of a result that the tolerance of the solver alone may cause."""
 
 
 @dataclass(frozen=True)
@@ -20,9 +20,9 @@ class Sampled:
     **Arguments:**
     - `mean`, `deviation`: of the samples that converged; NaN for fewer than two.
     - `mean_error`, `deviation_error`: standard errors of both.
-    - `low`, `high`: 0.135 and 99.865 % of the samples are below, as of a normal distribution three deviations from its
-      mean; for fewer than 1000 samples the smallest and the largest.
-    - `values`: one a converged sample.
+    - `low`, `high`: values below which 0.135 % and 99.865 % of the samples are: three deviations from the mean for a
+      normal distribution; for fewer than 1000 samples the smallest and the largest value.
+    - `values`: one value for each converged sample.
     """
 
     mean: float
@@ -44,16 +44,17 @@ class Spread:
     """Scatter of one result, in SI units.
 
     **Arguments:**
-    - `value`: result of the scene whose fields have their means, lognormal ones their medians.
-    - `mean`, `deviation`: by the delta method; what a seat that may come loose does is that of a rectified normal
-      variable.
-    - `worst_low`, `worst_high`: smallest and largest result in the worst cases: for each result all fields at those of
-      their limits that make it small by its derivatives, and large. Those whose solve fails are left out.
-    - `likely`: 5 and 95 % of the bearings are below, by the derivatives and the shapes of the distributions.
+    - `value`: result with all fields at their means, lognormal ones at their medians.
+    - `mean`, `deviation`: by the delta method; the interference of a seat that may come loose counts as a rectified
+      normal variable.
+    - `worst_low`, `worst_high`: smallest and largest result in the worst cases: for each result, all fields at the
+      limits that, by its derivatives, make it smallest, and largest. Cases whose solve fails are left out.
+    - `likely`: results below which 5 % and 95 % of the bearings are, by the derivatives and the shapes of the
+      distributions.
     - `contributions`: share of each field in the variance; they add up to 1 (all 0 without a variance). Fields that
-      scatter together part their covariance, so that a share may be negative or above 1.
+      scatter together share their covariance, so that a contribution may be negative or above 1.
     - `derivatives`: of the result by each field.
-    - `sampled`: `None` without samples.
+    - `sampled`: statistics of the random samples; `None` without samples.
     """
 
     value: float
@@ -95,7 +96,7 @@ class Spread:
 
     @property
     def below_zero(self) -> float:
-        """Share of the bearings in which the result is negative, of a normal distribution; of the clearance the share
+        """Share of the bearings in which the result is negative, by a normal distribution; for the clearance, the share
         with radial preload."""
         if self.deviation == 0.0:
             return float(self.mean < 0.0)
@@ -107,9 +108,9 @@ class Samples:
     """The random samples.
 
     **Arguments:**
-    - `count`: how many; `converged`: how many of them have results.
+    - `count`: number of samples; `converged`: number of those that have results.
     - `seed`: of the random numbers: the same seed gives the same samples.
-    - `failures`: why others have none, and how many.
+    - `failures`: reasons why others have no results -> number of such samples.
     - `file`: the data set of all samples; `None` where it was not kept.
     """
 
@@ -127,12 +128,12 @@ class Tolerances:
     **Arguments:**
     - `fields`: distribution of each field that scatters, by dotted path, in SI units.
     - `units`: SI units of these fields.
-    - `origins`: where a distribution comes from, of fields whose distribution is not given itself; or what a field of
-      an oil's law stands for.
+    - `origins`: where the distribution of a field comes from, if it was not given; or what a field of an oil's law
+      stands for.
     - `results`: scatter of each result, by the path of the result.
     - `samples`: `None` without samples.
     - `warnings`: notes in words.
-    - `solution`: that of the scene whose fields have their means.
+    - `solution`: solution with all fields at their means, lognormal ones at their medians.
     """
 
     fields: Mapping[str, Distribution]

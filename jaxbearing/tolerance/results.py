@@ -1,4 +1,4 @@
-"""Which results of a solution are looked at, and their labels."""
+"""Choice of the results of a solution that are evaluated, and their labels."""
 
 import dataclasses
 import re
@@ -30,18 +30,18 @@ DEFAULT = (
     "film.central",
     "traction_coefficient",
 )
-"""Results that are looked at where none is named, as far as a scene has them."""
+"""Results that are evaluated if none are named, as far as a scene has them."""
 MIXED = "mixed"
-"""Unit, in labels, of results whose numbers have units of their own."""
+"""Unit, in labels, of results whose entries have different units."""
 _OF_ENTRIES = {"bearings": ("largest_load",), "sets": ("preload", "loss_force")}
 """Usual results of each bearing and set of a shaft."""
 _ALONG = {"bearings": "bearing", "sets": "set"}
-"""Results of a shaft by the names of its bearings and sets -> the dimension of data sets that they stand along."""
+"""Fields of a shaft's results with one entry for each bearing or set -> their dimension in data sets."""
 _SYSTEM = {"life": "system", "torque": "torque"}
-"""Parts of a shaft's results -> the beginning of their names in data sets."""
+"""Parts of a shaft's results -> prefix of their names in data sets."""
 _NAME = re.compile(r"(?P<name>[A-Za-z_][\w.-]*)(?P<places>(?:\[[0-9]{1,6}\])*)")
 _DISPLACEMENTS = ("outer", "displacement")
-"""Mixed results that are displacements, in m and rad; the others are loads, but for stiffnesses."""
+"""Results with mixed units that are displacements, in m and rad; all others are loads, or stiffnesses."""
 
 
 class Label(NamedTuple):
@@ -61,9 +61,9 @@ def values_of(solution: AbstractSolution, names: Sequence[str]) -> dict[str, jax
 
 
 def names_in(solution: AbstractSolution, wanted: Sequence[str] | None) -> tuple[str, ...]:
-    """The results that are looked at: those that are wanted by their path or by their name in data sets, or `DEFAULT`.
+    """Names of the results to evaluate: those wanted, by their path or their name in data sets, or `DEFAULT`.
 
-    **Raises:** `ValueError` for one that the solution does not have, and for one that is not one number.
+    **Raises:** `ValueError` for a result that the solution does not have, and for one that is not a single number.
     """
     known = dict(_known(solution))
     if wanted is None:
@@ -95,7 +95,7 @@ def _place_in_words(said: Mapping[str, Any], axis: int, place: int) -> str:
 
 
 def _entry_of(solution: AbstractSolution, path: str) -> tuple[str, str, str] | None:
-    """Field of a shaft's results with one part for each name, the name, and the rest of a path; `None` of others."""
+    """Parts of a path into a shaft's results: `bearings` or `sets`, name, rest of the path; `None` for other paths."""
     table, _, rest = path.partition(".")
     entries = getattr(solution, table, None)
     if table not in _ALONG or not isinstance(entries, Mapping):
@@ -147,7 +147,7 @@ def _unit(path: str, said: Mapping[str, Any], place: tuple[int, ...]) -> str:
 
 
 def _known(part: Any, above: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
-    """Path and label of every result; those that follow from others are not computed for it."""
+    """Path and label of every result; derived results are not computed for this."""
     for field in dataclasses.fields(part):
         value = getattr(part, field.name)
         if dataclasses.is_dataclass(value):
@@ -176,12 +176,12 @@ def _value(solution: AbstractSolution, path: str, place: tuple[int, ...]) -> Any
 
 
 def _there(solution: Any, name: str, known: Mapping[str, Any]) -> bool:
-    """True if one of the usual results is one of this scene."""
+    """True if this scene has one of the usual results, given by its name."""
     path, place = _parted(name)
     if path not in known or (known[path]["dims"] == () and place):
         return False
     if path == "power_loss.total":
-        # a total of no part at all is no result
+        # a total without any part is not a result
         return any(value is not None for part, value in vars(solution.power_loss).items() if part != "total")
     if path == "fit.axial_shift" and solution.fit.clearance is not None:
         # the play of tapered bearings only
@@ -191,7 +191,7 @@ def _there(solution: Any, name: str, known: Mapping[str, Any]) -> bool:
 
 
 def _forces(solution: AbstractSolution) -> Iterator[str]:
-    """Loads that the degrees of freedom need whose displacement is given: the preload."""
+    """Loads of the degrees of freedom with a prescribed displacement, such as a preload."""
     operation = getattr(solution, "operation", None)
     for place, name in enumerate(LOAD_FIELDS):
         if isinstance(operation, AbstractOperation) and operation.held_at(name) is not None:
@@ -207,15 +207,15 @@ def _of_entries(solution: AbstractSolution) -> Iterator[str]:
 
 
 def _path_of(text: str, known: Mapping[str, object]) -> str | None:
-    """Path of a result by a text, without its places; `None` for what is no name of a result."""
+    """Path of the result that a text names, without its places; `None` for any other text."""
     parted = _NAME.fullmatch(text.strip())
     name = "" if parted is None else parted["name"]
     return next((one for one in known if name in (one, variable_name(one), one.replace(".", "_"))), None)
 
 
 def is_result(solution: AbstractSolution, text: str) -> bool:
-    """True for the name of a result that varies smoothly, with or without its places, and for that of one which this
-    scene does not model."""
+    """True for the name of a result that varies smoothly, with or without its places, or that this scene does not
+    model."""
     path = _path_of(text, dict(_known(solution)))
     if path is None:
         return not_modelled(solution, text)
@@ -228,7 +228,7 @@ def _varies(value: Any) -> bool:
 
 
 def not_modelled(solution: AbstractSolution, text: str) -> bool:
-    """True for the path of a result of a part that other scenes of this kind have and this one does not."""
+    """True for the path of a result in a part that other scenes of this kind have, but not this one."""
     part: Any = solution
     for name in text.strip().split("."):
         if not dataclasses.is_dataclass(part) or name not in {field.name for field in dataclasses.fields(part)}:

@@ -22,7 +22,7 @@ from ..sweeps.fields import SceneSource
 from ..sweeps.recipe import Direct, in_scene
 
 SEATS = {"shaft": ("bore", iso286.shaft_limits, iso286.bore_limits)}
-"""Seat -> the dimension of the bearing, deviations of the other part, and deviations of the bearing."""
+"""Seat -> dimension of the bearing, function for the limits of the mating part, function for those of the bearing."""
 SEATS["housing"] = ("outside_diameter", iso286.hole_limits, iso286.outside_limits)
 _NOTHING = (
     "found no field that scatters; expected one given as {mean = ..., deviation = ...}, {low = ..., high = ...} or "
@@ -37,14 +37,14 @@ _ISOLATED = (
 
 @dataclasses.dataclass(frozen=True)
 class Scatter:
-    """A scene and what scatters in it.
+    """A scene and the numbers in it that scatter.
 
     **Arguments:**
-    - `scene`: with the means; seats that have a tolerance class have numbers instead.
+    - `scene`: scene with all fields at their means; seats with a tolerance class have numbers instead of it.
     - `fields`: distribution of each number that scatters, by dotted path, in SI.
     - `origins`: where the distribution of a seat comes from, in words.
     - `notes`: for the user.
-    - `joint`: of those fields that scatter together; each is also one of `fields`, by itself.
+    - `joint`: distribution of the fields that scatter together; each of them is also in `fields`, by itself.
     """
 
     scene: AbstractScene
@@ -69,12 +69,12 @@ class Scatter:
 
     @property
     def fits(self) -> Fits | None:
-        """The table of the seats, with numbers."""
+        """Fits of the seats, with numbers instead of tolerance classes."""
         return getattr(self.scene, "fits", None)
 
     @property
     def seats(self) -> tuple[str, ...]:
-        """The seats of the bearing."""
+        """The seats of the bearing that have an interference."""
         given = lambda seat: getattr(self.fits, interference_of(seat), None) is not None
         return tuple(seat for seat in SEATS if given(seat))
 
@@ -85,7 +85,7 @@ class Scatter:
         return seats | {path: one.nominal for path, one in self.fields.items()}
 
     def recipe(self, cases: Cases) -> Direct:
-        """Scenes of samples. **Raises:** as `scatter_of`."""
+        """Recipe for the scenes of the samples. **Raises:** as `scatter_of`."""
         return in_scene(self.scene, cases)
 
 
@@ -108,8 +108,9 @@ def scatter_of(
 
     **Arguments:** `over`: dotted path -> `Distribution`, or a mapping {"mean": ..., "deviation": ...} or {"low": ...,
     "high": ...} with a "shape" where it is uniform or lognormal, or {"median": ..., "log_deviation": ...} with "low"
-    and "high" where it is cut off; SI numbers. `drag_prior`: the drag coefficient of a bearing scatters as
-    `bearings.priors.DRAG` where it is no other distribution. So does the gap at the inlets where the supply is a level.
+    and "high" where it is cut off; SI numbers. `drag_prior`: True if the drag coefficient of a bearing scatters
+    as `bearings.priors.DRAG`, unless it has another distribution. Where the supply is a level, the gap at the inlets
+    scatters too, whatever `drag_prior` is.
     `posterior`: fields that scatter together; those that the scene does not have are left out.
 
     **Raises:** `ValueError` for what is no distribution, for a field that is no number of the scene, for one that has
@@ -158,7 +159,7 @@ def scatter_of(
 def _joint(
     scene: AbstractScene, posterior: JointDistribution | None, others: Mapping[str, Distribution]
 ) -> tuple[JointDistribution | None, list[str]]:
-    """The fields of a posterior that the scene has, and a note on those that it has not."""
+    """The posterior of those of its fields that the scene has, and a note on its other fields."""
     if posterior is None:
         return None, []
     twice = [path for path in posterior.fields if path in others]
@@ -176,7 +177,7 @@ def _joint(
 
 
 def _of_prior(scene: Any, prior: Distribution) -> Iterator[str]:
-    """Says that the drag coefficient of the scene gives way."""
+    """Yields a note if the assumed distribution replaces the drag coefficient of the scene."""
     given = float(scene.drag.coefficient)
     if not math.isclose(given, prior.nominal, rel_tol=1e-9):
         yield (
@@ -208,7 +209,7 @@ def scatter_of_source(
 
 
 def _require_plain(read: SceneSource, path: str, one: Distribution) -> None:
-    """**Raises:** `SceneError` for a field that the scene does not hold as the file has it."""
+    """Checks that the scene holds a field as the file gives it. **Raises:** `SceneError`."""
     cases = listed({path: [one.nominal, one.lowest, one.highest]})
     try:
         plain = isinstance(read.recipe(cases, {path: read.field(path, read.label)}), Direct)
@@ -222,7 +223,7 @@ def _require_plain(read: SceneSource, path: str, one: Distribution) -> None:
 
 
 def _distribution(path: str, given: Any) -> Distribution:
-    """**Raises:** `ValueError` that names the field."""
+    """The distribution that is given for a field. **Raises:** `ValueError` that names the field."""
     if isinstance(given, Distribution):
         return given
     names = set(given) if isinstance(given, Mapping) else set()
@@ -250,8 +251,8 @@ def _class_of(scene: Any, seat: str) -> str | None:
 def _seats(scene: Any, fields: Mapping[str, Distribution]) -> Iterator[tuple[str, Distribution]]:
     """Distribution of the interference of each seat that has a tolerance class.
 
-    Shaft and bore, and hole and outside diameter, are made apart: their variances add up, each a sixth of its tolerance
-    squared. The limits are those of both parts together.
+    The two parts of a seat are made independently: their variances add up, each the square of a sixth of its
+    tolerance. The limits are those of both parts together.
     """
     for seat, (dimension, of_part, of_bearing) in SEATS.items():
         tolerance = _class_of(scene, seat)

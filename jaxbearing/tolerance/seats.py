@@ -1,9 +1,10 @@
-r"""The effect on the rings of a seat whose interference scatters: none where it is loose.
+r"""Effect of a seat with scattering interference on the rings: none while the seat is loose.
 
 The interference that presses the rings is a sum of rectified lines, $u = \sum_j s_j \max(I - b_j, 0)$: one line for a
-given smoothing, three where the default one flattens a seat that the temperatures hold. For a normal variable its mean,
-its variance and its covariance with $I$ are exact, $\mathrm{cov}(u, I) = s^2\sum_j s_j\Phi((m - b_j)/s)$ (Stein's
-lemma), and so is the scatter of a result that is linear in $u$.
+given smoothing, three where the default smoothing flattens the curve of a seat that temperatures keep tight. For a
+normal variable $I$ the mean and variance of $u$ and its covariance with $I$ are exact,
+$\mathrm{cov}(u, I) = s^2\sum_j s_j\Phi((m - b_j)/s)$ (Stein's lemma), and so is the scatter of a result that is linear
+in $u$.
 """
 
 from dataclasses import dataclass
@@ -15,20 +16,20 @@ from ..mounting.rectified import rectified_normal
 from ..mounting.seats import SMOOTHING, Fits
 
 NEVER = 8.0
-"""Standard deviations beyond which a bend in the line is not met: the share beyond is below 1e-15."""
+"""Number of standard deviations beyond which a bend does not count: the probability beyond is below 1e-15."""
 _TIGHT = 1e-12
 """Interference beyond the bend at which the slope is that of a tight seat, m."""
 
 
 @dataclass(frozen=True)
 class Seat:
-    """A seat.
+    """Seat of a ring whose interference scatters.
 
     **Arguments:**
     - `name`: "shaft" or "housing".
-    - `mean`: of the interference as machined, m.
-    - `deviation`: of the interference in operation, m, by all that scatters.
-    - `bends`: slope that begins, 1 or -1, and where, m; in ascending order.
+    - `mean`: mean interference as machined, m.
+    - `deviation`: standard deviation of the interference in operation by all fields, m.
+    - `bends`: change of slope, 1 or -1, and the interference where it occurs, m; in ascending order.
     """
 
     name: str
@@ -48,7 +49,7 @@ class Seat:
 
     @property
     def tight(self) -> float:
-        """The nearest interference where the slope is 1 and `pressing` is as at the mean, m."""
+        """Interference nearest to the mean where the slope is 1 and `pressing` is the same as at the mean, m."""
         if self.slope > 0.0:
             return self.mean
         rising = [bend for slope, bend in self.bends if slope > 0.0]
@@ -56,7 +57,7 @@ class Seat:
 
     @property
     def bends_within(self) -> bool:
-        """True if the line may bend within what the interference scatters."""
+        """True if there is a bend within the scatter of the interference."""
         return any(abs(self.mean - bend) < NEVER * self.deviation for _, bend in self.bends)
 
     @property
@@ -75,7 +76,7 @@ class Seat:
         return sum(slope * float(norm.cdf((self.mean - bend) / self.deviation)) for slope, bend in self.bends)
 
     def moments(self) -> tuple[float, float]:
-        """Mean, m, and variance, m^2, of what presses the rings."""
+        """Mean, m, and variance, m^2, of the interference that presses the rings."""
         if self.deviation == 0.0:
             return self.pressing, 0.0
         parts = [self._rectified(bend) for _, bend in self.bends]
@@ -88,18 +89,18 @@ class Seat:
         return mean, max(square - mean * mean, 0.0)
 
     def _rectified(self, bend: float) -> tuple[float, float]:
-        """Means of max(I - bend, 0) and of its square."""
+        """Mean of max(I - bend, 0), and mean of its square, for the interference I."""
         mean, variance = (float(value) for value in rectified_normal(self.mean - bend, self.deviation))
         return mean, variance + mean * mean
 
 
 def seat_of(fits: Fits, name: str, interference: float, running: float, deviation: float) -> Seat:
-    """The seat of a bearing.
+    """The seat of a ring, with its bends.
 
     **Arguments:**
     - `fits`: a `mounting.Fits` with numbers for its interferences.
-    - `interference`, `running`: as machined, and in operation, m.
-    - `deviation`: of that in operation, m.
+    - `interference`, `running`: mean interference as machined, and in operation, m.
+    - `deviation`: standard deviation of the interference in operation, m.
     """
     by_state = running - interference + float(fits.smoothed(jnp.asarray(interference)))
     if fits.smoothing is not None:
@@ -107,6 +108,6 @@ def seat_of(fits: Fits, name: str, interference: float, running: float, deviatio
     elif by_state <= 0.0:
         bends = ((1.0, SMOOTHING - by_state),)
     else:
-        # temperatures hold the ring: a seat without interference loses nothing by smoothing
+        # temperatures keep the ring tight: smoothing changes nothing for a seat that was machined without interference
         bends = ((1.0, -by_state), (-1.0, 0.0), (1.0, SMOOTHING))
     return Seat(name, interference, deviation, bends)

@@ -28,7 +28,7 @@ _REASONS = 3
 
 
 def print_tolerances(found: Tolerances, label: str, seconds: float, console: Console) -> None:
-    """Fields, results, contributions and notes."""
+    """Prints fields, results, contributions and notes."""
     samples = found.samples
     state = f"{counted(len(found.fields), 'field')} with a tolerance, delta method"
     if samples is not None:
@@ -52,7 +52,7 @@ def print_tolerances(found: Tolerances, label: str, seconds: float, console: Con
 
 
 def short(name: str) -> str:
-    """The name of a result without what all results of rolling elements begin with."""
+    """The name of a result without the prefix of the results of rolling elements."""
     return name.removeprefix("elements.")
 
 
@@ -80,7 +80,7 @@ def _results(found: Tolerances) -> Table:
 
 
 def _range(low: float, high: float, shown: Callable[[float], float]) -> str:
-    """**Arguments:** `shown`: the number in the unit of the row's mean."""
+    """Text of a range. **Arguments:** `shown`: gives a number in the unit of the row's mean."""
     return f"{digits(shown(low))} to {digits(shown(high))}"
 
 
@@ -108,7 +108,7 @@ def _preloaded(found: Tolerances) -> Iterator[str]:
 
 
 def _likely(found: Tolerances) -> Iterator[str]:
-    """The total loss, between which limits it probably is, and what makes most of the distance."""
+    """Total loss, its likely limits, and the field that contributes most to its scatter."""
     spread = found.results.get(POWER)
     if spread is None or not spread.moves or not spread.deviation:
         return
@@ -241,7 +241,7 @@ _OF_SAMPLES = ("mean", "mean_error", "deviation", "deviation_error", "low", "hig
 
 
 def udunits_or_text(unit: str) -> str:
-    """A unit of the labels as UDUNITS writes it; one that has no such form as it stands."""
+    """A unit of the labels in UDUNITS's form; unchanged if it has no such form."""
     try:
         return udunits(unit)
     except ValueError:

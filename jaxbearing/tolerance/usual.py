@@ -1,8 +1,8 @@
-"""Usual tolerances of the inputs of a scene: by how much a bearing, its oil and its duty differ from their drawing.
+"""Usual tolerances of the inputs of a scene: how far bearing, oil and operating point differ from the drawing.
 
-Those of bore, outside diameter and clearance are tables of standards (ISO 492 and ISO 5753-1, normal classes, and
-ISO 286 of the seats), as the package has them. Those of a scene's own distributions come from the scene. All others are
-assumptions, listed here with their reasons; they rank inputs, and are no substitute for a drawing.
+Tolerances of bore, outside diameter and clearance come from tables of standards (ISO 492 and ISO 5753-1, normal
+classes, and ISO 286 for the seats). Distributions that a scene gives itself are used as they are. All others are
+assumptions, listed here with their reasons; they serve to rank inputs, and are no substitute for a drawing.
 """
 
 import fnmatch
@@ -25,16 +25,16 @@ from ..shafts.paths import NUMBERED
 from ..shafts.scene import ShaftSystem
 
 BORE_OVER_PITCH = 0.7
-"""Bore over pitch diameter where a scene does not give its bore, for the table of clearances."""
+"""Ratio of bore to pitch diameter by which a scene without a bore is found in the table of clearances."""
 NOT_IN_THE_TABLE = 0.3
-"""Part of the clearance that counts where the table of clearances has no such bearing."""
+"""Tolerance over the clearance itself, where the table of clearances has no such bearing."""
 
 
 class Assumed(NamedTuple):
     """An assumed tolerance.
 
-    **Arguments:** `paths`: dotted paths, `*` for any part; `part`: relative, or `size`: absolute, SI; `reason`: in
-    words.
+    **Arguments:** `paths`: dotted paths, `*` for any part; `part`: relative tolerance, or `size`: absolute
+    tolerance, SI; `reason`: in words.
     """
 
     paths: tuple[str, ...]
@@ -82,8 +82,8 @@ ASSUMED = (
     Assumed(("operation.displacement.*", "operation.pressure"), part=0.1),
     Assumed(("operation.misalignment*",), part=0.2),
 )
-"""Assumed tolerances, of which the first that fits counts. Those of loads, speeds and temperatures say how well a duty
-is usually known."""
+"""Assumed tolerances; the first one that fits a path counts. Those of loads, speeds and temperatures say how well an
+operating point is usually known."""
 ON_SHAFTS = (
     Assumed(("bearing.*.position", "set.*.position", "force.*.position"), size=0.1e-3),
     Assumed(("bearing.*.closure", "bearing.*.expansion", "set.*.expansion", "set.*.preload.offset"), size=1e-6),
@@ -96,7 +96,7 @@ ON_SHAFTS = (
     Assumed(("shaft.speed",), part=0.01),
     Assumed(("shaft*.youngs_modulus",), part=0.01),
 )
-"""Assumed tolerances of what a shaft has beside its bearings."""
+"""Assumed tolerances of the other parts of a shaft, without its bearings."""
 
 
 def usual_tolerances(
@@ -121,7 +121,7 @@ def usual_tolerances(
 
 
 def _on_shaft(scene: ShaftSystem, given: Mapping[str, Distribution]) -> dict[str, UsualTolerance]:
-    """Tolerances of a shaft, and of each of its bearings without the loads and speeds that it has alone."""
+    """Tolerances of a shaft, and of each of its bearings without the operating point of that bearing alone."""
     found: dict[str, UsualTolerance] = {}
     for path, value in _numbers(scene).items():
         named = scene.path_in_file(path)
@@ -155,7 +155,7 @@ def _numbers(scene: AbstractScene) -> dict[str, float]:
 
 
 def _assumed(path: str, value: float, among: tuple[Assumed, ...] = ASSUMED) -> UsualTolerance | None:
-    """The first that fits."""
+    """The first assumed tolerance that fits a path; `None` if none fits."""
     for one in among:
         if any(fnmatch.fnmatchcase(path, pattern) for pattern in one.paths):
             size = one.size or one.part * abs(value)
@@ -203,7 +203,7 @@ def _housing_seat(scene: AbstractBearing, value: float) -> UsualTolerance | None
 
 
 def _clearance(scene: AbstractBearing, value: float) -> UsualTolerance:
-    """Half of the width of the normal class."""
+    """Half of the width of the normal clearance class."""
     geometry = scene.geometry
     bore = BORE_OVER_PITCH * geometry.pitch_diameter if geometry.bore is None else geometry.bore
     kind = "deep_groove" if scene.element == "ball" else "cylindrical"
@@ -220,7 +220,7 @@ def _angle(scene: AbstractBearing, value: float) -> UsualTolerance:
 
 
 def _drag(scene: AbstractBearing, value: float) -> UsualTolerance | None:
-    """The deviation of the logarithm, of which the first order is the relative deviation."""
+    """Standard deviation of the logarithm, which is to first order the relative deviation."""
     prior = priors.drag_prior(scene)
     if prior is None or prior.log_deviation is None:
         return None

@@ -1,4 +1,4 @@
-"""The verb for tolerances: what scatters in a scene in, the scatter of its results out."""
+"""The function `tolerances`, which computes the scatter of a scene's results from that of its fields."""
 
 import os
 import tempfile
@@ -52,14 +52,13 @@ def tolerances(
         found["fit.clearance"].mean, found["fit.clearance"].deviation, found["fit.clearance"].contributions
 
     Mean, standard deviation and contributions follow from one solve and its exact derivatives (delta method); with
-    `samples` random samples are solved too, as a sweep. All fields are independent of each other, but for those of a
+    `samples` random samples are solved too, as a sweep. All fields are independent of each other, except those of a
     posterior.
 
     **Arguments:**
-    - `scene`: from `load_scene`, or built from parts; or a scene file or the name of a built-in scene, of which those
-      fields scatter that it gives as a distribution. Seats that have a tolerance class scatter in any case, where
-      `fits.at` is "mean": shaft and bore, hole and outside diameter each have six standard deviations in their
-      tolerance.
+    - `scene`: scene from `load_scene`, or built from parts; or a scene file or the name of a built-in scene, where the
+      fields given as distributions scatter. Seats with a tolerance class scatter in any case if `fits.at` is "mean":
+      the tolerances of shaft and bore, hole and outside diameter are six standard deviations each.
     - `over`: dotted path of a field -> `Distribution`, or a mapping with `mean` and `deviation`, or `low` and `high`,
       and `shape`, "normal" (if not given), "uniform" or "lognormal"; or `median` and `log_deviation` of a lognormal
       one, with `low` and `high` where these cut it off; SI units.
@@ -67,12 +66,12 @@ def tolerances(
       rolling element with its number, "contact_angle_inner[0]". Not given: clearance, contact angles, displacements,
       power loss, life, as far as the scene has them.
     - `samples`: number of random samples, 0 or at least 2; `seed`: of their random numbers.
-    - `out`: file of the samples, `.nc` or `.zarr`. A run that is stopped goes on where it was when it is called again.
-    - `options`: of the solver.
+    - `out`: file of the samples, `.nc` or `.zarr`. A stopped run continues there when it is called again.
+    - `options`: options of the solver.
     - `chunk`, `devices`, `workers`, `scheduler`, `overwrite`, `progress`: as those of `jaxbearing.sweep`.
-    - `drag_prior`: the drag coefficient of a bearing, which nobody knows well, scatters by an assumed distribution
-      (`bearings.priors`) where it has no other; `False`: it does not.
-    - `posterior`: fields that scatter together, as a calibration leaves them: `calibration.joint_of` of it, or the
+    - `drag_prior`: True if the drag coefficient of a bearing, which is never well known, scatters by an assumed
+      distribution (`bearings.priors`) where it has no other.
+    - `posterior`: fields that scatter together, as found by a calibration: `calibration.joint_of` of it, or the
       file that `jaxbearing calibrate --out FILE.nc` writes. It prevails over distributions of the scene's file.
 
     **Raises:** `SolveError` where the solve at the means fails; `ValueError` where nothing scatters, for a field or a
@@ -100,7 +99,7 @@ def tolerances(
 
 
 def posterior_of(given: JointDistribution | str | os.PathLike[str] | None) -> JointDistribution | None:
-    """A posterior, read from its file where it is one. **Raises:** `ValueError` for another file."""
+    """The posterior, read from its file if a file is given. **Raises:** `ValueError` for another file."""
     if given is None or isinstance(given, JointDistribution):
         return given
     from ..report.joint_file import read_joint
@@ -110,7 +109,7 @@ def posterior_of(given: JointDistribution | str | os.PathLike[str] | None) -> Jo
 
 @dataclass(frozen=True)
 class Analysis:
-    """The numbers that scatter, and how they are solved."""
+    """A scene with its scatter, and the solver options of its analysis."""
 
     scatter: Scatter
     label: str
@@ -142,7 +141,7 @@ class Analysis:
         if still:
             notes.append(f"these fields do not change {', '.join(still)}")
         if results is None:
-            # of the usual results those that these fields move
+            # of the usual results, keep those that these fields change
             spreads = {name: one for name, one in spreads.items() if one.moves} or spreads
         return Tolerances(
             fields=self.scatter.fields,
@@ -171,7 +170,7 @@ class Analysis:
         )
 
     def with_samples(self, found: Tolerances, dataset: "xr.Dataset", seed: int, file: str | None) -> Tolerances:
-        """The scatter with the statistics of samples, which a sweep has solved."""
+        """Adds the statistics of samples that a sweep has solved."""
         from .monte_carlo import failures_in, sampled
 
         statistics = sampled(dataset, labels_of(found.solution, tuple(found.results)))

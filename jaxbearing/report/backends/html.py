@@ -21,18 +21,18 @@ _OF_PACKAGES = ("jax", "jaxlib", "plotly")
 def page(
     content: Content, title: str, inputs: Mapping[str, Sequence[Any]], results: Mapping[str, object], when: datetime
 ) -> str:
-    """The page.
+    """The whole page as HTML.
 
     **Arguments:**
     - `title`: name of the scene.
-    - `inputs`: fields of the scene by table, of `scenes.inputs.scene_inputs`.
-    - `results`: all results, as JSON has them.
-    - `when`: the date that the page bears.
+    - `inputs`: fields of the scene by table, as `scenes.inputs.scene_inputs` gives them.
+    - `results`: all results, ready for `json.dumps`.
+    - `when`: date printed on the page.
     """
     from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
     from markupsafe import Markup
 
-    # warnings to act on come before those that are information
+    # warnings that need action come before mere information
     ordered = sorted(content.checks, key=lambda check: isinstance(check[0], Information))
     loader = PackageLoader("jaxbearing.report.backends", "templates")
     escaped = select_autoescape(default=True, default_for_string=True)
@@ -55,7 +55,7 @@ def page(
 
 
 def _panel(panel: Panel) -> tuple[str, object]:
-    """Kind of a panel on the page, and what is shown: bars and numbers are tables, curves are charts."""
+    """Kind of a panel on the page and the object shown: bars and numbers become tables, curves become charts."""
     match panel:
         case Bars():
             return "bars", panel
@@ -66,6 +66,6 @@ def _panel(panel: Panel) -> tuple[str, object]:
 
 
 def versions() -> dict[str, str]:
-    """Versions of everything that the results depend on."""
+    """Versions of the packages and the system on which the results depend."""
     found = {"jaxbearing": __version__} | {name: version(name) for name in _OF_PACKAGES}
     return found | {"Python": platform.python_version(), "system": f"{platform.system()} {platform.machine()}"}

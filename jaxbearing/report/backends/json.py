@@ -1,4 +1,4 @@
-"""Results as JSON has them: numbers, texts, lists and objects; what is not finite is null."""
+"""Results as JSON values: numbers, texts, lists and objects; numbers that are not finite become null."""
 
 import dataclasses
 import math
@@ -10,13 +10,13 @@ from ..._derived import derived_parts, derived_results
 
 
 def names_of(part: Any) -> list[str]:
-    """Names of the fields of a class, and of the results that follow from them."""
+    """Names of the fields of a class and of the results derived from them."""
     kind = type(part)
     return [*(field.name for field in dataclasses.fields(part)), *derived_parts(kind), *derived_results(kind)]
 
 
 def plain(value: object) -> Any:
-    """Numbers, arrays and classes of the library as JSON has them."""
+    """Converts numbers, arrays and classes of the library to JSON values."""
     if value is None or isinstance(value, bool | str):
         return value
     if dataclasses.is_dataclass(value):

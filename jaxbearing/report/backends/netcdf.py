@@ -1,8 +1,8 @@
-"""NetCDF-4 files that are built where a full disk cannot bring the process down.
+"""NetCDF-4 files, written so that a full disk does not crash the process.
 
-HDF5 does not survive a write that fails: it tries again when the file is closed and when the process ends, and crashes
-there. So it writes to memory (`netcdf_image`), or, for what may be larger than memory, to a file object that takes
-every write (`NetcdfStream`).
+HDF5 does not survive a failed write: it tries again when the file is closed and when the process ends, and crashes.
+Files are therefore built in memory (`netcdf_image`) or, if they may be larger than memory, through a file object whose
+writes never fail (`NetcdfStream`).
 """
 
 import io
@@ -18,7 +18,7 @@ from xarray.backends import H5NetCDFStore
 
 
 def netcdf_image(groups: Mapping[str, xr.Dataset]) -> memoryview:
-    """The bytes of a NetCDF-4 file with checksums: damage to its arrays is an error for who reads them.
+    """The bytes of a NetCDF-4 file with checksums, so that reading damaged arrays raises an error.
 
     **Arguments:** `groups`: path of a group -> its data set; "/" is the root.
     """
@@ -38,15 +38,15 @@ def _checked(dataset: xr.Dataset) -> xr.Dataset:
 
 
 def _dump(dataset: xr.Dataset, file: Any, group: str) -> None:
-    # xarray's own `to_netcdf` takes no file object that stays open
+    # xarray's own `to_netcdf` does not accept a file object that stays open
     store = H5NetCDFStore(file, group=None if group == "/" else group, mode="a")
     dataset.dump_to_store(store)
 
 
 class NetcdfStream:
-    """A NetCDF-4 file on the disk that grows data set by data set; to be used in a `with` block.
+    """A NetCDF-4 file on disk to which data sets are added one by one; to be used in a `with` block.
 
-    **Raises:** `OSError` from `add`, or at the end of the block, where the disk has taken less than was written.
+    **Raises:** `OSError` from `add`, or at the end of the block, if the disk did not store everything that was written.
     """
 
     def __init__(self, path: Path):
@@ -57,7 +57,7 @@ class NetcdfStream:
         return self
 
     def add(self, dataset: xr.Dataset) -> None:
-        """More variables, and all attributes, of the root group."""
+        """Adds variables to the root group and sets its attributes."""
         _dump(dataset, self._file, "/")
         self._file.flush()
         self._target.raise_if_failed()
@@ -74,8 +74,8 @@ class NetcdfStream:
 
 
 class _TakesAll(io.RawIOBase):
-    """A file for HDF5 in which no write fails: what the disk does not take is kept in memory, and the error for the one
-    who wrote, who is to ask after each piece."""
+    """A file for HDF5 whose writes never fail. After the first failure, further data stay in memory and the error is
+    kept; the writer has to call `raise_if_failed` after each piece."""
 
     def __init__(self, path: Path):
         self._descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_TRUNC, 0o666)

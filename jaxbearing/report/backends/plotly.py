@@ -1,4 +1,4 @@
-"""Panels of curves as interactive charts of a page: plotly figures in one style, and what a page needs to show them
+"""Panels of curves as interactive charts of an HTML page: plotly figures in one style, and the code that shows them
 without a network."""
 
 import functools
@@ -21,7 +21,7 @@ _POLAR_GRID = "#DDDDDD"
 
 @dataclass(frozen=True)
 class Chart:
-    """A figure with its heading, a caption, and what is to be said of it to who cannot see it."""
+    """A plotly figure with its name, title, caption and height in pixels."""
 
     name: str
     title: str
@@ -30,7 +30,7 @@ class Chart:
     height: int = 340
 
     def data(self) -> dict[str, Any]:
-        """The figure as JSON has it; what is not finite is null."""
+        """The figure as JSON values; numbers that are not finite become null."""
         return json.loads(self.figure.to_json(engine="json"))
 
 
@@ -126,7 +126,7 @@ def _axis(axis: Axis, unit: str) -> dict[str, Any]:
 
 @functools.cache
 def library() -> str:
-    """The code that draws the charts in a browser."""
+    """The JavaScript library that draws the charts in a browser."""
     from plotly.offline import get_plotlyjs
 
     return get_plotlyjs()

@@ -1,5 +1,5 @@
-"""Parts of a summary on the screen: headline, lines, tables with bars, warnings. Tables come in pieces where a terminal
-is too narrow: numbers are never cut."""
+"""Parts of a summary on the screen: headline, lines, tables with bars, warnings. If a terminal is too narrow, a table
+is split into several: numbers are never cut."""
 
 from collections.abc import Iterable, Iterator
 
@@ -16,7 +16,7 @@ from ..display import bar, digits, displayed
 
 _SHORTEST_BAR = 4
 _GAP = 3
-"""Columns between two columns of a table."""
+"""Number of characters between two columns of a table."""
 
 
 def counted(number: int, noun: str) -> str:
@@ -33,16 +33,16 @@ def headline(label: str, status: str, style: str, state: str, console: Console) 
 
 
 def print_failure(label: str, status: str, reason: str, console: Console) -> None:
-    """Message instead of results."""
+    """Prints why a solve failed, instead of results."""
     headline(label, "NOT CONVERGED", "bold red", f"status: {status}", console)
     console.print(Padding(Text(reason, style="red"), (0, 2)))
     console.print(Padding(Text("No results: the point where the iteration stopped is not a solution."), (0, 2)))
 
 
 def print_warnings(warnings: Iterable[str], console: Console, full: bool = False) -> None:
-    """Warnings in three groups: what to act on, what was assumed, information.
+    """Prints warnings in three groups: warnings that need action, assumptions, and information.
 
-    **Arguments:** `full`: lists what was assumed; without it a line counts more than one.
+    **Arguments:** `full`: lists all assumptions; otherwise, if there are several, only their number is printed.
     """
     act, assumed, information = in_groups(warnings)
     if act:
@@ -63,7 +63,7 @@ def print_rule(title: str, console: Console) -> None:
 
 
 def print_line(name: str, text: str, console: Console, columns: int = 18) -> None:
-    """A name, in so many columns, and what is said of it."""
+    """Prints a name, padded to `columns` characters, and the text that belongs to it."""
     grid = Table.grid(padding=(0, 2, 0, 0))
     grid.add_column(width=columns, no_wrap=True)
     grid.add_column(overflow="fold")
@@ -79,9 +79,10 @@ def print_table(
     console: Console,
     named: str = "Power loss",
 ) -> None:
-    """Columns of texts, the first row's title above each; bars at the right where there is room.
+    """Prints columns of texts, each below its title, and bars at the right if there is room.
 
-    A text more than there are fractions is a total, below a line. **Arguments:** `named`: title of a column of names.
+    If the columns have one text more than there are `fractions`, the last row is a total and stands below a line.
+    **Arguments:** `named`: title of the column that holds words and is aligned left.
     """
     used = width(columns)
     room = min(longest, console.width - used - _GAP)
@@ -99,7 +100,7 @@ def print_table(
 
 
 def width(columns: dict[str, list[str]]) -> int:
-    """Width of the table of these columns, margins included."""
+    """Width of a table of these columns, including margins, in characters."""
     widths = [max(map(len, [*title.split("\n"), *texts])) for title, texts in columns.items()]
     return sum(widths) + _GAP * (len(widths) - 1) + 4
 
@@ -111,7 +112,8 @@ def _bar(fraction: float, width: int, style: str, console: Console) -> Text:
 def pieces(
     first: dict[str, list[str]], columns: dict[str, list[str]], room: int, together: int = 1
 ) -> Iterator[dict[str, list[str]]]:
-    """The columns, so many of them together, in tables that fit the width; each begins with the first columns."""
+    """Splits columns into tables no wider than `room`. Each table begins with the columns `first`; groups of `together`
+    columns are never split."""
     piece = dict(first)
     items = list(columns.items())
     for i in range(0, len(items), together):
@@ -126,8 +128,8 @@ def pieces(
 def shown_pieces(
     first: dict[str, list[str]], columns: dict[str, list[str]], console: Console, full: bool, way: str = "--full"
 ) -> Iterator[dict[str, list[str]]]:
-    """The table that fits the width of the console; in full all columns, in several tables. Behind a table that lacks
-    columns a line names these. **Arguments:** `way`: option that shows all."""
+    """The table of the columns that fit the width of the console; with `full`, several tables with all columns. If
+    columns are left out, a line after the table names them. **Arguments:** `way`: option that shows all columns."""
     each = list(pieces(first, columns, console.width))
     yield from each if full else each[:1]
     left = [title.replace("\n", " ") for piece in each[1:] for title in piece if title not in first]
@@ -144,15 +146,15 @@ def print_columns(
     named: str,
     way: str = "--full",
 ) -> None:
-    """A table without bars, with the columns that the width has room for (`shown_pieces`).
+    """Prints a table without bars, with the columns that fit the width (`shown_pieces`).
 
-    **Arguments:** `named`: title of a column of words."""
+    **Arguments:** `named`: title of the column that holds words and is aligned left."""
     for piece in shown_pieces(first, columns, console, full, way):
         print_table(piece, [0.0] * len(piece[next(iter(first))]), 0, "", console, named)
 
 
 def column(values: np.ndarray, unit: str) -> list[str]:
-    """The numbers of a column, with as many decimals as its largest needs for four digits."""
+    """The numbers of a column as texts, all with as many decimals as the largest needs for four significant digits."""
     shown = [displayed(float(value), unit) for value in values]
     if not shown:
         return []

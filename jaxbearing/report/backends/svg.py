@@ -9,17 +9,18 @@ from ..diagrams import LETTER, TEXT, Diagram
 
 _MARGIN = 8.0
 _LINE = 1.25
-"""Height of a line, in font sizes."""
+"""Height of a line of text, in multiples of the font size."""
 
 Point = tuple[float, float]
 
 
 class Drawing:
-    """Shapes to one scale; x to the right, y up. The picture ends where its shapes and texts end.
+    """A drawing of shapes to one scale, with x to the right and y up. The picture is as large as its shapes and texts
+    need.
 
     **Arguments:**
-    - `title`: what is to be seen, for readers who cannot see it.
-    - `scale`: points of the page for one millimetre.
+    - `title`: description of the drawing for screen readers.
+    - `scale`: points of the page per millimetre.
     """
 
     def __init__(self, title: str, scale: float):
@@ -56,7 +57,8 @@ class Drawing:
         self._add("polyline", points=text, **{"fill": "none", **style})
 
     def arrow(self, start: Point, end: Point, colour: str, width: float = 2.0, **attributes: str | float) -> None:
-        """A straight arrow; its head shrinks with it, so that its whole length always tells."""
+        """Draws a straight arrow. The head is part of its length and shrinks with it, so that the length stays to
+        scale."""
         (x0, y0), (x1, y1) = self._at(start), self._at(end)
         length = math.hypot(x1 - x0, y1 - y0)
         if length < 0.5:
@@ -78,7 +80,7 @@ class Drawing:
         fill: str = INK,
         edge: bool = True,
     ) -> None:
-        """Lines of text, centred in height about the place; a white `edge` keeps them readable on lines."""
+        """Writes lines of text, vertically centred at the place; a white `edge` keeps them readable on top of lines."""
         x, y = self._at(place)
         lines = words.split("\n")
         width = LETTER * size * max(map(len, lines))
@@ -94,7 +96,8 @@ class Drawing:
             ET.SubElement(element, "tspan", {"x": f"{x:.2f}", "y": f"{base:.2f}"}).text = line
 
     def markup(self, natural: bool = False) -> str:
-        """The element, as wide as what surrounds it; with `natural` at most as wide as its points say."""
+        """The SVG element, as wide as its container; with `natural`, at most as wide as the drawing's own size in
+        points."""
         x, y = (sorted(values) for values in zip(*self._seen, strict=True))
         left, top = x[0] - _MARGIN, y[0] - _MARGIN
         width, height = x[-1] - left + _MARGIN, y[-1] - top + _MARGIN
@@ -115,7 +118,7 @@ class Drawing:
 
 
 def diagram_markup(diagram: Diagram) -> str:
-    """A diagram as one element, whose texts shrink with it where there is less room than it wants."""
+    """A diagram as one SVG element, which shrinks together with its texts if there is too little room."""
     drawing = Drawing(f"{diagram.title}. {diagram.caption}", 1.0)
     for arrow in diagram.arrows:
         drawing.polygon(arrow.outline(), fill=arrow.colour)

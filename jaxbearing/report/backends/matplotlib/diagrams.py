@@ -1,4 +1,4 @@
-"""Diagrams on paper: what `diagrams` describes, drawn on axes of matplotlib."""
+"""Diagrams on paper: draws the descriptions of `diagrams` on matplotlib axes."""
 
 from typing import TYPE_CHECKING
 
@@ -11,11 +11,11 @@ if TYPE_CHECKING:
 
 _HALO = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.6}
 _POINTS = 72.0
-"""Points of an inch."""
+"""Points per inch."""
 
 
 def draw_diagram(axes: "matplotlib.axes.Axes", diagram: Diagram) -> None:
-    """Draws a diagram on axes, at most at its own size; shapes and texts to one scale."""
+    """Draws a diagram on axes, shrunk if they are too small for it; shapes and texts have the same scale."""
     from matplotlib.patches import Polygon, Rectangle
 
     axes.set_axis_off()
@@ -23,7 +23,7 @@ def draw_diagram(axes: "matplotlib.axes.Axes", diagram: Diagram) -> None:
     room = axes.get_window_extent()
     dots = axes.figure.dpi / _POINTS
     scale = min(1.0, room.width / dots / diagram.size[0], room.height / dots / diagram.size[1])
-    # what is left of the room lies round the diagram
+    # the diagram is centred in the axes
     for set_limits, low, high, across in (
         (axes.set_xlim, diagram.low[0], diagram.high[0], room.width),
         (axes.set_ylim, diagram.low[1], diagram.high[1], room.height),

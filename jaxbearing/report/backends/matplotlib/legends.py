@@ -1,5 +1,5 @@
-"""Legends that hide no curve: a legend stands at a corner or side of its axes where nothing is drawn, and the axes get
-room above the curves where there is no such place."""
+"""Legends that hide no curve: a legend is placed at a corner or side of its axes where nothing is drawn. If there is no
+such place, the vertical axis is extended to make room above the curves."""
 
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
@@ -23,11 +23,11 @@ _PLACES = (
     "center",
 )
 _AWAY = 5.0
-"""Points between a legend and what is drawn beside it."""
+"""Least distance between a legend and the curves, markers and texts around it, points."""
 _STEP = 3.0
-"""Pixels from one tested point of a curve to the next."""
+"""Distance between neighbouring test points along a curve, pixels."""
 _POINTS = 72.0
-"""Points of an inch."""
+"""Points per inch."""
 
 
 def clear_legend(
@@ -36,16 +36,16 @@ def clear_legend(
     names: Sequence[str] = (),
     **style: Any,
 ) -> "matplotlib.legend.Legend":
-    """Draws the legend of axes that are finished but for it, and returns it.
+    """Draws the legend on axes that are otherwise finished, and returns it.
 
     **Arguments:**
-    - `handles`, `names`: entries; those that the axes know if not given.
+    - `handles`, `names`: entries of the legend; by default the labelled curves of the axes.
     - `style`: further arguments of matplotlib's legend.
     """
     found, called = axes.get_legend_handles_labels() if handles is None else (handles, names)
     wanted = {"fontsize": 8.5, "title_fontsize": 8.5, "frameon": False} | style
     legend = axes.legend(found, called, **wanted)
-    # of the whole page, also where the axes are in a part of it
+    # the whole page is laid out, even if the axes are in a part of it
     axes.figure.canvas.figure.draw_without_rendering()
     drawn = np.concatenate([np.zeros((0, 2)), *_drawn(axes)])
     for place in _PLACES:
@@ -56,7 +56,7 @@ def clear_legend(
 
 
 def covered(axes: "matplotlib.axes.Axes") -> int:
-    """Number of tested points of curves, markers and texts that the legend of axes lies on."""
+    """Number of test points of curves, markers and texts that the legend of the axes covers."""
     legend = axes.get_legend()
     return 0 if legend is None else _hit(legend, np.concatenate([np.zeros((0, 2)), *_drawn(axes)]), 0.0)
 
@@ -68,7 +68,7 @@ def _hit(legend: "matplotlib.legend.Legend", drawn: np.ndarray, away: float = _A
 
 
 def _drawn(axes: "matplotlib.axes.Axes") -> Iterator[np.ndarray]:
-    """Points of the page on everything that is drawn in the axes."""
+    """Test points, in pixels of the page, on every curve, marker and text of the axes."""
     for line in axes.lines:
         points = line.get_transform().transform(np.asarray(line.get_xydata(), dtype=float))
         yield _along(points) if line.get_linestyle() not in ("None", "none", "", " ") else points
@@ -82,7 +82,7 @@ def _drawn(axes: "matplotlib.axes.Axes") -> Iterator[np.ndarray]:
 
 
 def _along(corners: np.ndarray) -> np.ndarray:
-    """Points on the straight lines between corners; a gap of the curve is a gap here too."""
+    """Test points on the straight lines between the corners of a curve; gaps of the curve (NaN) stay empty."""
     start, step = corners[:-1], np.diff(corners, axis=0)
     lengths = np.hypot(*step.T)
     counts = np.minimum(np.where(np.isfinite(lengths), lengths, 0.0) / _STEP, 2000.0).astype(int)
@@ -96,7 +96,7 @@ def _above(
     names: Sequence[str],
     style: dict[str, Any],
 ) -> "matplotlib.legend.Legend":
-    """The legend in few lines at the top, and the vertical axis as much longer as that needs."""
+    """Places the legend at the top, in as few lines as fit, and extends the vertical axis to make room for it."""
     room = axes.get_window_extent()
     columns = len(names)
     legend = axes.legend(handles, names, **(style | {"ncols": columns, "loc": "upper left"}))

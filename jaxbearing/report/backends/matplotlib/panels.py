@@ -1,4 +1,4 @@
-"""Panels on paper: what `panels` describes, drawn on axes of matplotlib."""
+"""Panels on paper: draws the descriptions of `panels` on matplotlib axes."""
 
 import math
 from typing import TYPE_CHECKING, Any
@@ -24,17 +24,17 @@ _POINTS = {
     "triangle-right": ">",
 }
 _ROW, _NAMES = 0.34, 0.46
-"""Height of a row of numbers, inches, and the part of the axes that the names of the rows have at most."""
+"""Largest height of a row of numbers, inches, and the fraction of the width of the axes reserved for the row names."""
 _FEWEST_BARS = 4
-"""Bars that find room: fewer ones are no thicker."""
+"""Smallest number of bars that the axes leave room for: with fewer bars, the bars do not become thicker."""
 _SCALE_AZIMUTH = math.radians(157.5)
-"""Angle of the numbers of the polar plot: away from the load line."""
+"""Azimuth at which the scale of a polar plot is written, rad: away from the load line."""
 
 
 def draw(axes: "matplotlib.axes.Axes", panel: Panel, marked: bool = True) -> None:
-    """Draws a panel on axes, polar ones for `Polar`; its legend is the caller's.
+    """Draws a panel on axes, which must be polar for `Polar`. The caller draws the legend.
 
-    **Arguments:** `marked`: False for curves without their markers.
+    **Arguments:** `marked`: False draws the curves without markers.
     """
     match panel:
         case Bars():
@@ -48,7 +48,7 @@ def draw(axes: "matplotlib.axes.Axes", panel: Panel, marked: bool = True) -> Non
 
 
 def _bars(axes: "matplotlib.axes.Axes", panel: Bars) -> None:
-    """The values stand at the bars, which need no axis and no grid beside them."""
+    """Draws bars with their values written beside them, so that no axis and no grid are needed."""
     column = list(panel.values)
     bars = axes.barh(list(panel.names), column, color=panel.colour, height=0.68)
     axes.set_ylim(max(len(column), _FEWEST_BARS) - 0.5, -0.5)
@@ -64,7 +64,7 @@ def _bars(axes: "matplotlib.axes.Axes", panel: Bars) -> None:
 
 
 def _numbers(axes: Any, panel: Numbers) -> None:
-    """A table without lines: a column for each side, as wide as the axes are."""
+    """Draws a table without lines, as wide as the axes, with one column for each contact side."""
     axes.set_axis_off()
     title_of(axes, panel.title)
     height = axes.get_window_extent().height / axes.figure.dpi
@@ -106,7 +106,7 @@ def _polar(axes: Any, panel: Polar) -> None:
 
 
 def _load_arrow(axes: "matplotlib.axes.Axes", angle: float) -> None:
-    """Draws the direction of the load beside the picture; azimuth 0 is below, and azimuths count counter-clockwise."""
+    """Draws the direction of the load beside the plot; azimuth 0 is at the bottom, positive counter-clockwise."""
     arrow = {"arrowstyle": "-|>,head_width=0.35,head_length=0.7", "linewidth": 2.2, "color": INK}
     place, half = np.array([1.05, 0.07]), 0.07 * np.array([math.sin(angle), -math.cos(angle)])
     axes.annotate("", xy=tuple(place + half), xytext=tuple(place - half), xycoords="axes fraction", arrowprops=arrow)
@@ -135,7 +135,7 @@ def _curves(axes: "matplotlib.axes.Axes", panel: Curves, marked: bool) -> None:
 
 
 def _scale(axes: "matplotlib.axes.Axes", which: str, axis: Axis) -> None:
-    """Ends, ticks and title of one axis."""
+    """Sets limits, ticks and title of one axis."""
     if axis.logarithmic:
         axes.set(**{f"{which}scale": "log"})
     if axis.limits is not None:
@@ -143,7 +143,7 @@ def _scale(axes: "matplotlib.axes.Axes", which: str, axis: Axis) -> None:
     if axis.from_zero:
         axes.set(**{f"{which}lim": (0.0, None)})
     if axis.ticks:
-        # an axis of logarithms would write powers of ten
+        # matplotlib would label a logarithmic axis with powers of ten
         texts = [f"{tick:g}" for tick in axis.ticks] if axis.logarithmic else None
         getattr(axes, f"set_{which}ticks")(axis.ticks, texts)
     if axis.logarithmic:

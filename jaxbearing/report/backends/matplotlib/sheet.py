@@ -1,4 +1,4 @@
-"""Common parts of pages of plots: head and foot, titles and grids of axes."""
+"""Common parts of pages of plots: head, foot, titles and grids of axes."""
 
 import textwrap
 from collections.abc import Iterable
@@ -13,23 +13,23 @@ if TYPE_CHECKING:
     import matplotlib.text
 
 _HEAD = (0.37, 0.66)
-"""Inches from the top of a page to the middle of its title and of the line below it."""
+"""Distances from the top of a page to the middle of its title and to the middle of the line below, inches."""
 _WARNING_LINES = 4
-"""Lines of warnings at the foot of the page; more are counted."""
+"""Largest number of lines of warnings at the foot of a page; further lines are left out."""
 _LINE_LENGTH = 170
 _LONG_TITLE = 65
-"""Letters of a title from which on they are smaller."""
+"""Number of letters above which a title is set in a smaller size."""
 _TITLE_GAP = 0.2
-"""Inches between the title and the version at its right."""
+"""Distance between the title and the version to its right, inches."""
 _LONG_OPERATION = 95
-"""Letters of an operating point from which on they are smaller: a legend may stand at their right."""
+"""Number of letters above which an operating point is set in a smaller size: a legend may stand to its right."""
 
 
 def head(figure: "matplotlib.figure.Figure", title: str, operation: str) -> None:
-    """Title, operating point and version at the top of a page or a part of one, whatever its height."""
+    """Writes title, operating point and version at the top of a page, or of a part of a page, of any height."""
     first, second = (1.0 - inches * figure.dpi / figure.bbox.height for inches in _HEAD)
     size = 15 if len(title) <= _LONG_TITLE else 10
-    # names of files are not formulas, whatever signs are in them
+    # file names are not formulas, whichever characters they contain
     shown = figure.text(0.03, first, title, fontsize=size, fontweight="bold", color=INK, va="center", parse_math=False)
     small = 9.5 if len(operation) <= _LONG_OPERATION else 8
     figure.text(0.03, second, operation, fontsize=small, color=INK, va="center")
@@ -38,7 +38,7 @@ def head(figure: "matplotlib.figure.Figure", title: str, operation: str) -> None
 
 
 def _shorten(text: "matplotlib.text.Text", end: float) -> None:
-    """Cuts a text that reaches beyond a place of the figure, in pixels."""
+    """Shortens a text so that it ends before a horizontal position, in pixels of the figure."""
     whole, kept = text.get_text(), len(text.get_text())
     while kept > 1 and text.get_window_extent().x1 > end:
         box = text.get_window_extent()
@@ -47,7 +47,7 @@ def _shorten(text: "matplotlib.text.Text", end: float) -> None:
 
 
 def foot(figure: "matplotlib.figure.Figure", warnings: Iterable[str]) -> int:
-    """Warnings and notes in small print; returns the number of lines."""
+    """Writes warnings and notes in small print at the foot of a page, and returns the number of lines."""
     lines = [line for text in warnings for line in textwrap.wrap(f"- {text}", _LINE_LENGTH)]
     if len(lines) > _WARNING_LINES:
         lines = [*lines[: _WARNING_LINES - 1], "- and more: see the summary"]
@@ -68,7 +68,7 @@ def title_of(axes: "matplotlib.axes.Axes", text: str, pad: float = 6.0, size: fl
 
 
 def grid_lines(axes: "matplotlib.axes.Axes") -> None:
-    """A light grid behind the curves, and no frame at the top and the right."""
+    """Draws a light grid behind the curves and removes the frame at the top and the right."""
     axes.tick_params(labelsize=8.5)
     axes.grid(color=GRID, linewidth=0.7)
     axes.set_axisbelow(True)
