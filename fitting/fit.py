@@ -1,4 +1,4 @@
-"""The fit: from measured curves and a scene to the oil's rheology with its uncertainty."""
+"""Fit of an oil's rheology, with its uncertainty, to measured traction curves."""
 
 import dataclasses
 from collections.abc import Iterable
@@ -87,7 +87,7 @@ def _touched(search: Search) -> str:
 def fit_models(
     measurements: Measurements, scene: TwoDisk, models: Iterable[str], options: FitOptions | None = None
 ) -> dict[str, FitResult]:
-    """The same fit with each viscous function, for `comparison.compare`."""
+    """Fits of the same measurements with several viscous functions, by name, for `comparison.compare`."""
     options = FitOptions() if options is None else options
     return {model: fit(measurements, scene, options._replace(model=model)) for model in models}
 

@@ -23,7 +23,8 @@ SAME_TEMPERATURE = 5.0
 
 
 def viscous_only(deborah: np.ndarray) -> str:
-    """Why the shear modulus may not show, or an empty text. **Arguments:** Deborah numbers of the points."""
+    """The reason why the data may not show the shear modulus, or an empty text. **Arguments:** `deborah`: Deborah
+    numbers of the points."""
     if np.max(deborah) >= VISCOUS:
         return ""
     largest = f"{np.max(deborah):.2g}, below {VISCOUS:g}"

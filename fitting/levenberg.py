@@ -1,7 +1,7 @@
 r"""Levenberg and Marquardt's method as a trust region: each step $p$ minimises $|r + Jp|^2$ with $|Dp|\le\Delta$.
 
-$p(\lambda) = -(J^TJ + \lambda D^2)^{-1}J^Tr$, with the $\lambda$ at which $|Dp| = \Delta$; $D$ holds the largest norm so
-far of each column of $J$, so the method does not depend on the units of the unknowns. The parts of an iteration are
+$p(\lambda) = -(J^TJ + \lambda D^2)^{-1}J^Tr$, with the $\lambda$ at which $|Dp| = \Delta$; $D$ holds the largest norm
+so far of each column of $J$, so the method does not depend on the units of the unknowns. The parts of an iteration are
 functions of arrays: `minimised` runs them inside a compiled program; `minimised_outside` calls them one by one
 (`begun`, `trial`, `judged`) for a model that is a program of its own.
 

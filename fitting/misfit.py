@@ -58,7 +58,7 @@ def information(difference: np.ndarray, deviation: np.ndarray, parameters: int) 
 
 
 def neighbour_correlation(measurements: Measurements, standard: np.ndarray) -> tuple[float, int]:
-    """Correlation of the residuals of neighbouring points in slide-to-roll ratio, within curves; and number of pairs."""
+    """Correlation of residuals of points next to each other in slide-to-roll ratio in a curve, and number of pairs."""
     slide = np.asarray(measurements.slide_to_roll)
     limit = LARGEST * scale_of(standard)
     standard = np.clip(standard, -limit, limit)

@@ -1,4 +1,4 @@
-"""Parameters of the rheology in the coordinates of the fit: scaled, centred on the data, positive ones as logarithms."""
+"""Parameters of the rheology in coordinates of the fit: scaled, centred on the data, positive ones as logarithms."""
 
 from typing import NamedTuple
 
@@ -21,7 +21,7 @@ NAMES = (
 UNITS = ("Pa", "1/Pa", "K", "Pa", "1/Pa", "K")
 SYMBOLS = ("G0", "alpha_G", "beta_G", "tau0", "alpha_tau", "beta_tau")
 POSITIVE = (True, False, False, True, False, False)
-"""Whether a parameter is positive and therefore fitted as its logarithm."""
+"""Flags of the positive parameters, which are fitted as their logarithms."""
 SCALES = np.array([1.0, 1e-9, 1e3, 1.0, 1e-9, 1e3])
 """Unit of each natural coordinate in SI: ln, 1/GPa, kK."""
 LARGEST_LOG = 80.0

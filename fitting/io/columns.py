@@ -91,7 +91,7 @@ def check_unit(column: Column, file: str, hint: str = "") -> None:
 
 
 def fits(unit: str, dimension: Dimension) -> bool:
-    """True for a unit of this dimension."""
+    """True if a unit has this dimension."""
     try:
         parse(f"1 {unit}", dimension)
     except PydanticCustomError:

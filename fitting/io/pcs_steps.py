@@ -28,11 +28,11 @@ class Step:
     """One step of a test.
 
     **Arguments:**
-    - `number`: as the file counts, from 1.
-    - `kind`: as the file writes it, e.g. `Traction` or `BOD_TIMED`; empty where the file says none.
-    - `line`: number of its first line, or of the header of its table where it has one.
-    - `width`: how many cells that header has.
-    - `headings`: of its table, by name; for a name that occurs twice, the first. Empty where it has no table.
+    - `number`: number of the step in the file, from 1.
+    - `kind`: type of the step as in the file, e.g. `Traction` or `BOD_TIMED`; empty if the file gives none.
+    - `line`: number of the header line of its table or, without a table, of its first line.
+    - `width`: number of cells of that header.
+    - `headings`: headings of its table by name; the first one of a repeated name. Empty without a table.
     - `rows`: the lines of its table.
     """
 

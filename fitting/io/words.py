@@ -68,7 +68,7 @@ def percent(level: float) -> str:
 
 
 def conditions(result: FitResult) -> dict[str, str]:
-    """Test conditions of the curves: name -> a range with its unit."""
+    """Test conditions of the curves: ranges with their units, by name."""
     curves = result.curves
     return {
         "Hertz pressure": _range([1e-9 * curve.pressure for curve in curves], "GPa", 3),

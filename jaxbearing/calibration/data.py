@@ -1,4 +1,4 @@
-"""Measurements of one rig: operating points and what was measured there, in SI."""
+"""Measurements of one rig: operating points and the values measured there, in SI."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 
 FLOOR = 0.2
-"""Part of the largest value of a measured quantity below which its assumed error no longer shrinks with the value."""
+"""Floor of an assumed error: that of a value of this part of the largest value of the measured quantity."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -14,10 +14,10 @@ class Data:
     """Measurements of one rig, SI; every array has one entry per operating point.
 
     **Arguments:**
-    - `conditions`: dotted path of a scene's field -> its values; what does not vary is the scene's.
-    - `measured`: path of a result, such as "power_loss.total", -> its values; NaN where it was not measured.
-    - `deviations`: path of a result -> standard deviations; those of `measured` that are not here have an assumed one.
-    - `held_back`: points that are never fitted but predicted.
+    - `conditions`: values by dotted path of a scene's field; fields that do not vary have the scene's value.
+    - `measured`: values by path of a result, such as "power_loss.total"; NaN where it was not measured.
+    - `deviations`: standard deviations by path of a result; results without an entry have assumed ones.
+    - `held_back`: mask of points that are not fitted but only predicted.
     - `origin`: name of the file.
 
     **Raises:** `ValueError` for arrays of different length, nothing measured, deviations that are not positive.
@@ -53,7 +53,7 @@ class Data:
 
     @classmethod
     def of(cls, given: object) -> "Data":
-        """The data, or those of a mapping with the same names; numbers become arrays of float64."""
+        """The given data, or the data of a mapping with the same names, whose numbers become arrays of float64."""
         if isinstance(given, Data):
             return given
         if not isinstance(given, Mapping) or not {"measured"} <= set(given) <= {
@@ -76,8 +76,8 @@ class Observations:
     """All measured values of all rigs, one after the other.
 
     **Arguments:**
-    - `value`, `deviation`: measured, and standard deviation, given or assumed.
-    - `held_back`: mask of those that are predicted only.
+    - `value`, `deviation`: measured value, and its standard deviation, given or assumed.
+    - `held_back`: mask of the values that are only predicted.
     - `rig`, `point`: number of the rig, and of the operating point in its data.
     - `name`: path of the result.
     """
@@ -93,8 +93,8 @@ class Observations:
     def of(cls, rigs: list[Data], relative: float) -> "Observations":
         """The measured values of these data.
 
-        **Arguments:** `relative`: assumed standard deviation, over the value, of a quantity that has none; it is at
-        least `FLOOR` of that of the largest value.
+        **Arguments:** `relative`: standard deviation over value that is assumed where none is given; `FLOOR` times that
+        of the largest value is added as a root of the sum of squares.
         """
         columns: list[list[np.ndarray]] = [[] for _ in range(6)]
         for number, data in enumerate(rigs):

@@ -1,5 +1,5 @@
-"""Results of scenes at many operating points, and their derivatives by the fields that are calibrated: one kept program
-for all points of a structure."""
+"""Results of scenes at many operating points, and their derivatives by the calibrated fields; one compiled program
+serves all points of scenes of the same structure."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -18,7 +18,7 @@ from ..solve import solution_at, solve_with_roots
 from ..tolerance.results import Label, values_of
 
 LANES = 16
-"""Operating points that one call of the program solves; more points are more calls, of the same program."""
+"""Number of operating points that one call of the program solves; more points need more calls of the same program."""
 
 
 def at_point(
@@ -28,11 +28,10 @@ def at_point(
     wanted: Sequence[str],
     options: NewtonOptions,
 ) -> tuple[Float[Array, " result"], Float[Array, "field result"], Bool[Array, ""]]:
-    """Results at one operating point, their derivatives by the fields in the order of the names of these, and whether
-    the solve converged.
+    """Results at one operating point, their derivatives by the fields, sorted by name, and whether the solve converged.
 
-    To be traced. Derivatives come from the roots of the solve, one field after the other in forward mode, which makes
-    the smallest program (`programs.differentiated`).
+    To be traced. Derivatives are taken at the roots of the solve, in forward mode and one field after the other, which
+    makes the smallest program (`programs.differentiated`).
     """
     solution, roots = solve_with_roots(base.replace({**condition, **fields}), options)
     stiffness = any(name.startswith("stiffness") for name in wanted)
@@ -58,7 +57,7 @@ def at_points(
     wanted: Sequence[str],
     options: NewtonOptions,
 ) -> tuple[Float[Array, "lane result"], Float[Array, "lane field result"], Bool[Array, " lane"]]:
-    """`at_point` of many points, one after the other; NaN for those that are not active. To be traced."""
+    """Results of `at_point` for many points, one after the other; NaN for inactive points. To be traced."""
     nothing = jnp.full(len(wanted), jnp.nan), jnp.full((len(fields), len(wanted)), jnp.nan), jnp.asarray(False)
 
     def one(given: Any) -> Any:
@@ -72,11 +71,11 @@ _kept_points = KeptProgram(at_points, quick=True)
 
 
 class Evaluator:
-    """Results and slopes of one rig at operating points, by the kept program.
+    """Results of one rig at operating points and their derivatives, by the compiled program.
 
     **Arguments:**
-    - `scene`: with what does not vary.
-    - `paths`: of the fields that are calibrated and that this scene has.
+    - `scene`: gives all fields that do not vary.
+    - `paths`: of the calibrated fields that this scene has.
     - `labels`: of the results, by their paths.
     - `progress`: called with the number of operating points that were just solved.
     """
@@ -100,8 +99,8 @@ class Evaluator:
     ) -> tuple[np.ndarray, np.ndarray]:
         """Results, (lane, result), and their derivatives, (lane, field, result); NaN where a solve failed.
 
-        **Arguments:** `conditions`: of each lane; `values`: of the fields, (lane, field); `active`: lanes that are
-        wanted.
+        **Arguments:** `conditions`: operating point of each lane, by path; `values`: of the fields, (lane, field);
+        `active`: mask of the lanes to solve.
         """
         count = len(active)
         found = np.full((count, len(self.wanted)), np.nan)

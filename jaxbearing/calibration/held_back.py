@@ -1,4 +1,4 @@
-"""Prediction of values that were not fitted: those that the data hold back, and each part from the others."""
+"""Prediction of values that were not fitted: those held back in the data, or each fold from the others."""
 
 import numpy as np
 
@@ -9,15 +9,15 @@ from .result import HeldBack
 from .search import Search
 
 DISPLACED = 0.2
-"""Distance of the start of a calibration without some values from that of all, in coordinates: what the others do not
-tell must not be known from those left out."""
+"""Displacement of the start of a calibration without one fold from the result with all values, in coordinates: that
+result already contains the values that are left out."""
 
 
 def held_back_of(search: Search, found: Settled, spread: Spread, scale: float, folds: int) -> HeldBack | None:
-    """Predictions of the values that were held back, or of each of so many folds from the others; `None` where there is
-    neither.
+    """Predictions of each fold from the others or, with fewer than 2 `folds`, of the values held back in the data;
+    `None` where there are neither.
 
-    **Arguments:** `scale`: size of the errors over the deviations.
+    **Arguments:** `scale`: size of the errors, over their assumed deviations.
     """
     mine = np.flatnonzero(search.observed.held_back)
     if folds < 2 and not len(mine):
@@ -26,7 +26,7 @@ def held_back_of(search: Search, found: Settled, spread: Spread, scale: float, f
     if folds < 2:
         return _predictions(search, found, u[None], mine, np.zeros(len(mine), dtype=int), spread, scale, True)
     fitted = np.flatnonzero(search.weight > 0)
-    # whole operating points, so that no fold knows another result of the same point
+    # folds of whole operating points, so that no other result of a left-out point is fitted
     keys = search.observed.rig[fitted] * (1 + np.max(search.observed.point)) + search.observed.point[fitted]
     fold = np.unique(keys, return_inverse=True)[1] % folds
     weight = np.tile(found.problem.weight, (folds, 1))
@@ -49,7 +49,8 @@ def _predictions(
     converged: bool,
     weight: np.ndarray | None = None,
 ) -> HeldBack:
-    """Predictions of the values at `places`, each by the unknowns of its lane, with the deviation of a measurement."""
+    """Predictions of the values at `places`, each from the unknowns of its lane, with the standard deviation of the
+    difference from a measurement."""
     values, slopes = search.predicted(found.problem.natural(u))
     predicted, along = values[lane, places], slopes[lane, places]
     covariances = []

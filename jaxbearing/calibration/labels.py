@@ -14,7 +14,7 @@ from ..tolerance.results import Label, is_result, labels_of, names_in, not_model
 def labels_in(
     scene: AbstractScene, names: Sequence[str], newton: NewtonOptions | None = None
 ) -> dict[str, tuple[str, Label]]:
-    """Path and label of results by their names.
+    """Path and label of each result, by its name.
 
     **Raises:** `ValueError` for a name that is no result, and for a result that is not one number.
     """
@@ -37,7 +37,7 @@ def result_names(scene: AbstractScene, newton: NewtonOptions | None = None) -> t
 
 
 def results_among(scene: AbstractScene, names: Sequence[str], newton: NewtonOptions | None = None) -> list[str]:
-    """The names that are results, also of parts that the scene does not model."""
+    """The names among these that are results, including results of parts that the scene does not model."""
     found: list[str] = []
     if names:
         look_at(scene, lambda solution: found.extend(name for name in names if is_result(solution, name)), newton)
@@ -52,7 +52,7 @@ def is_left_out(scene: AbstractScene, name: str, newton: NewtonOptions | None = 
 
 
 def look_at(scene: AbstractScene, look: Callable[[AbstractSolution], None], newton: NewtonOptions | None) -> None:
-    """Shows a solution while its solve is traced, which compiles nothing."""
+    """Calls `look` with the solution of a traced solve; nothing is compiled."""
 
     def traced(scene: AbstractScene) -> None:
         look(solve(scene, throw=False, options=newton))

@@ -1,8 +1,8 @@
-r"""Design of experiments: which operating point would tell most, if it were measured next.
+r"""Design of experiments: the operating point whose measurement would add most information.
 
-The information that values with the slopes $J$, in standard deviations, add to a covariance $C$ is
-$\Delta = \ln\det(I + JCJ^T)$: twice the expected fall of the entropy of the fields, in nats, of a problem that is
-linear about its solution (D-optimality).
+Values with the Jacobian $J$, in standard deviations, add the information $\Delta = \ln\det(I + JCJ^T)$ to a covariance
+$C$: twice the expected decrease of the entropy of the fields, in nats, for a problem linearized about its solution
+(D-optimality).
 
 **Reference:** Chaloner and Verdinelli (1995), *Bayesian experimental design: a review*, Statistical Science 10, 273.
 """
@@ -21,9 +21,9 @@ class Candidate:
     """An operating point that could be measured.
 
     **Arguments:**
-    - `place`: number among the candidates; `conditions`: dotted path -> SI value.
+    - `place`: number among the candidates, from 0; `conditions`: SI value by dotted path.
     - `information`: log det, nats; `nan` where the scene has no solution.
-    - `standard_errors`: by dotted path, of the fields after one more measurement there.
+    - `standard_errors`: of the fields after one more measurement at this point, by dotted path.
     """
 
     place: int
@@ -33,14 +33,14 @@ class Candidate:
 
 
 def next_points(found: Calibration, candidates: Mapping[str, object], rig: int = 0) -> tuple[Candidate, ...]:
-    """Candidates in the order of what they tell, the most first. All results that the rig measures are measured there,
-    with errors as those of its data.
+    """Candidates sorted by information, the largest first. It is assumed that all results of the rig are measured at a
+    candidate, with the errors of its data.
 
-    **Arguments:** `found`: a calibration that converged; `candidates`: dotted path -> values, SI, as many for each;
-    `rig`: number of the rig at which is measured.
+    **Arguments:** `found`: a calibration that converged; `candidates`: values, SI, by dotted path, columns of equal
+    length; `rig`: number of the rig that measures.
 
-    **Raises:** `ValueError` for a calibration without a result, for candidates of different lengths, and for another
-    set of fields than the rig's operating points.
+    **Raises:** `ValueError` for a calibration without a result, for candidates of different lengths, and where a field
+    of the rig's operating points is missing.
     """
     if not found.converged:
         raise ValueError(found.failure())
@@ -75,7 +75,8 @@ def next_points(found: Calibration, candidates: Mapping[str, object], rig: int =
 
 
 def _deviations(found: Calibration, rig: int, results: np.ndarray) -> np.ndarray:
-    """Standard deviations of results as the rig's data have them, in the mean of those of each quantity, or assumed."""
+    """Standard deviations of new results: root mean square of those given for the quantity in the rig's data, or, if
+    none are given, assumed ones."""
     search, deviation = found.search, np.empty_like(results)
     for column, name in enumerate(search.evaluators[rig].wanted):
         mine = (search.observed.rig == rig) & (search.observed.name == name)
@@ -88,7 +89,7 @@ def _deviations(found: Calibration, rig: int, results: np.ndarray) -> np.ndarray
 
 
 def _updated(covariance: np.ndarray, rows: np.ndarray) -> tuple[float, np.ndarray]:
-    """The information, nats, that values with these slopes add, and the covariance with them."""
+    """The information, nats, that values with the Jacobian `rows` add, and the covariance with these values."""
     if not np.all(np.isfinite(rows)):
         return float("nan"), np.full_like(covariance, np.nan)
     seen = np.eye(len(rows)) + rows @ covariance @ rows.T

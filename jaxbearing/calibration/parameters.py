@@ -1,4 +1,4 @@
-"""Fields of scenes that are calibrated: the coordinates in which they are searched, their bounds and their priors."""
+"""Calibrated fields of scenes: their coordinates in the search, bounds and priors."""
 
 import dataclasses
 import functools
@@ -20,24 +20,24 @@ from ..sweeps.fields import label_of
 from ..sweeps.recipe import in_scene
 
 LARGEST_LOG = 80.0
-"""Largest change of a logarithm that a search may try: 35 decades."""
+"""Largest change of a natural logarithm that a search may try: 35 decades."""
 
 
 @dataclasses.dataclass(frozen=True)
 class FreeField:
     """One number of the scenes that is fitted.
 
-    A number that must be positive is searched as its logarithm, from its start: the coordinate is ln(value / scale).
-    Others are searched as they are, over a scale: (value - shift) / scale.
+    The coordinate of a number that must be positive is ln(value / scale), with the start as scale. The coordinate of
+    any other number is (value - start) / scale.
 
     **Arguments:**
     - `path`: dotted path in the scenes.
-    - `unit`: SI, as labels of results have it.
+    - `unit`: SI unit, written as in labels of results.
     - `start`: value in the first scene that has it, or the median or mean of its prior.
     - `positive`: whether its logarithm is searched.
     - `scale`: of the coordinate.
     - `low`, `high`: bounds, infinite where there is none.
-    - `prior`: its distribution before the data; `None`: nothing is known but the bounds.
+    - `prior`: its prior distribution; `None`: only the bounds are known.
     """
 
     path: str
@@ -56,7 +56,7 @@ class FreeField:
         return self.start + self.scale * np.asarray(coordinate)
 
     def slope(self, coordinate: Any) -> Any:
-        """d value / d coordinate."""
+        """Derivative of the value by the coordinate."""
         return self.value(coordinate) if self.positive else np.full(np.shape(coordinate), self.scale)
 
     def traced(self, coordinate: Array) -> Array:
@@ -70,7 +70,7 @@ class FreeField:
         return self.traced(coordinate) if self.positive else jnp.full_like(coordinate, self.scale)
 
     def coordinate(self, value: float) -> float:
-        """Coordinate of a value; infinite for the bounds that are not there, and for 0 of a positive number."""
+        """Coordinate of a value; infinite for a missing bound, and minus infinity for 0 of a positive number."""
         if self.positive:
             return math.log(value / self.scale) if value > 0.0 else -math.inf
         return (value - self.start) / self.scale
@@ -84,9 +84,9 @@ class FreeField:
 
     @functools.cached_property
     def normal_prior(self) -> tuple[float, float] | None:
-        """Mean and standard deviation of the coordinate before the data, of a normal distribution; `None` where only
-        bounds are known. A lognormal prior of a positive number is exact but for its limits, which are bounds; a normal
-        prior of a positive number is taken by its median and its relative deviation."""
+        """Mean and standard deviation of the normal prior of the coordinate; `None` if only bounds are known. For a
+        positive number, a lognormal prior is represented exactly, apart from its limits, which become bounds; a normal
+        prior is replaced by a lognormal one with the same median and relative deviation."""
         one = self.prior
         if one is None or one.shape == "uniform":
             return None
@@ -105,10 +105,11 @@ def free_fields(
 ) -> tuple[FreeField, ...]:
     """The fields that are calibrated, in the order of `free`.
 
-    **Arguments:** `scenes`: of all rigs; a field is fitted in each that has it. `priors`, `bounds`: by dotted path, SI.
+    **Arguments:** `scenes`: of all rigs; a field has one common value in all scenes that have it. `priors`, `bounds`:
+    by dotted path, SI.
 
-    **Raises:** `ValueError` for none or one twice, for a prior or bounds of a field that is not free, for a field that
-    is no number of any scene, and where bounds leave nothing.
+    **Raises:** `ValueError` for an empty `free` or a repeated field, for a prior or bounds of a field that is not free,
+    for a field that is not a number in any scene, and for bounds that exclude every value.
     """
     if not free:
         raise ValueError("free: found no field; expected one or more dotted paths, such as 'drag.coefficient'")
@@ -123,7 +124,7 @@ def free_fields(
 
 
 def scenes_with(scenes: Sequence[AbstractScene], path: str) -> list[int]:
-    """Places of the scenes that have a number at this path."""
+    """Indices of the scenes that have a number at this path."""
     return [place for place, scene in enumerate(scenes) if _number_at(scene, path) is not None]
 
 
@@ -185,7 +186,7 @@ def _field(
 
 
 def _scale(start: float, prior: Distribution | None) -> float:
-    """Unit of the coordinate of a number of either sign."""
+    """Scale of the coordinate of a number that may have either sign."""
     if prior is not None and prior.deviation > 0.0:
         return prior.deviation
     return abs(start) if start else 1.0

@@ -1,4 +1,4 @@
-"""The posterior of calibrated fields, and what it predicts."""
+"""Posterior distribution of calibrated fields, and its predictions."""
 
 import jax.numpy as jnp
 import numpy as np
@@ -12,11 +12,11 @@ from .result import Calibration
 
 
 def posterior_of(found: Calibration, sampling: Sampling | None = None) -> Posterior:
-    """Samples of the fields that were told, by the No-U-Turn sampler; the others keep their values.
+    """Samples of the fitted fields by the No-U-Turn sampler; the held ones keep their values.
 
     **Arguments:** `found`: a calibration that converged, with the linear loss.
 
-    **Raises:** `ValueError` for another calibration; `fitting.posterior.PosteriorUnavailableError` without the library.
+    **Raises:** `ValueError` for another calibration; `fitting.posterior.PosteriorUnavailableError` without NumPyro.
     """
     if not found.converged:
         raise ValueError(found.failure())
@@ -44,8 +44,8 @@ def posterior_of(found: Calibration, sampling: Sampling | None = None) -> Poster
 
 
 def _evaluate(found: Calibration):
-    """Residuals of the fitted values over their deviations and the Jacobian, traced, by the coordinates of the fields
-    that were told."""
+    """Traceable function from the coordinates of the fitted fields to the residuals of the fitted values, over their
+    deviations, and the Jacobian."""
     search = found.search
     observed, place = search.observed, np.flatnonzero(found.settled.held.free)
     held = np.asarray(found.settled.problem.natural(found.settled.u))
@@ -78,9 +78,9 @@ def _evaluate(found: Calibration):
 
 
 def predictive(found: Calibration, posterior: Posterior, count: int = PREDICTED, seed: int = 0) -> Predictive:
-    """Predicts by the posterior what would be measured at the operating points of the data, with new errors.
+    """Posterior prediction of a repeated measurement at the operating points of the data, with new random errors.
 
-    **Arguments:** `found`: the calibration of the posterior; `count`: samples whose predictions are computed.
+    **Arguments:** `found`: the calibration of the posterior; `count`: number of samples whose predictions are computed.
 
     **Raises:** `ValueError` where a sample has no solution.
     """

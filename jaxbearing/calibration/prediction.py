@@ -1,5 +1,5 @@
-"""Predictions of a calibrated scene: results of another operating point, or of another bearing with the same fields,
-with the interval that the calibration leaves."""
+"""Predictions with calibrated fields: results of another operating point, or of another bearing with the same fields,
+with the intervals that follow from the calibration."""
 
 import dataclasses
 from collections.abc import Mapping, Sequence
@@ -21,9 +21,11 @@ from .result import Calibration
 
 @dataclasses.dataclass(frozen=True)
 class Predicted:
-    """One result, SI: its value with the calibrated fields, standard deviation and ends of the interval that these
-    leave, and the same with what was known before, the priors; `None` where a field has no prior. `samples`: of a
-    posterior whose median, deviation and quantiles these are; 0: by the delta method."""
+    """One predicted result, SI: value with the calibrated fields, its standard deviation and the ends of its interval.
+
+    `before`: the same with the priors alone; `None` where a field has no prior. `samples`: number of posterior samples
+    whose median, standard deviation and quantiles these are; 0: they come from the delta method.
+    """
 
     value: float
     deviation: float
@@ -41,11 +43,12 @@ def predict(
     newton: NewtonOptions | None = None,
     posterior: Posterior | None = None,
 ) -> dict[str, Predicted]:
-    """Results of a scene with the calibrated fields, by the delta method with the covariance of all fields, or by
-    samples of their posterior: what they share is counted as it is. The interval has no error of measurement.
+    """Results of a scene with the calibrated fields, by the delta method with the covariance of all fields, or with
+    samples of their posterior; both include the correlation of the fields. The interval does not contain the error of a
+    measurement.
 
-    **Arguments:** `found`: a calibration that converged; `scene`: any that has one or more of its fields; `results`: as
-    those of `jaxbearing.tolerances`; `posterior`: of the calibration, of which 200 samples are solved.
+    **Arguments:** `found`: a calibration that converged; `scene`: any scene with one or more of its fields; `results`:
+    names as in `jaxbearing.tolerances`; `posterior`: of the calibration; 200 of its samples are solved.
 
     **Raises:** `ValueError` for a calibration without a result, for a scene without any of the fields, for a name that
     is no result, and where a solve fails.
@@ -109,8 +112,8 @@ def _at(
 def _by_samples(
     found: Calibration, evaluator: Evaluator, order: list[str], coordinates: np.ndarray, posterior: Posterior
 ) -> dict[str, Predicted]:
-    """Median, deviation and quantiles of the results of samples of the posterior; fields without samples keep their
-    values."""
+    """Median, standard deviation and quantiles of the results with samples of the posterior; fields without samples
+    keep their values."""
     place = chosen_samples(posterior, PREDICTED)
     told = list(posterior.parameters)
     drawn = posterior.values.reshape(-1, len(told))[place]
@@ -140,8 +143,8 @@ def _by_samples(
 
 
 def distributions_of(found: Calibration) -> Mapping[str, Distribution]:
-    """The told fields as distributions, for `jaxbearing.tolerances`: lognormal ones of positive fields, normal ones of
-    others. They are independent there, while `predict` and `joint_of` count what the fields share."""
+    """The fitted fields as distributions for `jaxbearing.tolerances`: lognormal for positive fields, normal for others.
+    They are independent there, whereas `predict` and `joint_of` include the correlation of the fields."""
     coordinates = np.asarray(found.settled.problem.natural(found.settled.u))
     made = {}
     for i, field in enumerate(found.fields):
@@ -157,12 +160,12 @@ def distributions_of(found: Calibration) -> Mapping[str, Distribution]:
 
 
 def joint_of(found: Calibration, posterior: Posterior | None = None) -> JointDistribution:
-    """The told fields as one distribution, with what they share, for `jaxbearing.tolerances`.
+    """The fitted fields as one joint distribution, with their correlation, for `jaxbearing.tolerances`.
 
-    **Arguments:** `found`: a calibration that converged; `posterior`: of it, whose samples are taken; `None`: normal in
-    coordinates, with the covariance of least squares.
+    **Arguments:** `found`: a calibration that converged; `posterior`: its samples give the distribution; `None`: it is
+    normal in the coordinates, with the covariance of least squares.
 
-    **Raises:** `ValueError` for a calibration without a result, and where no field was told.
+    **Raises:** `ValueError` for a calibration without a result, and where no field was fitted.
     """
     if not found.converged:
         raise ValueError(found.failure())

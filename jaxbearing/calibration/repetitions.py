@@ -1,4 +1,4 @@
-"""Repeated measurements: are the intervals of a calibration honest?"""
+"""Calibrations of repeated measurements, to check the coverage of the intervals."""
 
 from typing import NamedTuple
 
@@ -11,7 +11,7 @@ from .result import Calibration
 
 class Repetitions(NamedTuple):
     """Calibrations of repeated measurements, SI: values of the fields and ends of their intervals, (repetition, field),
-    and which converged."""
+    and a mask of those that converged."""
 
     value: np.ndarray
     lower: np.ndarray
@@ -19,14 +19,14 @@ class Repetitions(NamedTuple):
     converged: np.ndarray
 
     def covered(self, truth: np.ndarray) -> np.ndarray:
-        """Share of the repetitions whose interval holds the true value, of each field."""
+        """Share of the converged repetitions whose interval contains the true value, for each field."""
         inside = (self.lower <= truth) & (truth <= self.upper)
         return np.mean(inside[self.converged], axis=0)
 
 
 def repeated(found: Calibration, measured: np.ndarray) -> Repetitions:
-    """Calibrates again, with other measured values at the same operating points; all at once. The same fields are
-    fitted, from the same start.
+    """Repeats the calibration with other measured values at the same operating points, all sets of values side by side.
+    The same fields are fitted, from the calibrated values.
 
     **Arguments:** `measured`: (repetition, value), in the order of `found.measured`, SI.
     """

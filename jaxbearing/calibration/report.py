@@ -24,9 +24,9 @@ from .prediction import Predicted
 from .result import Calibration
 
 CANDIDATES = 10
-"""Candidates that are shown, the best first."""
+"""Largest number of candidates that are shown, the best first."""
 STRONG = 0.5
-"""Correlation from which two fields are named."""
+"""Magnitude of a correlation from which two fields are named."""
 
 
 def print_calibration(
@@ -39,10 +39,10 @@ def print_calibration(
     console: Console,
     again: Predictive | None = None,
 ) -> None:
-    """Print a calibration; where it failed, why and no result.
+    """Print a calibration or, if it failed, only the reason.
 
-    **Arguments:** `label`: names of scenes and files; `notes`: of these; `ranked`: candidates; `posterior`: samples, or
-    `None`; `predicted`: results of other scenes; `again`: what the posterior predicts to be measured again.
+    **Arguments:** `label`: names of scenes and files; `notes`: notes on these; `ranked`: candidates; `posterior`:
+    samples, or `None`; `predicted`: results of other scenes; `again`: prediction of a repeated measurement.
     """
     if found.status == "not_converged":
         print_failure(label, "not converged", found.failure(), console)
@@ -166,7 +166,8 @@ def calibration_to_dict(
     predicted: Mapping[str, Predicted] = {},
     again: Predictive | None = None,
 ) -> dict[str, Any]:
-    """All numbers in SI units; those that are not finite are `None`. **Arguments:** as those of `print_calibration`."""
+    """A calibration as plain values in SI; numbers that are not finite are `None`. **Arguments:** as for
+    `print_calibration`."""
     parameters = {path: one._asdict() for path, one in found.parameters.items()}
     for field in found.fields:
         parameters[field.path] |= {"unit": field.unit, "start": field.start}

@@ -19,9 +19,9 @@ class Misfit:
     """Differences of one measured quantity in one rig, model minus measurement, SI.
 
     **Arguments:**
-    - `rig`: number of the rig; `name`: path of the result; `unit`.
-    - `points`: fitted values; `rms`, `mean`: of their differences; `relative`: root mean square of the differences over
-      that of the values.
+    - `rig`: number of the rig; `name`: path of the result; `unit`: its SI unit.
+    - `points`: number of fitted values; `rms`, `mean`: of their differences; `relative`: root mean square of the
+      differences over that of the values.
     """
 
     rig: int
@@ -35,12 +35,12 @@ class Misfit:
 
 @dataclass(frozen=True)
 class HeldBack:
-    """Values that were predicted by a calibration without them.
+    """Values that were predicted by a calibration that did not fit them.
 
     **Arguments:**
-    - `place`: of each among all measured values; `measured`, `predicted`: SI.
-    - `deviation`: standard deviation of the prediction of a measurement: what the fields leave open, and its own error.
-    - `quantile`: half-width of an interval, in such deviations.
+    - `place`: index of each value among all measured values; `measured`, `predicted`: SI.
+    - `deviation`: standard deviation of predicted minus measured, from the fields and the error of measurement.
+    - `quantile`: half-width of an interval over `deviation`.
     - `converged`: whether every calibration without some of the values converged.
     """
 
@@ -68,23 +68,24 @@ class Calibration:
     """Result of `jaxbearing.calibrate`.
 
     **Arguments:**
-    - `converged`; `reason`: why not; `undetermined`: whether the measurements cannot tell any field, which all keep
-      their starts then.
+    - `converged`; `reason`: why it did not converge; `undetermined`: whether the measurements determine no field, so
+      that all keep their starting values.
     - `parameters`: by dotted path, SI: value, standard error, interval, and why a field is held.
     - `fields`: the free fields with their units, bounds and priors.
-    - `fitted`: paths of those that were told.
-    - `covariance`: of the coordinates of all fields (logarithms of positive ones), 0 for those that are held;
-      `correlation`: of `fitted`.
+    - `fitted`: paths of the fields that were fitted and not held.
+    - `covariance`: of the coordinates of all fields (logarithms of positive ones), 0 for held fields; `correlation`: of
+      the fields in `fitted`.
     - `scale`: size of the errors over the deviations that were given or assumed.
-    - `measured`, `predicted`, `deviation`: of each value; `predicted_deviation`: what the fields leave open.
-    - `names`, `rigs`, `points`: which result each value is, of which rig and operating point.
+    - `measured`, `predicted`, `deviation`: of each value; `predicted_deviation`: standard deviation of `predicted` that
+      follows from the uncertainty of the fields.
+    - `names`, `rigs`, `points`: path of the result, rig and operating point of each value.
     - `misfits`: by rig and quantity.
-    - `outlier`: mask, beyond 4 robust standard deviations.
-    - `held_back`: values predicted without them; `None` where there are none.
-    - `loss`, `evaluations`: half the sum of squares, and operating points that were solved.
-    - `starts`: how many of the starts ended at the best fit, of how many.
-    - `notes`: what the user must know, a sentence each.
-    - `data`, `options`, `scenes`: what was given; the scenes have the calibrated values.
+    - `outlier`: mask of the values beyond 4 robust standard deviations.
+    - `held_back`: predictions of values that were not fitted; `None` where there are none.
+    - `loss`, `evaluations`: half the sum of squares, and number of operating points that were solved.
+    - `starts`: number of starts that ended at the best fit, and number of all starts.
+    - `notes`: sentences that the user must read.
+    - `data`, `options`, `scenes`: those given, but the scenes have the calibrated values.
     """
 
     converged: bool

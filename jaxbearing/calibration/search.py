@@ -1,4 +1,4 @@
-"""The search for the fields of scenes that meet measurements, by the estimation core of `fitting`."""
+"""The search for the values of scene fields that fit measurements, by the estimation core of `fitting`."""
 
 import dataclasses
 import functools
@@ -23,9 +23,9 @@ OFFSET = 1e-5
 1e-10, and move no parameter by more than 1e-5 of its standard error times the square root of the number of points."""
 MOST_EVALUATIONS = 100
 ROUNDS, SAME_SCALE = 12, 1e-4
-"""Times that the size of the errors is renewed, and the relative change at which it counts as the same."""
+"""Largest number of updates of the size of the errors, and the relative change up to which it counts as unchanged."""
 WIDTH = 0.5
-"""Standard deviation of the coordinates of random starts that have no prior."""
+"""Standard deviation of random starts in the coordinate of a field without a prior."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -34,9 +34,9 @@ class Options:
 
     **Arguments:**
     - `loss`: one of `fitting.loss.LOSSES`.
-    - `relative_error`: assumed standard deviation of measured values that have none, over the value; only the ratios
-      of assumed ones matter, unless `known_errors`.
-    - `known_errors`: the deviations are those of the measurements and not estimated from the differences.
+    - `relative_error`: standard deviation over value that is assumed where none is given; only the ratios of assumed
+      deviations matter, unless `known_errors`.
+    - `known_errors`: whether the deviations are taken as they are, and not scaled by the differences found.
     - `level`: of the intervals.
     - `starts`: number of starting points; `seed`: of the random ones.
     """
@@ -50,9 +50,9 @@ class Options:
 
 
 class Problem(NamedTuple):
-    """Coordinates at u = 0, which fields are free, the size of the errors, and weights of the measured values.
+    """Coordinates at u = 0, mask of the free fields, size of the errors, and weights of the measured values.
 
-    The unknowns of a lane are distances from `base`; those of held fields do not count.
+    The unknowns u of each search ("lane") are displacements from `base`; those of held fields have no effect.
     """
 
     base: np.ndarray
@@ -66,12 +66,13 @@ class Problem(NamedTuple):
         return np.diag(self.free.astype(float))
 
     def natural(self, u: Array | np.ndarray) -> np.ndarray:
-        """Coordinates of unknowns, of one lane or of several."""
+        """Coordinates that belong to the unknowns of one lane or of several."""
         return self.base + np.where(self.free, np.asarray(u), 0.0)
 
 
 class Estimates(NamedTuple):
-    """Ends of several searches: unknowns, half the sums of squares, which converged, evaluations; lanes in front."""
+    """Results of several searches: unknowns, half the sums of squares, mask of the converged ones, and numbers of
+    evaluations; the first axis is the search."""
 
     u: np.ndarray
     loss: np.ndarray
@@ -80,12 +81,12 @@ class Estimates(NamedTuple):
 
 
 class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
-    """One calibration at work.
+    """Data and methods of one calibration that all its searches share.
 
     **Arguments:**
-    - `evaluators`: of each rig, with all fields that its scene has.
-    - `rigs`: measurements of each.
-    - `fields`: what is fitted.
+    - `evaluators`: of each rig, with all calibrated fields that its scene has.
+    - `rigs`: measurements of each rig.
+    - `fields`: the fields to fit.
     """
 
     def __init__(
@@ -108,8 +109,8 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         return int(np.sum(self.weight > 0))
 
     def predicted(self, coordinates: np.ndarray, active: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """The values that the scenes give in the place of the measured ones, (lane, value), and the derivatives by the
-        coordinates, (lane, value, field); NaN where a solve failed and for lanes that are not `active`."""
+        """Values of the model for all measured values, (lane, value), and their derivatives by the coordinates,
+        (lane, value, field); NaN where a solve failed and for lanes that are not `active`."""
         lanes = len(coordinates)
         active = np.ones(lanes, dtype=bool) if active is None else active
         found = np.full((lanes, len(self.observed)), np.nan)
@@ -137,8 +138,8 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
     def residuals(
         self, problem: Problem, u: np.ndarray, active: np.ndarray, weight: np.ndarray, measured: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Whose sum of squares is minimised: differences in standard deviations, then distances from the priors; and
-        the Jacobian.
+        """Residuals whose sum of squares is minimised, and their Jacobian: differences from the measured values, in
+        standard deviations and bent by a robust loss, followed by the distances from the priors.
 
         **Arguments:** `weight`, `measured`: of each value, (lane, value).
         """
@@ -155,25 +156,26 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
     def with_priors(
         self, residual: np.ndarray, jacobian: np.ndarray, coordinates: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Residuals, (lane, value), and Jacobian with a row for each prior."""
+        """Residuals, (lane, value), and Jacobian, each with one more row for each field's prior."""
         distance = (coordinates - self.prior_mean) / self.prior_deviation
         rows = np.broadcast_to(np.diag(1.0 / self.prior_deviation), (*coordinates.shape, coordinates.shape[-1]))
         return np.concatenate([residual, distance], axis=-1), np.concatenate([jacobian, rows], axis=-2)
 
     @property
     def bend(self) -> float:
-        """Residual, in standard deviations, at which the loss bends."""
+        """Residual, in standard deviations, at which a robust loss departs from the square; 1 for the linear loss."""
         return TUNING[self.loss] if self.loss != "linear" else 1.0
 
     @property
     def scale_matters(self) -> bool:
-        """True if the estimates depend on the size of the errors, which is then found by turns."""
+        """True if the estimates depend on the size of the errors, which is then found by iteration."""
         return self.loss != "linear" or bool(np.any(np.isfinite(self.prior_deviation)))
 
     def lanes(
         self, problem: Problem, starts: np.ndarray, weight: np.ndarray | None = None, measured: np.ndarray | None = None
     ) -> Estimates:
-        """Searches from several starts, or with weights or measured values of each lane's own."""
+        """Several searches side by side, one for each of `starts`, if wanted each with its own weights or measured
+        values."""
         lanes = len(starts)
         full = lambda own, usual: np.broadcast_to(usual, (lanes, len(self.observed))) if own is None else own
         weights, values = full(weight, problem.weight), full(measured, self.observed.value)
@@ -189,7 +191,8 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         return Problem(coordinates, np.asarray(free), self.scale, self.weight)
 
     def starts(self, problem: Problem, free: np.ndarray) -> np.ndarray:
-        """The start itself, and random ones within the priors, or by half a unit where there is none."""
+        """The first values, and random starts about them with the standard deviations of the priors, or 0.5 for a
+        coordinate without a prior."""
         rng = np.random.default_rng(self.options.seed)
         width = np.where(np.isfinite(self.prior_deviation), self.prior_deviation, WIDTH)
         found = rng.normal(size=(self.options.starts, len(free))) * width * free
@@ -208,28 +211,28 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         return problem, found, u
 
     def best(self, problem: Problem, starts: np.ndarray) -> tuple[Estimates, np.ndarray]:
-        """All searches, and the unknowns of the best."""
+        """Results of the searches from all starts, and the unknowns of the best."""
         found = self.lanes(problem, starts)
         return found, found.u[int(np.argmin(np.where(np.isfinite(found.loss), found.loss, np.inf)))]
 
     def renewed_scale(self, problem: Problem, u: np.ndarray) -> float:
-        """Size of the errors over the deviations, from the differences."""
+        """Size of the errors, over the deviations, estimated from the differences."""
         used = problem.weight > 0
         residual, slopes = self.at(problem, u)
         if self.loss != "linear":
             return scale_of(residual[used])
-        # what the priors tell leaves more of the differences to the errors
+        # parameters that the priors determine use up no degrees of freedom of the differences
         variance = self.variance_of(residual[used], slopes[used], problem.scale, problem.free)
         return max(float(np.sqrt(variance)), float(np.finfo(float).tiny) ** 0.25)
 
     def _told(self, slopes: np.ndarray, free: np.ndarray) -> float:
-        """Number of parameters that the data tell, of those that data and priors tell together."""
+        """Effective number of parameters that the data determine, as opposed to the priors."""
         normal = slopes[:, free].T @ slopes[:, free]
         prior = np.diag(np.square(1.0 / self.prior_deviation[free]))
         return float(np.trace(np.linalg.pinv(normal + prior) @ normal))
 
     def at(self, problem: Problem, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Differences over the deviations as given or assumed, of all values, and their derivatives."""
+        """Differences of all values, over the given or assumed deviations, and their derivatives by the coordinates."""
         values, slopes = self._remembered(tuple(problem.natural(u)))
         deviation = self.observed.deviation
         return (values - self.observed.value) / deviation, slopes / deviation[:, None]
@@ -253,7 +256,7 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         return self.variance_of(residual[used], slopes[used], problem.scale, free)
 
     def variance_of(self, residual: np.ndarray, slopes: np.ndarray, scale: float, free: np.ndarray) -> float:
-        """The same, from differences over the deviations and their slopes."""
+        """Variance of the errors as in `variance`, from differences over the deviations and their derivatives."""
         if self.loss != "linear":
             size = scale * self.bend
             return variance_factor(residual / size, self.loss, int(np.sum(free))) * size**2
@@ -281,7 +284,7 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         return float(stats.norm.ppf(0.5 + 0.5 * self.options.level))
 
     def covariance_of(self, slopes: np.ndarray, found: Settled) -> np.ndarray:
-        """Covariance of the coordinates that values with these slopes, in standard deviations, and the priors give."""
+        """Covariance of the coordinates from the priors and from values with this Jacobian, in standard deviations."""
         _, rows = self.with_priors(np.zeros((1, len(slopes))), slopes[None], found.problem.natural(found.u)[None])
         covariance = spread(rows[0], found.held.free, 1.0, self.options.level).covariance
         return np.where(np.isfinite(covariance), covariance, 0.0)

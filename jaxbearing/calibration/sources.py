@@ -1,4 +1,5 @@
-"""A calibration as it is typed: scene files, CSV files and texts in; scenes, data, priors and bounds out."""
+"""Input of a calibration on the command line: reads scene files, CSV files and texts into scenes, data, priors and
+bounds."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -18,14 +19,14 @@ from .data import Data
 from .table import read_data, require_plain
 
 ASSUMED = "assumed"
-"""Text of a prior that is the package's own."""
+"""Text that stands for the package's own prior of a field."""
 _PRIOR = "PATH={...} or PATH=assumed, e.g. drag.coefficient='{median = 0.3, log_deviation = 0.9}'"
 _BOUND = "PATH=LOW:HIGH, e.g. drag.coefficient=0.05:1.2"
 
 
 @dataclass
 class Given:
-    """The parts of a calibration: scenes, data, free fields, priors and bounds in SI, notes on the files."""
+    """Input of a calibration: scenes, data, free fields, priors and bounds in SI, and notes on the files."""
 
     sources: list[SceneSource]
     scenes: list[AbstractScene]
@@ -45,8 +46,8 @@ def given_of(
 ) -> Given:
     """Reads all files and texts.
 
-    **Arguments:** `rigs`: scene and file of each; `overrides`: of the first scene and, where they have the field, of
-    the others; `priors`, `bounds`: texts "PATH=...".
+    **Arguments:** `rigs`: scene and data file of each rig; `overrides`: changed values of the first scene and of every
+    other one that has the field; `priors`, `bounds`: texts "PATH=...".
 
     **Raises:** `SceneError`.
     """
@@ -94,12 +95,12 @@ def _has(source: SceneSource, path: str) -> bool:
 
 
 def _known(source: SceneSource, overrides: Mapping[str, str]) -> dict[str, str]:
-    """The changes that a further scene can take."""
+    """The overrides whose field a further scene has."""
     return {path: text for path, text in overrides.items() if _has(source, path)}
 
 
 def _assumed(path: str, scenes: Sequence[AbstractScene]) -> Distribution:
-    """The package's own distribution of a field. **Raises:** `SceneError` where there is none."""
+    """The package's own prior of a field. **Raises:** `SceneError` where there is none."""
     known = {DRAG_FIELD: drag_prior, SUPPLY_FIELD: supply_prior}
     found = next((one for scene in scenes if path in known and (one := known[path](scene)) is not None), None)
     if found is None:
@@ -119,7 +120,10 @@ def _ends(given: Given, path: str, text: str) -> tuple[float | None, float | Non
 
 
 def _check_plain(given: Given) -> None:
-    """Checks that the free fields are numbers that the scenes hold as the files have them. **Raises:** `SceneError`."""
+    """Checks that each free field is a number that the scene takes over unchanged from its file.
+
+    **Raises:** `SceneError`.
+    """
     for path in given.free:
         sources = [
             (source, scene) for source, scene in zip(given.sources, given.scenes, strict=True) if _has(source, path)

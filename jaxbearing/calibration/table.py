@@ -1,4 +1,4 @@
-"""Measurements from a CSV file: one row an operating point, one column a field of the scene or a result, with units."""
+"""Measurements from a CSV file: a row for each operating point, a column for each scene field or result, with units."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -22,7 +22,8 @@ from .labels import is_left_out, labels_in, result_names, results_among
 
 EXPECTED = "a CSV file with columns such as 'operation.inner_speed [rpm]' and 'power_loss.total [W]'"
 DEVIATION, WEIGHT, HELD_BACK = ".deviation", ".weight", "held_back"
-"""Endings of the columns that say how well a result is known, and the column that keeps points from being fitted."""
+"""Endings of columns with the standard deviation or weight of a result, and name of the column that marks points to
+hold back from the fit."""
 NO_UNIT = ("", "1", "-")
 
 
@@ -31,11 +32,11 @@ def read_data(
 ) -> tuple[Data, list[str]]:
     """Measurements of a rig, and notes on columns that are not used.
 
-    Columns are headed `name [unit]`. A field of the scene, `operation.radial_load [N]`, is an operating point. A
-    result, `power_loss.total [W]`, is measured; an empty cell below it was not. `power_loss.total.deviation [W]` is its
-    standard deviation, `power_loss.total.weight` a weight, which counts as the inverse square of one; 0 leaves the
-    value out. A 1 in `held_back` keeps a point from being fitted: it is predicted. Columns without a dot in their name
-    that are neither fields nor results are ignored.
+    Columns are headed `name [unit]`. The columns of scene fields, e.g. `operation.radial_load [N]`, give the operating
+    points. Those of results, e.g. `power_loss.total [W]`, give measured values; an empty cell was not measured.
+    `power_loss.total.deviation [W]` is the standard deviation, or `power_loss.total.weight` a weight, the inverse
+    square of one; weight 0 leaves the value out. Points with 1 in `held_back` are not fitted but predicted. Columns
+    without a dot in their name that are neither fields nor results are ignored.
 
     **Raises:** `SceneError` that names file, line and column.
     """
@@ -89,10 +90,10 @@ def read_data(
 
 
 def require_plain(source: SceneSource, columns: dict[str, np.ndarray], where: str, in_file: bool = True) -> None:
-    """Checks that the scene holds fields as its file has them. **Raises:** `SceneError`.
+    """Checks that the scene takes over these fields unchanged from its file. **Raises:** `SceneError`.
 
-    **Arguments:** `in_file`: whether the file must be able to hold the field; it cannot where a name, as that of a
-    material, stands for its table, while the scene has the number all the same.
+    **Arguments:** `in_file`: whether the file must be able to contain the field. It cannot where a name, such as that
+    of a material, replaces the table of the field, although the scene has the number.
     """
     for path, values in columns.items():
         field = source.field(path, where)
@@ -143,7 +144,7 @@ def _labels(
 
 
 def _numbers(table: CsvTable, place: int, name: str, empty_allowed: bool) -> np.ndarray:
-    """The cells of a column; NaN for empty ones where these are allowed."""
+    """Numbers of a column; NaN for empty cells, if these are allowed."""
 
     def refuse(line: int, column: str, found: str, expected: str) -> NoReturn:
         raise SceneError(table.at(line), column, found, expected)
@@ -157,7 +158,7 @@ def _numbers(table: CsvTable, place: int, name: str, empty_allowed: bool) -> np.
 def _in_si(
     values: np.ndarray, unit: str | None, si: str, name: str, where: str, difference: bool = False
 ) -> np.ndarray:
-    """Values of a result in the unit of its label. **Raises:** `SceneError`."""
+    """Values of a result converted to the SI unit of its label. **Raises:** `SceneError`."""
     given, wanted = (unit or "").strip(), si
     plain = wanted in NO_UNIT
     expected = "no unit" if plain else f"a unit of the kind '{wanted}', e.g. '{name} [{wanted}]'"
@@ -188,7 +189,8 @@ def _condition(table: CsvTable, field: Field, unit: str | None, values: np.ndarr
 def _weigh(
     values: dict[str, np.ndarray], deviations: dict[str, np.ndarray], name: str, weight: np.ndarray, where: str
 ) -> None:
-    """Turns weights into standard deviations in units of the column's own; a weight of 0 leaves a value out."""
+    """Turns weights into standard deviations: that of weight 1 is the root mean square of the column. A weight of 0
+    leaves a value out."""
     if np.any(weight < 0.0):
         raise SceneError(where, f"{name}{WEIGHT}", "a weight below 0", "numbers >= 0")
     if name in deviations:

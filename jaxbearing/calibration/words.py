@@ -1,4 +1,4 @@
-"""Identifiability in words: what the measurements tell of each field, and what they tell of combinations only."""
+"""Identifiability in words: which fields the measurements determine, and which only in combination."""
 
 from collections.abc import Sequence
 
@@ -9,26 +9,27 @@ from fitting.uncertainty import SINGULAR, UNKNOWN, Spread, correlation, informat
 from .parameters import FreeField
 
 TOGETHER = 0.95
-"""Correlation from which two fields are said to be told apart hardly."""
+"""Magnitude of a correlation from which a note says that two fields can hardly be separated."""
 PART = 0.1
-"""Part of a field in a direction from which it is named there."""
+"""Component of a field in a direction from which the field is named."""
 STARTS = 3.0
-"""An interval that reaches beyond so many times the start on both sides of zero says nothing of a field of either sign.
-"""
+"""Multiple of the start of a field of either sign: if the interval reaches beyond it on both sides of zero, the field
+is not determined."""
 FROM_PRIOR = 0.9
-"""Standard error over that of the prior from which the measurements are said to tell nothing more."""
+"""Standard error over that of the prior from which a note says that the field comes from its prior."""
 
 
 def why_undetermined(
     found: Spread, jacobian: np.ndarray, free: np.ndarray, fields: Sequence[FreeField], coordinates: np.ndarray
 ) -> tuple[int, str] | None:
-    """The field to hold next, and why: no value moves with it, only a combination with others is told, or its interval
-    says nothing; `None` where all are told.
+    """The field to hold next, and why: no measured value depends on it, only a combination with others is determined,
+    or its interval is too wide; `None` if all are determined.
 
-    An interval says nothing beyond a factor of 3 of a positive number, and of a number of either sign where it reaches
-    beyond three times its start on both sides of zero. A start of 0 gives no measure, and a prior is told in any case.
+    An interval is too wide beyond a factor of 3 to either side for a positive number and, for a number of either sign,
+    if it reaches beyond three times the start on both sides of zero. A start of 0 gives no such limit, and a field with
+    a prior always counts as determined.
 
-    **Arguments:** `jacobian`: of the measured values alone, (value, field), by the coordinates; `coordinates`: of all
+    **Arguments:** `jacobian`: of the measured values alone, by the coordinates, (value, field); `coordinates`: of all
     fields.
     """
     indices = np.flatnonzero(free)
@@ -64,7 +65,8 @@ def why_undetermined(
 
 
 def _combination(jacobian: np.ndarray, lost: Sequence[int], fields: Sequence[FreeField]) -> str:
-    """The combination of these fields that the values do tell, if it is one."""
+    """The combination of these fields that the values determine, in words: a product of powers if it is a single one
+    and all fields are positive."""
     part = jacobian[:, list(lost)]
     _, singular, right = np.linalg.svd(part, full_matrices=False)
     names = [fields[i].path for i in lost]
@@ -76,7 +78,7 @@ def _combination(jacobian: np.ndarray, lost: Sequence[int], fields: Sequence[Fre
 
 
 def said_of(found: Spread, free: np.ndarray, fields: Sequence[FreeField]) -> list[str]:
-    """Sentences on fields that are told only together, and on those of which the prior tells nearly everything."""
+    """Sentences on fields that can hardly be separated, and on fields whose uncertainty is nearly that of the prior."""
     said = []
     together = correlation(found.covariance)
     indices = [int(i) for i in np.flatnonzero(free)]

@@ -1,4 +1,4 @@
-"""A standard bearing: its designation, its estimated internal geometry, and the scene that they make."""
+"""A standard bearing: its designation, its estimated internal geometry, and the scene made from both."""
 
 import math
 import tomllib
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .._scene import AbstractScene
 
 FAR = 4.0
-"""Deviations between a given rating and the computed one from which on it is doubted."""
+"""Difference of a given rating from the usual one, in standard deviations, above which a note doubts it."""
 ROLLERS = ("cylindrical", "tapered")
 
 
@@ -25,9 +25,9 @@ class Bearing(NamedTuple):
     """A bearing of the catalogue of standard dimensions.
 
     **Arguments:**
-    - `designation`: type, boundary dimensions and what the suffixes say.
-    - `geometry`: the internal geometry; each number an `Estimate` with its interval of 90 %.
-    - `given`: what the estimate was told, SI.
+    - `designation`: type, boundary dimensions and the meaning of the suffixes.
+    - `geometry`: the internal geometry; each number is an `Estimate` with its 90 % interval.
+    - `given`: numbers that were given for the estimate, SI.
     - `duty`: operation and oil.
     """
 
@@ -37,7 +37,7 @@ class Bearing(NamedTuple):
     duty: Duty = Duty()
 
     def text(self) -> str:
-        """The scene as a commented TOML file; what is estimated is marked with its interval."""
+        """The scene as a commented TOML file; estimated values are marked with their intervals."""
         return scene_text(self.designation, self.geometry, self.given, self.duty)
 
     def tables(self) -> dict[str, Any]:
@@ -46,8 +46,8 @@ class Bearing(NamedTuple):
 
     @property
     def is_usual(self) -> bool:
-        """True if the scene can be built for sure: no number of its inside is given, operation and oil are usual, and
-        the estimate has usual proportions. Other scenes may be refused when they are built."""
+        """True if it is certain that the scene can be built: no internal dimension is given, operation and oil are
+        usual, and the estimate has usual proportions. Building any other scene may fail with an error."""
         ratings = {"dynamic_capacity", "static_capacity"}
         if set(self.given) - ratings or not self.duty.is_usual:
             return False
@@ -56,12 +56,12 @@ class Bearing(NamedTuple):
         return is_usual(self.designation, self.geometry, angle_of(self.designation, None), FAR)
 
     def scene(self) -> "AbstractScene":
-        """The scene: with the laws of `laws = "best"` where an oil is given, dry otherwise; loads and a speed that are
-        not given are examples, a tenth of the dynamic rating and a moderate speed.
+        """The scene, with the laws of `laws = "best"` if an oil is given, else dry. Loads and a speed that are not
+        given are examples: small parts of the dynamic rating, and a moderate speed.
 
         **Raises:** `SceneError` if the numbers that were given make an impossible bearing, and for an unknown oil.
         """
-        # what a bearing is made of is imported for a scene only: its text does not wait for it
+        # imported here because only a scene needs it: the text alone is faster without
         from ..scenes.reader import scene_from_tables
 
         return scene_from_tables(self.tables(), self.designation.text)
@@ -87,9 +87,9 @@ def find(
 ) -> Bearing:
     """A bearing by its designation, e.g. "6207", "7312-B", "NU 311", "30206" or "7014 C".
 
-    Boundary dimensions are standard. The internal geometry is estimated from usual proportions, and from what is given:
-    everything that is known makes the rest surer. With an oil the scene has the laws of `laws = "best"`, rolling
-    resistance among them, and its losses by location; without one it is dry.
+    Boundary dimensions are standard. The internal geometry is estimated from usual proportions and from the given
+    numbers; each of these narrows the intervals of the rest. With an oil the scene has the laws of `laws = "best"`,
+    including rolling resistance, and its losses by location; without an oil it is dry.
 
     **Arguments:** all SI, all optional but the first:
     - `dynamic_capacity`, `static_capacity`: C and C0 of a maker, N.
@@ -126,7 +126,7 @@ def find(
 
 
 def _estimated(bearing: Designation, given: Mapping[str, float], angle: Normal) -> Geometry:
-    """The geometry: a kept one if nothing is given, otherwise computed."""
+    """The geometry: if nothing is given, from the file of kept estimates if it has one; otherwise computed."""
     kept = None if given else kept_geometry(bearing, angle)
     if kept is not None:
         return kept
@@ -137,7 +137,7 @@ def _estimated(bearing: Designation, given: Mapping[str, float], angle: Normal) 
 
 
 def _doubts(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> Iterator[str]:
-    """Ratings that were given and are far from what such a bearing has."""
+    """Notes on given ratings that are far from those of a usual geometry of this size."""
     usual = proportions_of(bearing.kind, bearing.series)
     for name, law in (("dynamic_capacity", usual.dynamic), ("static_capacity", usual.static)):
         ratio = given.get(name, math.nan) / getattr(geometry, name)
@@ -146,7 +146,10 @@ def _doubts(bearing: Designation, geometry: Geometry, given: Mapping[str, float]
 
 
 def _check(bearing: Designation, given: Mapping[str, Any]) -> None:
-    """**Raises:** `ValueError`."""
+    """Checks the given numbers against type and boundary dimensions.
+
+    **Raises:** `ValueError`.
+    """
     # a command that checks nothing does not wait for the import of NumPy
     from ..numerics.arguments import require_count, require_numbers
 

@@ -13,16 +13,16 @@ from ..scenes.errors import SceneError
 from .dimensions import bores, boundary_dimensions
 
 CLEARANCES = ("C2", "CN", "C3", "C4")
-"""Clearance classes that are known by number."""
+"""Clearance classes whose limits are in the tables."""
 RADIAL_SERIES = {
     "deep_groove": {"618": "18", "619": "19", "160": "00", "60": "10", "62": "02", "63": "03", "64": "04"},
     "angular_contact": {"72": "02", "73": "03"},
     "spindle": {"718": "18", "719": "19", "70": "10"},
     "cylindrical": {"10": "10", "22": "22", "23": "23", "2": "02", "3": "03", "4": "04"},
 }
-"""Type -> series -> dimension series of ISO 15."""
+"""Dimension series of ISO 15 by type and series of the designation."""
 STEEP = 20.5, 1.5
-"""Cup angle of tapered roller bearings with the suffix B and its standard deviation, degrees."""
+"""Cup angle of tapered roller bearings with the suffix B, and its standard deviation, degrees."""
 _KIND_IN_WORDS = {
     "deep_groove": "deep groove ball bearing",
     "angular_contact": "angular contact ball bearing",
@@ -50,7 +50,7 @@ _OTHERS = (
     (r"QJ\d+", f"a four-point contact ball bearing{_NO_SIZE}"),
     (r"T[2-7][A-H][B-E]\d+|(LL|LM|L|HM|HH|H|M)\d{4,}", f"a tapered roller bearing{_NO_SIZE}"),
 )
-"""Pattern -> bearings that are known by name alone."""
+"""Bearings that are recognized but not in the catalogue: pattern of the designation, and text for the message."""
 _PREFIX_IN_WORDS = {
     "HR": "more or longer rollers than usual, which the maker's C and C0 tell",
     "E2": "less friction than usual, which is not modelled",
@@ -71,12 +71,12 @@ class Designation(NamedTuple):
     - `series`: of the designation, such as "62" or "302".
     - `design`: type of a cylindrical roller bearing, such as "NU"; empty for others.
     - `bore`, `outside`, `width`: boundary dimensions, mm; the width is T of a tapered roller bearing.
-    - `contact_angle`: that the suffix states, degrees; `None` if none does.
+    - `contact_angle`: contact angle stated by a suffix, degrees; `None` if none states it.
     - `clearance_class`: "C2", "CN", "C3" or "C4".
-    - `tightness`: standard deviation of the usual contact angle of a tapered roller bearing, degrees, else `None`.
+    - `tightness`: standard deviation of the usual cup angle of a tapered roller bearing, degrees, else `None`.
     - `cup_width`: C of a tapered roller bearing, mm, else `None`.
-    - `usual_angle`: cup angle of a tapered roller bearing that is usual for the size, degrees, else `None`.
-    - `notes`: what was understood and does not change the scene.
+    - `usual_angle`: usual cup angle of a tapered roller bearing of this size, degrees, else `None`.
+    - `notes`: sentences on parts that were understood but do not change the scene.
     - `ceramic`: True for rolling elements of silicon nitride.
     """
 
@@ -102,7 +102,7 @@ class Designation(NamedTuple):
 
     @property
     def race_width(self) -> float:
-        """Width beside which rollers are as long: C of a tapered roller bearing, otherwise the width, mm."""
+        """Width to which the roller length is related: C of a tapered roller bearing, otherwise the width, mm."""
         return self.width if self.cup_width is None else self.cup_width
 
     @property
@@ -114,8 +114,8 @@ class Designation(NamedTuple):
 def parse(text: str) -> Designation:
     """The designation in a text; spaces, dashes and lower case do not matter.
 
-    **Raises:** `SceneError` for a part of it that is not understood, and with the nearest designations if the text is
-    none that is known.
+    **Raises:** `SceneError` for a part that is not understood, and, for an unknown designation, with the nearest known
+    ones.
     """
     found = next((one for one in map(_known, readings(text)) if one is not None), None)
     if found is None:
@@ -136,9 +136,10 @@ def parse(text: str) -> Designation:
 
 
 def parse_several(text: str) -> tuple[Designation, ...]:
-    """The designations in a text, with spaces between them: as few as can be, since "NU 311 ECP" is one.
+    """The designations in a text, separated by spaces. The words are combined to as few designations as possible, since
+    "NU 311 ECP" is one.
 
-    **Raises:** `SceneError` as `parse`, for the text as one designation.
+    **Raises:** `SceneError` as `parse` does for the whole text, if it cannot be split.
     """
     words = text.replace(",", " ").split()
     fewest: list[tuple[Designation, ...] | None] = [()]
@@ -169,7 +170,8 @@ def known_designations() -> Iterator[str]:
 
 
 def _code(bore: float, thin: bool = False) -> str:
-    """The bore code; it has a stroke from 500 mm on, for sizes in between, and below 10 mm in the `thin` series."""
+    """The bore code; it has a slash from 500 mm on, for bores that are not a multiple of 5 mm, and below 10 mm in the
+    `thin` series."""
     if bore < 10.0:
         return f"/{bore:g}" if thin else f"{bore:g}"
     code = {10.0: "00", 12.0: "01", 15.0: "02", 17.0: "03"}.get(bore)
@@ -186,7 +188,7 @@ class _Known(NamedTuple):
 
 
 def _known(reading: Reading) -> _Known | None:
-    """`None` for a reading without dimensions in the tables."""
+    """Kind and dimensions of a reading; `None` if the tables do not have its dimensions."""
     kinds = (kind for kind, series in RADIAL_SERIES.items() if reading.series in series and _fits(kind, reading))
     kind = "tapered" if reading.family == "tapered" else next(kinds, None)
     if kind is None or reading.bore is None:
@@ -197,7 +199,7 @@ def _known(reading: Reading) -> _Known | None:
 
 
 def _fits(kind: str, reading: Reading) -> bool:
-    """True if a kind of the tables is one of the family that was read."""
+    """True if a kind of bearing of the tables belongs to the family that was read."""
     return kind == reading.family or (kind == "spindle" and reading.family == "angular_contact")
 
 
@@ -205,7 +207,7 @@ def _noted(kind: str, marks: Suffixes) -> tuple[str, tuple[str, ...]]:
     """Clearance class, and notes about the other suffixes."""
     clearance, notes = "CN", []
     if marks.reinforced:
-        # the rule for today's bearings
+        # today's bearings usually have it
         notes.append("E, EC: reinforced inner design, as all estimates of this type assume")
     for what, text in marks.marks:
         clearance, note = _said(kind, what, text, clearance)

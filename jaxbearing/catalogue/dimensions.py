@@ -7,7 +7,7 @@ from typing import Any
 
 
 def boundary_dimensions(kind: str, series: str, bore: float) -> tuple[float, ...] | None:
-    """The dimensions of a bearing after its bore, mm; `None` if the table does not have it.
+    """The dimensions of a bearing other than its bore, mm; `None` if the table does not have this bore.
 
     **Arguments:** `kind`: of `Designation`; `series`: dimension series of ISO 15, or series of tapered roller bearings;
     `bore`: mm.
@@ -20,12 +20,13 @@ def boundary_dimensions(kind: str, series: str, bore: float) -> tuple[float, ...
 
 
 def bores(kind: str, series: str) -> list[float]:
-    """The bores of a series that the table has, mm; arguments as those of `boundary_dimensions`."""
+    """All bores of a series in the table, mm; arguments as for `boundary_dimensions`."""
     return [float(row[0]) for row in _tables(_file(kind))[series]["sizes"]]
 
 
 def clearance_limits(kind: str, clearance_class: str, bore: float) -> tuple[float, float] | None:
-    """Least and greatest radial internal clearance of ISO 5753-1, micrometres; `None` where the table ends.
+    """Least and greatest radial internal clearance as defined in ISO 5753-1, which is diametral, micrometres; `None`
+    beyond the table.
 
     **Arguments:** `kind`: "deep_groove" or "cylindrical"; `clearance_class`: "C2", "CN", "C3" or "C4"; `bore`: mm.
     """

@@ -1,4 +1,4 @@
-"""Operation and oil of a standard bearing: what is given, and examples for the rest."""
+"""Operation and oil of a standard bearing: given values, and examples for the rest."""
 
 import json
 from collections.abc import Iterator
@@ -13,16 +13,17 @@ LOAD_SHARE = {"deep_groove": (0.1, 0.0), "cylindrical": (0.1, None), "tapered": 
 """Radial and axial load of the example over the dynamic rating; `None`: the kind has no axial load."""
 OTHER_SHARE = 0.05, 0.05
 SPEED_FACTOR = 150_000.0
-"""Speed of the example times mean diameter, mm/min: moderate."""
+"""Speed times mean diameter of the example, mm/min; a moderate value."""
 OIL_TEMPERATURE = 60.0
 """Temperature of the oil in the example, degrees Celsius."""
 USUAL_TEMPERATURES = 233.15, 453.15
-"""Temperatures of standard oils for which scenes can be built for sure, K."""
+"""Range of temperatures of standard oils, K, in which it is certain that scenes can be built."""
 EXAMPLE = "an example"
 
 
 class Duty(NamedTuple):
-    """Operation and oil of a standard bearing; what is not given is an example, and without `oil` the scene is dry.
+    """Operation and oil of a standard bearing; values that are not given are examples, and without `oil` the scene is
+    dry.
 
     **Arguments:** all optional, SI.
     - `radial_load`, `axial_load`: N.
@@ -43,8 +44,8 @@ class Duty(NamedTuple):
 
     @property
     def is_usual(self) -> bool:
-        """True for positive loads and speed, and for a standard oil at a usual temperature or none. Other oils may lack
-        laws that the best laws need."""
+        """True if given loads and speed are positive and the oil, if any, is a standard one at a usual temperature.
+        Other oils may lack laws that `laws = "best"` needs."""
         operation = (self.radial_load, self.axial_load, self.inner_speed)
         if any(value is not None and value <= 0.0 for value in operation):
             return False
@@ -56,7 +57,10 @@ class Duty(NamedTuple):
         return usual and grade_of(table) is not None
 
     def check(self) -> None:
-        """**Raises:** `ValueError` for numbers out of their ranges, and for what only an oil has."""
+        """Checks all values.
+
+        **Raises:** `ValueError` for numbers out of their ranges, and for properties of an oil without an oil.
+        """
         bounds = {
             "radial_load": "finite",
             "axial_load": "finite",
@@ -87,7 +91,7 @@ class Line(NamedTuple):
 
 
 def oil_lines(duty: Duty) -> Iterator[Line]:
-    """The fields of `[oil]`; none of a dry scene."""
+    """The fields of `[oil]`; a dry scene has none."""
     if duty.oil is None:
         return
     grade = grade_named(duty.oil)
@@ -104,7 +108,7 @@ def oil_lines(duty: Duty) -> Iterator[Line]:
 def operation_lines(duty: Duty, kind: str, mean_diameter: float, capacity: float) -> Iterator[Line]:
     """The fields of `[operation]`.
 
-    A load of the example keeps its ratio to the load that is given.
+    If only one of the loads is given, the other one keeps the ratio of the example to it.
 
     **Arguments:** `kind`: of `Designation`; `mean_diameter`: of bore and outside diameter, mm; `capacity`: dynamic
     rating, N.
@@ -126,14 +130,14 @@ def operation_lines(duty: Duty, kind: str, mean_diameter: float, capacity: float
 
 
 def _line(name: str, given: float | None, example: float, unit: str, dimension: Dimension) -> Line:
-    """The value that is given, in SI, or that of the example with two digits, in the unit."""
+    """The line of a field: the value that is given, in SI, or else that of the example, in `unit`, with two digits."""
     if given is None:
         return Line(name, f'"{two_digits(example):g} {unit}"', EXAMPLE)
     return Line(name, f'"{text_in(unit, float(given), dimension)}"', "given")
 
 
 def two_digits(value: float) -> float:
-    """A number with two digits."""
+    """A number rounded to two significant digits."""
     return float(f"{value:.2g}")
 
 

@@ -5,10 +5,10 @@ from a least-squares problem
 
 $$\min_x \sum_k \left(\frac{g_k(x) - m_k}{s_k}\right)^2,$$
 
-whose terms are the usual proportions (`proportions.py`), what is given (with $s_k$ = 1e-5), and the logarithms of
+whose terms are the usual proportions (`proportions.py`), the given numbers (with $s_k$ = 1e-5), and the logarithms of
 printed over computed ratings. The ratings are those of `life.capacity` and `life.static`, with their derivatives by
-JAX. The candidates are compared by the probability of Laplace's approximation, $e^{-\chi^2/2}\det(J^TJ)^{-1/2}$, which
-also makes the intervals.
+JAX. The candidates are compared by their probabilities in Laplace's approximation, $e^{-\chi^2/2}\det(J^TJ)^{-1/2}$,
+which also weight them in the intervals.
 """
 
 import math
@@ -34,11 +34,11 @@ STEPS = 12
 """Gauss-Newton steps. The problems are nearly linear in these unknowns: the last step is below 1e-9."""
 LONGEST_STEP = 0.3
 LANES = 512
-"""Candidates that a program takes; fewer are padded, so that one program serves all bearings of a family."""
+"""Number of candidates of a program; fewer are padded, so that one program serves all bearings of a family."""
 QUANTILE = 1.645
 """Half width of an interval of 90 % in standard deviations."""
 FILLS = (0.5, 0.985)
-"""Z D/(pi d_m) of candidates."""
+"""Smallest and largest Z D/(pi d_m), the filled part of the pitch circle, of candidates."""
 
 
 def estimate(bearing: Designation, given: Mapping[str, float], angle: Normal) -> Geometry:
@@ -46,11 +46,11 @@ def estimate(bearing: Designation, given: Mapping[str, float], angle: Normal) ->
 
     **Arguments:**
     - `bearing`: its designation, with the boundary dimensions.
-    - `given`: what is known, SI: "n_elements", "diameter", "pitch_diameter", "length", "dynamic_capacity",
+    - `given`: known numbers, SI, by name: "n_elements", "diameter", "pitch_diameter", "length", "dynamic_capacity",
       "static_capacity".
     - `angle`: contact angle, rad, with a deviation of 0 if it is given.
 
-    **Raises:** `ValueError` for numbers that no geometry of this size has.
+    **Raises:** `ValueError` for numbers that do not fit any geometry of this size.
     """
     rollers = bearing.kind in ("cylindrical", "tapered")
     terms = {name: np.array(values) for name, values in terms_of(bearing, given, angle).items()}
@@ -59,7 +59,7 @@ def estimate(bearing: Designation, given: Mapping[str, float], angle: Normal) ->
     padded = [np.resize(column, LANES).astype(float) for column in (counts, sizes)]
     size_weight = np.asarray(0.0 if math.isnan(sizes[0]) else 1.0 / GIVEN)
     program = _PROGRAMS["roller" if rollers else "ball"]
-    # without usual sizes the column is NaN, and its weight is 0: the number in its place counts for nothing
+    # without usual sizes the column is NaN and its weight 0, so the number that replaces NaN has no effect
     out = program(padded[0], np.nan_to_num(np.log(padded[1])), size_weight, terms)
     return _chosen({name: np.asarray(value) for name, value in out.items()}, mask, counts, given, angle, standard)
 
@@ -67,8 +67,8 @@ def estimate(bearing: Designation, given: Mapping[str, float], angle: Normal) ->
 def _candidates(
     bearing: Designation, given: Mapping[str, float], terms: Mapping[str, Any]
 ) -> tuple[np.ndarray, np.ndarray, bool]:
-    """Numbers of elements and diameters, mm, of the candidates, likeliest first, and whether the diameters are usual
-    sizes. A diameter of NaN is an unknown of the least-squares problem."""
+    """Numbers of elements and diameters, mm, of the candidates, and whether the diameters are usual sizes. Candidates
+    with known diameters come with the likeliest first; a diameter of NaN is an unknown of the least-squares problem."""
     middle, pitch = math.exp(terms["mean"][0]), math.exp(terms["mean"][1])
     spread = 1.0 / terms["weight"][0]
     sizes, standard = np.empty(0), False
@@ -95,8 +95,8 @@ def _candidates(
 
 
 def _usual_sizes(kind: str, middle: float, spread: float) -> np.ndarray:
-    """Usual diameters of balls or cylindrical rollers within four deviations around `middle`, mm; `spread`: deviation
-    of their logarithm. Tapered rollers, and sizes beyond the list, have no usual ones: an empty array."""
+    """Usual diameters of balls or cylindrical rollers within four standard deviations of `middle`, mm; `spread` is the
+    standard deviation of the logarithm. Empty for tapered rollers and for a `middle` beyond the list."""
     if kind == "tapered":
         return np.empty(0)
     sizes = np.unique(np.round(ROLLER_SIZES if kind == "cylindrical" else BALL_SIZES, 6))
@@ -113,7 +113,8 @@ def _fills(count: np.integer | np.ndarray, size: np.ndarray, pitch: float) -> np
 def _solved(
     ratings: Callable[[Array, Array], Array], counts: Array, sizes: Array, size_weight: Array, terms: dict[str, Array]
 ) -> dict[str, Array]:
-    """The solutions of all candidates at once; `ratings`: ln of C and C0 from unknowns and number of elements."""
+    """The solutions of all candidates side by side; `ratings` gives ln of C and C0 from unknowns and number of
+    elements."""
 
     def candidate(count: Array, size: Array) -> dict[str, Array]:
         residual = lambda x: _residual(x, count, size, size_weight, terms, ratings)
@@ -160,7 +161,7 @@ def _residual(
 
 
 def _ball_ratings(x: Array, count: Array) -> Array:
-    """ln of C and C0, N, of balls."""
+    """Natural logarithms of C and C0, N, of ball bearings."""
     size, pitch = 1e-3 * jnp.exp(x[0]), 1e-3 * jnp.exp(x[1])
     inner, outer = 0.5 + jnp.exp(x[3]), 0.5 + jnp.exp(x[4])
     dynamic = ball_capacity(count, size, pitch, x[5], inner, outer)
@@ -168,7 +169,7 @@ def _ball_ratings(x: Array, count: Array) -> Array:
 
 
 def _roller_ratings(x: Array, count: Array) -> Array:
-    """ln of C and C0, N, of rollers."""
+    """Natural logarithms of C and C0, N, of roller bearings."""
     sizes = 1e-3 * jnp.exp(x[0]), 1e-3 * jnp.exp(x[1]), 1e-3 * jnp.exp(x[2]), x[5]
     return jnp.log(jnp.stack([roller_capacity(count, *sizes), roller_static_capacity(count, *sizes)]))
 
@@ -192,7 +193,7 @@ def _chosen(
     angle: Normal,
     standard: bool,
 ) -> Geometry:
-    """The likeliest candidate, and intervals from all of them."""
+    """The geometry of the likeliest candidate, with intervals from all candidates."""
     misfit = np.where(mask & np.isfinite(out["misfit"]), out["misfit"], np.inf)
     best = int(np.argmin(misfit))
     if not np.isfinite(misfit[best]):

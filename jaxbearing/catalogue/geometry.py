@@ -16,8 +16,8 @@ class Geometry(NamedTuple):
     """The most probable geometry, and its ratings by the package's formulas.
 
     **Arguments:** `n_elements`: number of balls or rollers; `diameter`, `pitch_diameter`, `length` (of rollers), m;
-    `conformity_inner`, `conformity_outer`: those of the ratings; `contact_angle`, rad; `dynamic_capacity`,
-    `static_capacity`: computed, N; `standard_size`: whether the diameter is one of the usual sizes.
+    `conformity_inner`, `conformity_outer`: conformities on which the ratings are based; `contact_angle`, rad;
+    `dynamic_capacity`, `static_capacity`: computed, N; `standard_size`: whether the diameter is one of the usual sizes.
     """
 
     n_elements: Estimate

@@ -1,8 +1,8 @@
-"""Kept estimates: the geometries of standard bearings of which only the designation is known.
+"""Kept estimates: stored geometries of standard bearings, for use where only the designation is known.
 
 They follow from the dimensions and the usual proportions, so `docs/generate/kept_estimates.py` computes them once.
-Where one of them is enough, nothing needs JAX, whose import takes a second. Tests compare `data/estimates.csv` with
-computed estimates.
+With a kept estimate JAX, whose import takes a second, is not needed. Tests compare `data/estimates.csv` with computed
+estimates.
 """
 
 import functools
@@ -16,14 +16,14 @@ from .geometry import Estimate, Geometry
 from .proportions import Normal
 
 _KEY = ("kind", "series", "bore", "outside", "width", "angle", "deviation")
-"""An estimate follows from type, boundary dimensions, mm, contact angle and its standard deviation, degrees.
-After a change of dimensions no row is found, and the estimate is computed."""
+"""Key of a row: type, series, boundary dimensions, mm, contact angle and its standard deviation, degrees. After a
+change of dimensions no row is found, and the estimate is computed."""
 _INTERVALS, _RATINGS = Geometry._fields[:7], Geometry._fields[7:9]
 """Fields of `Geometry` with an interval, three columns each, and fields with one column."""
 _COLUMNS = (*(f"{name}{end}" for name in _INTERVALS for end in ("", "_least", "_greatest")), *_RATINGS)
 HEADING = ",".join((*_KEY, *_COLUMNS, "standard_size"))
 _ANGLES = {"angular_contact": ("B", "AC", "C"), "spindle": ("B", "AC", "C"), "tapered": ("B",)}
-"""Suffixes with a contact angle of their own, by kind."""
+"""Suffixes that state a contact angle, by kind of bearing."""
 
 
 def kept_file() -> Traversable:
@@ -32,7 +32,7 @@ def kept_file() -> Traversable:
 
 
 def kept_designations() -> Iterator[str]:
-    """The known designations, also with every suffix that states a contact angle: their estimates are kept."""
+    """All designations with kept estimates: the known ones, alone and with each suffix that states a contact angle."""
     for text in known_designations():
         yield text
         yield from (f"{text} {suffix}" for suffix in _ANGLES.get(parse(text).kind, ()))
@@ -52,14 +52,14 @@ def kept_geometry(bearing: Designation, angle: Normal) -> Geometry | None:
 
 
 def row_of(bearing: Designation, angle: Normal, geometry: Geometry) -> str:
-    """The row of the file that keeps an estimate, every number in full; arguments as those of `estimate.estimate`."""
+    """The row of the file for an estimate, with all digits; arguments as for `estimate.estimate`, and its result."""
     numbers = [repr(number) for name in _INTERVALS for number in getattr(geometry, name)[:3]]
     numbers += [repr(getattr(geometry, name)) for name in _RATINGS]
     return ",".join((key_of(bearing, angle), *numbers, str(geometry.standard_size)))
 
 
 def key_of(bearing: Designation, angle: Normal) -> str:
-    """The beginning of the row of an estimate; arguments as those of `estimate.estimate`."""
+    """The key with which the row of an estimate begins; arguments as for `estimate.estimate`."""
     sizes = (bearing.bore, bearing.outside, bearing.race_width)
     numbers = (*sizes, math.degrees(angle.mean), math.degrees(angle.deviation))
     return ",".join((bearing.kind, bearing.series, *(f"{number:.9g}" for number in numbers)))

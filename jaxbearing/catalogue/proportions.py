@@ -1,8 +1,8 @@
 """Usual proportions inside rolling bearings, as normal distributions with a mean and a standard deviation.
 
-They are calibrated on bearings whose geometry is printed: 257 spindle bearings of one maker, a few deep groove and
-tapered bearings of the literature, and raceway diameters of cylindrical roller bearings in catalogues, whose static
-ratings give the roller lengths. A maker may build differently: every estimate has an interval.
+They are calibrated on bearings with published geometry: 257 spindle bearings of one maker, a few deep groove and
+tapered bearings of the literature, and cylindrical roller bearings whose raceway diameters are in catalogues and whose
+static ratings give the roller lengths. A maker may build differently, so every estimate has an interval.
 """
 
 import math
@@ -15,7 +15,7 @@ BALL_SIZES = (
     *(INCH * n / 32.0 for n in range(17, 41)),
     *(INCH * n / 16.0 for n in range(21, 65)),
 )
-"""Usual ball diameters, mm: the inch sizes that dominate ISO 3290."""
+"""Usual ball diameters, mm; most sizes of ISO 3290 are such inch sizes."""
 ROLLER_SIZES = (
     *(0.5 * n for n in range(6, 16)),
     *map(float, range(8, 27)),
@@ -23,20 +23,22 @@ ROLLER_SIZES = (
 )
 """Usual diameters of cylindrical rollers, mm."""
 GAP = (1.10, -0.078, 0.0228)
-"""Gap between balls in a cage, mm: a constant, and parts of ball and pitch diameter; a fit to the spindle bearings."""
+"""Coefficients of the gap between balls in a cage, mm: constant, factor of the ball diameter and factor of the pitch
+diameter; fitted to the spindle bearings."""
 FILL_ANGLE = 189.0
-"""Angle that the balls of a deep groove bearing take up when they are put in between the rings, degrees."""
+"""Angle that the balls of a deep groove bearing take up side by side, when they are filled in between the rings,
+degrees."""
 
 
 class Normal(NamedTuple):
-    """Mean and standard deviation of a quantity; an infinite deviation says nothing."""
+    """Mean and standard deviation of a quantity; an infinite deviation means that nothing is known."""
 
     mean: float
     deviation: float
 
     @property
     def is_known(self) -> bool:
-        """True for a quantity that does not scatter."""
+        """True if the deviation is 0, so that the mean is the exact value."""
         return self.deviation == 0.0
 
 
@@ -45,12 +47,12 @@ NOTHING = Normal(0.0, math.inf)
 
 _ln = math.log
 _RATED = Normal(_ln(0.02), 1e-4)
-"""Grooves of conformity 0.52, which ISO 281 and ISO 76 assume."""
+"""Natural logarithm of conformity minus 0.5 for the conformity of 0.52 that ISO 281 and ISO 76 assume."""
 
 
 class Proportions(NamedTuple):
-    """Usual proportions of a type of bearing. Logarithms are natural; lengths are over half the difference of the
-    boundary diameters H, their mean, or a width.
+    """Usual proportions of a type of bearing. Logarithms are natural; lengths are relative to H, half the difference of
+    the boundary diameters, to the mean of these, or to a width.
 
     **Arguments:**
     - `diameter`: ln of rolling element diameter (of tapered rollers, at mid length) over H.
@@ -59,9 +61,9 @@ class Proportions(NamedTuple):
     - `fill`: ln of Z D/(pi d_m), of rollers.
     - `gap_fill`: deviation of ln of Z D/(pi d_m) of balls from the one with the gaps of `GAP`.
     - `angle_fill`: deviation of ln of the filling angle of balls from `FILL_ANGLE`.
-    - `inner_groove`, `outer_groove`: ln of conformity less 0.5, as the ratings assume it.
-    - `dynamic`, `static`: ln of a printed rating over the computed one. Today's catalogues print more than ISO 281
-      for many bearings.
+    - `inner_groove`, `outer_groove`: ln of conformity minus 0.5, for the conformity that the ratings assume.
+    - `dynamic`, `static`: ln of a printed rating over the computed one. For many bearings, today's catalogues print
+      more than ISO 281 gives.
     """
 
     diameter: Normal
@@ -81,7 +83,7 @@ _LENGTHS = {"10": 0.47, "2": 0.58, "3": 0.62, "4": 0.58, "22": 0.62, "23": 0.64}
 
 
 def proportions_of(kind: str, series: str) -> Proportions:
-    """The usual proportions; arguments as the fields of `Designation`."""
+    """The usual proportions of a bearing; arguments are the fields of `Designation`."""
     if kind == "deep_groove":
         thin = series in ("618", "619", "160")
         return Proportions(

@@ -13,9 +13,11 @@ from .tapered import TaperedShape, tapered_shape
 
 KINDS = {"cylindrical": "cylindrical_roller_bearing", "tapered": "tapered_roller_bearing"}
 UNKNOWN_CLEARANCE = {"C2": 0.08, "CN": 0.25, "C3": 0.45, "C4": 0.7}
-"""Clearance over bore, micrometres per millimetre, beyond the table: a usual size, within a half."""
+"""Diametral clearance over bore, micrometres per millimetre, for bores beyond the table: usual values, uncertain by
+half of them."""
 GROOVES = {"inner": (0.52, 0.51, 0.53), "outer": (0.53, 0.515, 0.54)}
-"""Usual conformities with the range of makers, where the ratings do not tell them."""
+"""Usual conformities, each with the lower and upper end of the makers' range, where the ratings do not determine
+them."""
 
 
 LAWS_HINT = (
@@ -23,25 +25,25 @@ LAWS_HINT = (
     '#                # grade = "ISO VG 68", and in [operation] oil_temperature, and oil_flow for the drag;',
     '#                # `jaxbearing new {name} --oil "ISO VG 68" --force` writes them, and this file anew.',
 )
-"""Lines of a dry file; `{name}` stands for the designation, `{best}` for the words of its family."""
+"""Lines on laws in a dry file; `{name}` stands for the designation, `{best}` for what `laws = "best"` models."""
 BEST_IN_WORDS = {
     "cylindrical": "films, friction, rolling resistance and cage",
     "tapered": "films, friction of the rib and rolling resistance (rollers roll without sliding, without a cage)",
 }
-"""Kind of rollers -> what the best laws model, beside the drag."""
+"""Effects that `laws = "best"` models besides the drag, by kind of roller bearing."""
 BEST_OF_BALLS = "films, friction, attitude of the balls, rolling resistance and cage"
 LAWS = (
     'laws = "best"  # {best};',
     "#              # with oil_flow drag too.",
     '#              # A field of your own prevails; [contact] rolling_resistance = "none" leaves that one out.',
 )
-"""Lines of a file with an oil."""
+"""Lines on laws in a file with an oil."""
 
 CLEANLINESS_HINT = (
     "# The cleanliness of the oil gives the modified life: an ISO 4406 code (an example), or a class (grease_normal).",
     '# cleanliness = "-/17/14"',
 )
-"""Lines of the table `rating` of a file with an oil, whose viscosity ratio the modified life needs."""
+"""Lines on cleanliness in the table `rating`; only with an oil, whose viscosity ratio the modified life needs."""
 
 
 def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, float], duty: Duty) -> str:
@@ -182,7 +184,7 @@ def _tapered(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
     yield Line("n_rollers", f"{geometry.n_elements.value:g}", _interval(geometry.n_elements))
     middle = _millimetres(geometry.diameter)
     comment = f"of the big end; at mid length {_size(geometry.diameter)}, {middle}"
-    # what follows from given numbers gives them back
+    # with enough digits that given numbers can be recovered
     digits = 12 if geometry.diameter.given or geometry.pitch_diameter.given else 6
     yield Line("roller_diameter", f'"{_mm(shape.roller_diameter, digits)}"', comment)
     yield _length(geometry)
@@ -200,12 +202,12 @@ def shape_of(geometry: Geometry) -> TaperedShape:
 
 
 def best_in_words(bearing: Designation) -> str:
-    """Names what `laws = "best"` models of such a bearing, beside the drag."""
+    """Text that names the effects that `laws = "best"` models in such a bearing besides the drag."""
     return BEST_IN_WORDS.get(bearing.kind, BEST_OF_BALLS)
 
 
 def _middle(geometry: Geometry) -> Iterator[str]:
-    """The place of the middle of the row on the axis, as `bearings.tapered` counts it from the apex."""
+    """Comment lines with the axial position of the middle of the roller row, from the apex as in `bearings.tapered`."""
     shape, length = shape_of(geometry), geometry.length.value
     along = 0.5 * shape.roller_diameter / math.tan(shape.half_angle) - 0.5 * length * math.cos(shape.half_angle)
     place = -along * math.cos(geometry.contact_angle.value - shape.half_angle)
@@ -272,7 +274,7 @@ def _usual(geometry: Geometry) -> str:
 
 
 def _size(found: Estimate, significant: int = 4) -> str:
-    """A length: to the last digit where it is given, otherwise with these digits."""
+    """A length as text: to the last digit if it is given, otherwise with this number of digits."""
     return text_in("mm", found.value, LENGTH) if found.given else _mm(found.value, significant)
 
 
@@ -289,5 +291,5 @@ def _kilo(value: float) -> str:
 
 
 def kilonewtons(given: float) -> str:
-    """A force that is given, to its last digit."""
+    """A given force as text in kN, to its last digit."""
     return text_in("kN", given, FORCE)

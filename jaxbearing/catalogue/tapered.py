@@ -1,4 +1,4 @@
-"""Angles and end spheres of tapered rollers from pitch diameter, mean roller diameter, length and cup angle."""
+"""Angles and spherical ends of tapered rollers from pitch diameter, mean roller diameter, length and cup angle."""
 
 import math
 from types import SimpleNamespace
@@ -7,15 +7,15 @@ from typing import NamedTuple
 from ..bearings.tapered.usual_ends import usual_end_radius, usual_flange_angle
 
 TURNS = 60
-"""Steps of the fixed-point search, each of which takes about the fifth part of the error."""
+"""Number of steps of the fixed-point iteration; each reduces the error to about a fifth of its size."""
 
 _FUNCTIONS = SimpleNamespace(sin=math.sin, arcsin=math.asin, minimum=min)
-"""Functions of plain numbers under NumPy's names. The import of NumPy would take a third of the time of a command."""
+"""Functions of plain numbers under NumPy's names; the import of NumPy would take a third of the time of a command."""
 
 
 class TaperedShape(NamedTuple):
-    """Sizes that a scene needs. **Arguments:** `roller_diameter`: of the big end, m; `half_angle`, `flange_angle`: rad;
-    `end_radius`: m."""
+    """Roller dimensions that a scene needs. **Arguments:** `roller_diameter`: of the big end, m; `half_angle`,
+    `flange_angle`: rad; `end_radius`: m."""
 
     roller_diameter: float
     half_angle: float

@@ -1,4 +1,4 @@
-"""Terms of the least-squares problem of an internal geometry (`estimate`): usual proportions, and what is given."""
+"""Terms of the least-squares problem of an internal geometry (`estimate`): usual proportions, and given numbers."""
 
 import math
 from collections.abc import Mapping
@@ -8,10 +8,10 @@ from .geometry import Geometry
 from .proportions import Normal, proportions_of
 
 UNKNOWNS = ("diameter", "pitch", "length", "inner_groove", "outer_groove", "angle")
-"""ln of the element's diameter (mm; of tapered rollers, at mid length), of the pitch diameter (mm) and of the effective
-roller length (mm), ln of both conformities less 0.5, contact angle (rad)."""
+"""Unknowns: natural logarithms of element diameter (mm; of tapered rollers, at mid length), pitch diameter (mm),
+effective roller length (mm) and both conformities minus 0.5, and the contact angle (rad)."""
 GIVEN = 1e-5
-"""Standard deviation of what is given: of a logarithm, or rad."""
+"""Standard deviation of given numbers: of a logarithm, or of an angle in rad."""
 
 USUAL_ANGLES = {"angular_contact": Normal(30.0, 5.0), "spindle": Normal(15.0, 3.0)}
 """Contact angle where the designation states none, degrees: the designs without a suffix differ between makers."""
@@ -62,14 +62,14 @@ def terms_of(bearing: Designation, given: Mapping[str, float], angle: Normal) ->
 
 
 def _rating(value: float | None, law: Normal) -> Normal:
-    """ln of the computed rating, N, that a printed one stands for."""
+    """Distribution of ln of the computed rating, N, that corresponds to a printed one."""
     return Normal(0.0, math.inf) if value is None else Normal(math.log(value) - law.mean, law.deviation)
 
 
 def is_usual(bearing: Designation, geometry: Geometry, angle: Normal, reach: float) -> bool:
-    """True if each number of a geometry is as usual proportions have it, within so many of their deviations.
+    """True if each number of a geometry is within `reach` standard deviations of the usual proportions.
 
-    **Arguments:** as those of `estimate`; `geometry`: its answer; `reach`: number of deviations.
+    **Arguments:** as for `estimate`; `geometry`: its result; `reach`: number of deviations.
     """
     terms = terms_of(bearing, {}, angle)
     size = lambda one: math.log(1e3 * one.value)

@@ -10,23 +10,22 @@ from ..numerics.checks import Checked
 from ..numerics.structure import choice, count
 
 LUBRICATIONS = ("oil_bath", "oil_jet", "oil_air", "grease")
-"""Ways in which a bearing gets its oil."""
+"""Ways of supplying a bearing with lubricant."""
 SEALS = ("none", "RSL", "RZ", "RSH", "RS1", "LS")
 """Seals of SKF."""
 ALL_FAMILIES = ("deep_groove", "angular_contact", "four_point", "cylindrical", "cylindrical_full", "tapered")
 
 
 class Catalogue(Checked):
-    """The bearing as a catalogue names it: what the makers' formulas need beside the scene. It changes no result.
+    """Data of a catalogue that the makers' formulas need besides the scene. They change no result.
 
-    What is not given is taken from the scene, has a usual default, which the comparison names as assumed, or leaves a
-    formula without a value.
+    A missing value is taken from the scene, or has a usual default, which the comparison names as assumed, or leaves a
+    formula without a result.
 
     **Arguments:**
-    - `designation`: such as "6205-2RSH", "NU 210 ECP", "32216"; series, bore and seals follow from it as far as it
-      says them.
-    - `family`: of the bearing; not given: by the designation, of roller bearings by the kind of scene.
-    - `series`: as the makers' tables name it, such as "62", "72B", "2" (of NU 2), "320X"; not given: by the
+    - `designation`: such as "6205-2RSH", "NU 210 ECP", "32216"; it gives series, bore and seals where it states them.
+    - `family`: of the bearing; not given: by the designation or, for roller bearings, by the kind of scene.
+    - `series`: as named in the makers' tables, such as "62", "72B", "2" (of NU 2), "320X"; not given: by the
       designation.
     - `bore`, `outside_diameter`, `width`: boundary dimensions, m; not given: those of the geometry, the bore by the
       designation.
@@ -34,8 +33,8 @@ class Catalogue(Checked):
     - `axial_factor`: Y of a tapered bearing; not given: 0.4 cot(contact angle) of ISO 281 (assumed).
     - `kinematic_viscosity`: of the oil in operation, m^2/s; not given: of the scene's oil at the inlet temperature.
     - `lubrication`: how the bearing gets its oil; not given: by an oil bath (assumed).
-    - `oil_level`: H, of the oil above the lowest point of the outer raceway, m; not given: no drag, of a jet that of
-      half a rolling element twice.
+    - `oil_level`: H, height of the oil above the lowest point of the outer raceway, m; not given: no drag, but with an
+      oil jet twice that of a bath up to half a rolling element.
     - `starvation_constant`: K_rs of SKF, 3e-8 with a low oil level or a jet, 6e-8 with grease or oil and air; not
       given: 0 (assumed).
     - `boundary_friction`: mu_bl of SKF; not given: 0.15 (assumed).

@@ -1,4 +1,4 @@
-"""Makers' formulas beside a solution: totals, parts, ratios, ranges. Nothing here enters a result of a solve."""
+"""Comparison of makers' formulas with a solution: totals, parts, ratios, ranges. It changes no result of a solve."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -15,18 +15,18 @@ from .laws import Law, laws_of
 
 _ROLLING, _DRAG = "rolling_resistance", "drag"
 CLOSE = 1.05
-"""Ratio of two formulas below which no note is made of their difference."""
+"""Ratio of the largest to the smallest moment of the formulas, up to which there is no note on their difference."""
 
 
 @dataclass(frozen=True)
 class Physical:
-    """The moments of the solution.
+    """Friction moments and losses of the solution.
 
     **Arguments:**
-    - `total`: power loss over the speed of the rings against each other, N m; `None` without losses or at rest.
-    - `power`: W; `None` where the scene models no loss.
-    - `parts`: as the makers have them, N m: rolling (rolling resistance), drag, and sliding (everything else); `None`
-      where the scene does not model it.
+    - `total`: power loss over the relative speed of the rings, N m; `None` without losses or at rest.
+    - `power`: power loss, W; `None` if the scene models no loss.
+    - `parts`: moments divided as in the makers' formulas, N m: rolling (rolling resistance), drag, and sliding
+      (everything else); `None` for a part that the scene does not model.
     - `locations`: power losses by location, W.
     """
 
@@ -38,14 +38,14 @@ class Physical:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Makers' formulas beside the physical model.
+    """Results of makers' formulas and of the physical model, side by side.
 
     **Arguments:**
-    - `physical`: of the solution.
-    - `laws`: formulas, those that do not cover the bearing as well.
-    - `duty`: inputs of the formulas in SI units: `speed` of the rings against each other, `radial` and `axial` load,
-      `viscosity`, `mean_diameter`, `family`, `series`, as far as they are known.
-    - `notes`: in words.
+    - `physical`: moments and losses of the solution.
+    - `laws`: results of all formulas, including those that do not cover the bearing.
+    - `duty`: inputs of the formulas in SI units: relative `speed` of the rings, `radial` and `axial` load, `moment`,
+      `viscosity`, `mean_diameter`, `family`, `series`; `None` if unknown.
+    - `notes`: sentences on contradictions and differences.
     """
 
     physical: Physical
@@ -58,7 +58,7 @@ class Comparison:
 
     @property
     def spread(self) -> float | None:
-        """Largest over smallest total of the formulas; `None` for fewer than two."""
+        """Largest over smallest total moment of the formulas; `None` for fewer than two totals."""
         totals = [one.total for one in self.laws if one.total]
         return max(totals) / min(totals) if len(totals) > 1 else None
 
@@ -67,9 +67,10 @@ _OF_DUTY = ("speed", "radial", "axial", "moment", "viscosity", "mean_diameter", 
 
 
 def compared(scene: AbstractBearing, solution: Solution, catalogue: Catalogue | None = None) -> Comparison:
-    """Makers' formulas beside a solution. The solution is read and never changed.
+    """Comparison of the makers' formulas with a solution, which is not changed.
 
-    **Raises:** `TypeError` for what is no bearing; `ValueError` for a solution that did not converge, or of a batch.
+    **Raises:** `TypeError` if the scene is not a bearing; `ValueError` for a solution that did not converge or is a
+    batch.
     """
     if not isinstance(scene, AbstractBearing) or not isinstance(solution, Solution):
         raise TypeError(f"makers' formulas are of bearings, got a {type(scene).__name__}")

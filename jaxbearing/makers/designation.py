@@ -1,4 +1,4 @@
-"""A designation in the terms of the makers' tables: family, series, bore, seals."""
+"""Reading of a designation for the makers' tables: family, series, bore, seals."""
 
 from typing import NamedTuple
 
@@ -9,14 +9,14 @@ FAMILIES = {
     "cylindrical_roller_bearing": ("cylindrical", "cylindrical_full"),
     "tapered_roller_bearing": ("tapered",),
 }
-"""Kind of scene -> families of catalogues."""
+"""Families of bearings in catalogues, by kind of scene."""
 
 
 class Said(NamedTuple):
-    """The contents of a designation; what is not in it is empty or `None`.
+    """The contents of a designation; fields that it does not state are empty or `None`.
 
     - `family`: one of those of `FAMILIES`.
-    - `series`: as the tables of constants name it, such as "62", "NU 2" as "2", "320X", "72B".
+    - `series`: as named in the tables of constants, such as "62", "320X", "72B" and, for NU 2, "2".
     - `bore`: by the bore code, m.
     - `seal`: SKF's name of the seal, "Z" for shields, which do not rub, or a name whose constants are not known, such
       as "RS"; `n_seals`: 1 or 2.
@@ -30,7 +30,7 @@ class Said(NamedTuple):
 
 
 def read_designation(text: str) -> Said:
-    """Reads a designation. The contents of one of an unknown form are empty: nothing is guessed.
+    """Reads a designation. The result is empty for an unknown form: nothing is guessed.
 
     It knows 6205, 608, 61805, 16005 (deep groove), 7205 BE, 7205 AC, 3205 A (angular contact), QJ 205 (four-point),
     NU 205, N 205, NJ 205, NUP 205 (cylindrical), NCF 3005, SL18 3005 (full complement), 30206, 32008 X, 32206 B

@@ -1,4 +1,4 @@
-"""Inputs of the formulas from a solved scene and its catalogue bearing: given, assumed or missing, each in words."""
+"""Inputs of the formulas from a solved scene and its catalogue data, with texts on assumed and missing ones."""
 
 import math
 import re
@@ -18,17 +18,17 @@ from .skf_constants import BALL_FILM_FRICTION, BOUNDARY_FRICTION, FILM_FRICTION
 VG_TEMPERATURE = 313.15
 """Temperature at which ISO VG classes state the viscosity, K."""
 ROUND_BORE = 1e-6
-"""Difference of bores that is none, m."""
+"""Difference up to which two bores count as equal, m."""
 
 
 @dataclass(frozen=True)
 class Known:
-    """Numbers and words by name.
+    """Inputs of the formulas by name.
 
     **Arguments:**
-    - `values`: what is known, in SI units.
-    - `assumed`: name -> what was assumed, in words, of those among `values` that the user did not give.
-    - `missing`: name -> what to give, in words, of those that are not among `values`.
+    - `values`: known values, given or assumed, in SI units.
+    - `assumed`: texts that describe the assumptions among `values`.
+    - `missing`: for inputs without a value, texts that say what the user must give.
     """
 
     values: dict[str, Any] = field(default_factory=dict)
@@ -36,14 +36,14 @@ class Known:
     missing: dict[str, str] = field(default_factory=dict)
 
     def put(self, name: str, value: object, otherwise: str) -> None:
-        """Takes a value that may be `None`; `otherwise` says what to give."""
+        """Stores a value; if it is `None`, stores `otherwise` as the text on the missing input."""
         if value is None:
             self.missing[name] = otherwise
         else:
             self.values[name] = value if isinstance(value, str) else float(np.asarray(value))
 
     def assume(self, name: str, value: object, words: str) -> None:
-        """Takes a value in the place of one that is missing; `words` say where it comes from."""
+        """Stores a value as assumed if the input is still missing; `words` say where it comes from."""
         if name not in self.values and value is not None:
             self.put(name, value, "")
             self.missing.pop(name, None)
@@ -51,7 +51,7 @@ class Known:
 
 
 class Reader:
-    """Takes values for one formula, and keeps what was assumed or missing among them."""
+    """Reader of the inputs of one formula; it collects the texts on assumed and missing ones."""
 
     def __init__(self, known: Known):
         self.known = known
@@ -68,7 +68,7 @@ class Reader:
 
 
 def known_of(scene: AbstractBearing, solution: Solution, catalogue: Catalogue) -> Known:
-    """Everything that the formulas may ask."""
+    """All inputs that the formulas may need."""
     known, said = Known(), read_designation(catalogue.designation or "")
     _names(known, scene, catalogue, said)
     _sizes(known, scene, catalogue, said)
@@ -83,7 +83,7 @@ def known_of(scene: AbstractBearing, solution: Solution, catalogue: Catalogue) -
 
 
 def contradictions(known: Known, catalogue: Catalogue, kind: str) -> Iterator[str]:
-    """Notes where the designation says something else than other fields, or nothing."""
+    """Notes on a designation that contradicts other fields or is of an unknown form."""
     said = read_designation(catalogue.designation or "")
     if catalogue.designation is not None and not said.family:
         yield f"catalogue.designation: '{catalogue.designation}' has no form that is known here; it says nothing"
@@ -109,7 +109,7 @@ def _names(known: Known, scene: AbstractBearing, catalogue: Catalogue, said: Sai
 
 
 def _series(text: str) -> str:
-    """A series as the tables of constants name it: "72 B" is "72B", "NU 2" is "2"."""
+    """The name of a series in the tables of constants: "72B" for "72 B", "2" for "NU 2"."""
     if text in ("single row", "double row", "other"):
         return text
     return re.sub(r"^(NUP|NU|NJ|N)(?=[0-9])", "", re.sub(r"\s", "", text.upper()))

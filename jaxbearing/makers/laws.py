@@ -1,4 +1,4 @@
-"""The makers' formulas for one bearing: moments by part, ranges that are left, what was assumed and what is missing."""
+"""The makers' formulas for one bearing: moments by part, exceeded ranges, assumed and missing inputs."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -22,12 +22,12 @@ from .skf_constants import (
 )
 
 VG_RANGE = (13.5e-6, 352e-6)
-"""Viscosities at 40 degC of ISO VG 15 less a tenth and of ISO VG 320 and a tenth, m^2/s."""
+"""Range of the viscosity at 40 degC, m^2/s: from ISO VG 15 minus 10 % to ISO VG 320 plus 10 %."""
 LEAST_LOAD = {"ball": 0.01, "roller": 0.02}
-"""Smallest load over the dynamic rating, by the rule of thumb of catalogues."""
+"""Minimum load over the dynamic rating, by the rule of thumb of catalogues."""
 FASTEST = {"ball": 1.206, "roller": 0.645}
-"""Largest product of mean diameter and thermal reference speed, m times 1e3 rpm, of 270 deep groove and NU bearings of
-a catalogue (6000, NU 1017): beyond it no maker states a speed, let alone a moment."""
+"""Largest product of mean diameter and thermal reference speed, m times 1e3 rpm, among 270 deep groove and NU bearings
+of a catalogue (that of 6000 and of NU 1017). Beyond it no maker states a speed, let alone a moment."""
 _TABLES = {
     "deep_groove": DEEP_GROOVE,
     "angular_contact": ANGULAR_CONTACT,
@@ -44,11 +44,11 @@ class Law:
     **Arguments:**
     - `law`: its name: "skf", "palmgren_ina", "palmgren_timken" or "timken_tapered".
     - `total`: moment, N m; `None` where the formula does not cover the bearing or lacks an input.
-    - `parts`: moments by part, N m; `None` for a part that lacks an input, which the total leaves out.
-    - `flags`: ranges of the formula that the bearing leaves, in words.
-    - `assumed`, `missing`: in words.
-    - `power`: total moment times the speed of the rings against each other, W.
-    - `ratio`: of the total to that of the physical model; `None` where one of them is not there.
+    - `parts`: moments by part, N m; a part that lacks an input is `None` and not in the total.
+    - `flags`: texts on ranges of the formula that are exceeded.
+    - `assumed`, `missing`: texts on assumed and missing inputs.
+    - `power`: total moment times the relative speed of the rings, W.
+    - `ratio`: total over that of the physical model; `None` if one of them is missing.
     """
 
     law: str
@@ -62,12 +62,12 @@ class Law:
 
     @property
     def inside_range(self) -> bool | None:
-        """True if no range is left; `None` where the formula gives no moment."""
+        """True if no range of the formula is exceeded; `None` where the formula gives no moment."""
         return None if self.total is None else not self.flags
 
 
 def laws_of(known: Known) -> tuple[Law, ...]:
-    """All formulas; those that do not cover the bearing say why."""
+    """Results of all formulas; a formula that does not cover the bearing says why."""
     found = [_skf(known), _palmgren(known, "palmgren_ina"), _palmgren(known, "palmgren_timken")]
     if known.values.get("family") == "tapered":
         found[-1] = _timken_tapered(known)
@@ -110,7 +110,7 @@ def _common_flags(known: Known, read: Reader, family: str) -> Iterator[str]:
 
 
 def _range_flags(known: Known, read: Reader, family: str) -> Iterator[str]:
-    """Flags of SKF's range."""
+    """Texts on exceeded ranges of SKF's model."""
     yield from _common_flags(known, read, family)
     kind, capacity = _kind(family), known.values.get("dynamic_capacity")
     load = max(known.values["radial"], known.values["axial"])
@@ -163,7 +163,7 @@ def _is_double(family: str | None, series: str | None) -> bool:
 
 
 def _further(family: str | None, axial: float, read: Reader) -> float | None:
-    """C0 of deep groove bearings under axial load; Y of tapered ones."""
+    """The further input of a family: C0 of deep groove bearings under axial load, Y of tapered ones, else `None`."""
     if family == "deep_groove" and axial > 0.0:
         return read("static_capacity")
     return read("axial_factor") if family == "tapered" else None
@@ -216,7 +216,7 @@ def _seal(read: Reader, family: str, missing: list[str]) -> float | None:
 
 
 def _drag(read: Reader, family: str, size: float, missing: list[str], flags: list[str], rows: float) -> float | None:
-    """Drag of the oil, N m: the newer form for balls, the older for rollers."""
+    """Drag of the oil, N m: SKF's newer formula for balls, the older one for rollers."""
     if read("lubrication") in ("grease", "oil_air"):
         return 0.0
     wanted = ("oil_level", "bore", "outside_diameter", *(("width",) if _kind(family) == "roller" else ()))
@@ -266,7 +266,7 @@ _NONE = (np.nan, np.nan, np.nan)
 
 
 def _ina(read: Reader, family: str, series: str, found: Frictions, flags: list[str]) -> tuple[float, float, float]:
-    """f0, f1 and P1."""
+    """Factors f0 and f1, and load P1, N, of INA; NaN where an input is missing."""
     radial, axial = read("radial"), read("axial")
     _flag_axial(family, axial, flags)
     if family == "cylindrical" and series in REINFORCED:
@@ -286,7 +286,7 @@ def _ina(read: Reader, family: str, series: str, found: Frictions, flags: list[s
 def _timken(
     read: Reader, family: str, series: str, found: tuple[float, float], flags: list[str]
 ) -> tuple[float, float, float]:
-    """f0, f1 and P1."""
+    """Factors f0 and f1, and load P1, N, of Timken; NaN where an input is missing."""
     radial, axial = read("radial"), read("axial")
     _flag_axial(family, axial, flags)
     if family.startswith("cylindrical") or not axial:
@@ -304,12 +304,12 @@ def _flag_axial(family: str, axial: float, flags: list[str]) -> None:
 
 
 _AXIAL_STATIC = {15: 0.46, 20: 0.42, 25: 0.38, 30: 0.33, 35: 0.29, 40: 0.26, 45: 0.22}
-"""Contact angle, degrees -> Y0 of single-row angular contact bearings, ISO 76."""
+"""Axial factor Y0 of single-row angular contact bearings by contact angle, degrees, from ISO 76."""
 
 
 def _static_load(read: Reader, family: str, radial: float, axial: float, double: bool) -> float | None:
-    """Static equivalent load P0 of ISO 76, N, never below the radial load; of two rows the factors are twice as large.
-    `None` without a contact angle."""
+    """Static equivalent load P0 of ISO 76, N, at least the radial load; with two rows the factors are twice as large.
+    `None` if the contact angle is needed and not known."""
     if family == "deep_groove":
         return max(0.6 * radial + 0.5 * axial, radial)
     angle = read("contact_angle")

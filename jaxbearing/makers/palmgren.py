@@ -2,7 +2,7 @@ r"""Palmgren's formula with the constants of INA and Timken, and Timken's formul
 
 $M_0 = 10^{-7}f_0(\nu n)^{2/3}d_m^3$ from $\nu n = 2000$ on and $160\cdot10^{-7}f_0d_m^3$ below; $M_1 = f_1P_1d_m$.
 
-Arguments and moments are in SI units; the catalogues' units (N mm, mm, rpm, mm^2/s) stay inside.
+Arguments and moments are in SI units; the catalogues' units (N mm, mm, rpm, mm^2/s) are used inside only.
 
 **Reference:** Palmgren (1959); Schaeffler/INA catalogue HR1, pages 55 to 61; Timken Engineering Manual, pages 179 to
 184.
@@ -15,13 +15,13 @@ from ..numerics.safe import power, regular_power
 from .skf import MM, STILL, rolled, speed_in_rpm
 
 SLOW = 2000.0
-"""nu n in mm^2/s rpm below which M0 does not depend on the speed."""
+"""Product nu n, mm^2/s rpm, below which M0 does not depend on the speed."""
 RATIO_WIDTH = 1e-9
-"""P0/C0 below which its power is linear."""
+"""Value of P0/C0 below which its power is replaced by a linear function."""
 
 
 def viscous_moment(f0: Values, speed: Values, viscosity: Values, mean_diameter: Scalar) -> Batch:
-    """M0, N m. It jumps by 0.8 % at nu n = 2000, as printed.
+    """Viscous moment M0, N m. It jumps by 0.8 % at nu n = 2000, as the printed formula does.
 
     **Arguments:** `speed`, rad/s; `viscosity`, kinematic, m^2/s; `mean_diameter`, m.
     """
@@ -32,12 +32,13 @@ def viscous_moment(f0: Values, speed: Values, viscosity: Values, mean_diameter: 
 
 
 def load_moment(f1: Values, load: Values, mean_diameter: Scalar) -> Batch:
-    """M1 = f1 P1 d_m, N m. **Arguments:** `load` P1, N; `mean_diameter`, m."""
+    """Load-dependent moment M1 = f1 P1 d_m, N m. **Arguments:** `load` P1, N; `mean_diameter`, m."""
     return jnp.asarray(f1) * load * mean_diameter
 
 
 def load_factor(size: Scalar, exponent: float, static_load: Values, static_capacity: Values) -> Batch:
-    """f1 = size (P0/C0)^exponent; `exponent` 0 is a constant. **Arguments:** P0 and C0, N."""
+    """Factor f1 = size (P0/C0)^exponent, a constant for `exponent` 0. **Arguments:** `static_load` P0 and
+    `static_capacity` C0, N."""
     if exponent == 0.0:
         return jnp.asarray(size, dtype=float)
     return size * regular_power(jnp.asarray(static_load) / static_capacity, exponent, RATIO_WIDTH)
@@ -46,7 +47,7 @@ def load_factor(size: Scalar, exponent: float, static_load: Values, static_capac
 def ina_load(
     family: str, radial: Values, axial: Values, axial_factor: Values | None = None, double_row: bool = False
 ) -> Batch:
-    """P1 of INA, N, never below the radial load.
+    """Load P1 of INA, N, at least the radial load.
 
     Deep groove 3.3 Fa - 0.1 Fr; angular contact Fa - 0.1 Fr, in double rows 1.4 Fa - 0.1 Fr; four-point
     1.5 Fa + 3.6 Fr; tapered 2 Y Fa; cylindrical Fr.
@@ -81,14 +82,14 @@ def timken_tapered_moment(g1: Values, speed: Values, dynamic_viscosity: Values, 
     r"""$M = 2.56\cdot10^{-6}G_1(n\mu)^{0.62}(f_3F_r/K)^{0.3}$, N m, with $\mu$ in mPa s.
 
     **Validity:** speeds from `timken_least_speed` on. **Arguments:** `g1`: G1 of the bearing; `speed`, rad/s;
-    `dynamic_viscosity`, Pa s; `equivalent`: f3 Fr/K, N (`timken_equivalent`).
+    `dynamic_viscosity`, Pa s; `equivalent`: f3 Fr/K, N, or the axial load where K Fa/Fr > 2.
     """
     moved = regular_power(speed_in_rpm(speed) * jnp.asarray(dynamic_viscosity) * 1e3, 0.62, STILL)
     return 2.56e-6 * g1 * moved * regular_power(jnp.asarray(equivalent), 0.3, STILL)
 
 
 def timken_least_speed(g2: Values, dynamic_viscosity: Values, f2: Values, radial: Values, factor: Values) -> Batch:
-    r"""$n_{min} = \frac{625}{G_2\mu}(f_2F_r/K)^{2/3}$ as a speed, rad/s.
+    r"""Least speed of Timken's formula, $n_{min} = \frac{625}{G_2\mu}(f_2F_r/K)^{2/3}$ in rpm, returned in rad/s.
 
     **Arguments:** `g2`: G2 of the bearing; `dynamic_viscosity`, Pa s; `f2`: read from the manual's graph; `radial`, N;
     `factor` K.

@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 
 class Frictions(NamedTuple):
-    r"""f0 with grease or oil mist, f0 with an oil bath, and $f_1 = $ `size` $(P_0/C_0)^{exponent}$."""
+    r"""Constants of one series: f0 with grease or oil mist, f0 with an oil bath, and those of
+    $f_1 = $ `size` $(P_0/C_0)^{exponent}$."""
 
     grease: float
     bath: float
@@ -52,9 +53,9 @@ INA = {
         ("330", "331", "332"): Frictions(4.0, 6.0, 0.0004),
     },
 }
-"""Family -> series -> constants."""
+"""Constants of INA by family and series."""
 REINFORCED = ("2", "3", "22", "23")
-"""Series of cylindrical bearings of which INA lists the reinforced ones (E)."""
+"""Series of cylindrical roller bearings whose constants are those of INA's reinforced design (E)."""
 TIMKEN = {
     "deep_groove": {
         ("618", "628", "638"): (1.7, 0.0001),
@@ -86,5 +87,5 @@ TIMKEN = {
         ("23",): (12.0, 0.00055),
     },
 }
-"""Family -> series -> f0, f1. The manual lists dimension series of ISO 15 (02 is 62, 72, NU 2); QJ stands for its
-bearings with a gothic arch. It lists no dimension series 10 of deep groove bearings (60)."""
+"""Constants f0, f1 of Timken by family and series. The manual lists dimension series of ISO 15 (02 is 62, 72, NU 2); QJ
+stands for its gothic-arch bearings. It does not list dimension series 10 of deep groove bearings (60)."""

@@ -2,11 +2,11 @@ r"""SKF's friction model: rolling and sliding moments, seals, drag of an oil bat
 
 $M = \phi_{ish}\phi_{rs}\,G_{rr}(\nu n)^{0.6} + G_{sl}\mu_{sl} + M_{seal} + M_{drag}$
 
-Arguments and moments are in SI units; the catalogue's units (N mm, mm, rpm, mm^2/s), to which its constants belong,
-stay inside. `G` is in the catalogue's unit.
+Arguments and moments are in SI units; the catalogue's units (N mm, mm, rpm, mm^2/s), to which its constants belong, are
+used inside only. $G_{rr}$ and $G_{sl}$ are in the catalogue's units.
 
 **Validity:** loads from the minimum load on, oils from ISO VG 15 to 320, normal clearance, no shocks; accuracy 20 to
-30 % (second-hand).
+30 % (from a secondary source).
 **Reference:** SKF general catalogue, chapter on friction; the later form of the drag in its later edition.
 """
 
@@ -17,25 +17,25 @@ from ..numerics.safe import positive_power, power, regular_power
 from .skf_constants import BALL_DRAG_VARIABLE, DRAG_LEVELS, ROLLER_DRAG_VARIABLE, SealConstants
 
 MM = 1e3
-"""Millimetres in a metre; N mm in an N m."""
+"""Number of millimetres in a metre, and of N mm in an N m."""
 MM2 = 1e6
-"""mm^2/s in one m^2/s."""
+"""Number of mm^2/s in one m^2/s."""
 RPM = 30.0 / jnp.pi
-"""rpm in one rad/s."""
+"""Number of rpm in one rad/s."""
 STILL = 1e-3
-"""Width below which nu n, in mm^2/s rpm, and a load, in N, enter their powers linearly: a finite slope at rest."""
+"""Value of nu n, mm^2/s rpm, and of a load, N, below which their powers become linear, for a finite slope at zero."""
 
 Moments = tuple[Batch, Batch]
-"""Rolling and sliding variable G_rr, G_sl, in the catalogue's units."""
+"""Rolling variable G_rr and sliding variable G_sl, in the catalogue's units."""
 
 
 def speed_in_rpm(speed: Values) -> Batch:
-    """|speed| of the rings against each other, rpm. **Arguments:** `speed`, rad/s."""
+    """Magnitude of the relative speed of the rings, rpm. **Arguments:** `speed`, rad/s."""
     return jnp.abs(speed) * RPM
 
 
 def rolled(viscosity: Values, speed: Values) -> Batch:
-    """nu n, mm^2/s rpm. **Arguments:** `viscosity`, kinematic, m^2/s; `speed`, rad/s."""
+    """Product nu n, mm^2/s rpm. **Arguments:** `viscosity`, kinematic, m^2/s; `speed`, rad/s."""
     return jnp.asarray(viscosity) * MM2 * speed_in_rpm(speed)
 
 
@@ -48,8 +48,8 @@ def deep_groove_variables(
     $\alpha_F = 24.6(F_a/C_0)^{0.24}$ degrees, $R_1d_m^{1.96}(F_r + R_2F_a/\sin\alpha_F)^{0.54}$ and
     $S_1d_m^{-0.145}(F_r^5 + S_2d_m^{1.5}F_a^4/\sin\alpha_F)^{1/3}$.
 
-    **Limits:** the sliding variable jumps where the axial load begins, by $d_m^{0.115}$, as printed. An axial load of 0
-    has the slope of the first form: 0.
+    **Limits:** at the transition from zero to small axial load the sliding variable jumps by the factor $d_m^{0.115}$,
+    as the printed formula does. The derivative by the axial load at 0 is that of the first form: 0.
 
     **Arguments:** `constants`: R1, R2, S1, S2; `mean_diameter` (d + D)/2, m; loads >= 0, N; `static_capacity` C0, N.
     """
@@ -123,8 +123,8 @@ def starvation_factor(
 ) -> Batch:
     r"""$\phi_{rs} = \exp(-K_{rs}\nu n(d + D)\sqrt{K_z/(2(D - d))})$: rolling elements push the oil off their tracks.
 
-    **Arguments:** `speed`, rad/s; `viscosity`, kinematic, m^2/s; `bore` d and `outside` D, m; `constant` K_rs: 0 of a
-    bearing whose inlets stay full, 3e-8 with a low oil level or a jet, 6e-8 with grease or oil and air; `geometry` K_z.
+    **Arguments:** `speed`, rad/s; `viscosity`, kinematic, m^2/s; `bore` d and `outside` D, m; `constant` K_rs: 0 for
+    flooded inlets, 3e-8 with a low oil level or a jet, 6e-8 with grease or oil and air; `geometry` K_z.
     """
     d, big = jnp.asarray(bore) * MM, jnp.asarray(outside) * MM
     return jnp.exp(-constant * rolled(viscosity, speed) * (d + big) * jnp.sqrt(geometry / (2.0 * (big - d))))
@@ -167,7 +167,7 @@ def seal_moment(constants: SealConstants, seal_diameter: Scalar) -> Batch:
 
 
 def drag_variable(level: Values, mean_diameter: Scalar, rollers: bool) -> Batch:
-    """V_M, linear between the points that were read from the graph; constant beyond H = 1.4 d_m.
+    """Drag variable V_M, linear between points read from the graph; constant beyond H = 1.4 d_m.
 
     **Arguments:** `level` H above the lowest point of the outer raceway, m, >= 0; `mean_diameter`, m; `rollers`: of
     roller bearings, else of balls.
@@ -226,7 +226,8 @@ def roller_drag(
 ) -> Batch:
     r"""$10V_MK_{roll}Bd_m^4n^2$, $K_{roll} = K_LK_z\frac{d + D}{D - d}10^{-12}$, N m: the older form for rollers.
 
-    **Arguments:** `speed`, rad/s; `bore`, `outside`, `width` B and `level`, m; `geometry` K_z; `length` K_L; `rows`.
+    **Arguments:** `speed`, rad/s; `bore`, `outside`, `width` B and `level`, m; `geometry` K_z; `length` K_L; `rows`:
+    number of rows, a further factor.
     """
     dm = 0.5 * (jnp.asarray(bore) + outside)
     size = rows * length * geometry * (jnp.asarray(bore) + outside) / (jnp.asarray(outside) - bore) * 1e-12

@@ -18,7 +18,7 @@ DEEP_GROOVE = {
     ("617", "618", "628", "637", "638"): (4.7e-7, 1.7, 0.0065, 0.78),
     ("619", "639"): (4.3e-7, 1.7, 0.00475, 3.6),
 }
-"""Series -> R1, R2, S1, S2."""
+"""Constants R1, R2, S1, S2 by series."""
 ANGULAR_CONTACT = {
     ("single row",): (5.03e-7, 1.97, 1.9e-12, 0.013, 0.68, 1.91e-12),
     ("double row",): (6.34e-7, 1.41, 7.83e-13, 0.00756, 1.21, 7.83e-13),
@@ -29,9 +29,9 @@ ANGULAR_CONTACT = {
     ("32A",): (5.18e-7, 1.63, 4.18e-12, 0.0108, 1.47, 4.18e-12),
     ("33A",): (5.31e-7, 1.63, 8.83e-13, 0.00548, 1.47, 8.83e-13),
 }
-"""Series -> R1, R2, R3, S1, S2, S3."""
+"""Constants R1, R2, R3, S1, S2, S3 by series."""
 FOUR_POINT = {("QJ2", "QJ3"): (4.78e-7, 2.42, 1.4e-12, 0.012, 0.9, 1.4e-12)}
-"""Series -> R1, R2, R3, S1, S2, S3."""
+"""Constants R1, R2, R3, S1, S2, S3 by series."""
 CYLINDRICAL = {
     ("2", "3"): (1.09e-6, 0.16, 0.0015),
     ("4",): (1.0e-6, 0.16, 0.0015),
@@ -40,7 +40,7 @@ CYLINDRICAL = {
     ("22",): (1.4e-6, 0.16, 0.0015),
     ("23",): (1.48e-6, 0.16, 0.0015),
 }
-"""Series of bearings with a cage -> R1, S1, S2."""
+"""Constants R1, S1, S2 of bearings with a cage, by series."""
 FULL_COMPLEMENT = (2.13e-6, 0.16, 0.0015)
 """R1, S1, S2 of full complement cylindrical roller bearings, of any series."""
 TAPERED = {
@@ -65,7 +65,7 @@ TAPERED = {
     ("HH",): (2.51e-6, 10.9, 0.027, 2.0),
     ("other",): (2.31e-6, 10.9, 0.019, 2.0),
 }
-"""Series -> R1, R2, S1, S2. The later table prints 2.60e-6 for H."""
+"""Constants R1, R2, S1, S2 by series. The later table prints 2.60e-6 for R1 of series H."""
 GEOMETRY = {
     "deep_groove": 3.1,
     "angular_contact": 4.4,
@@ -75,17 +75,18 @@ GEOMETRY = {
     "cylindrical_full": 6.2,
     "tapered": 6.0,
 }
-"""Family -> K_z."""
+"""Geometry constant K_z by family."""
 ROLLER_DRAG = {"cylindrical": 0.65, "cylindrical_full": 0.7, "tapered": 0.7}
-"""Family -> K_L."""
+"""Geometry constant K_L of roller bearings by family."""
 FILM_FRICTION = {"cylindrical": 0.02, "cylindrical_full": 0.02, "tapered": 0.002}
-"""Family -> mu_EHL; that of balls is `BALL_FILM_FRICTION`."""
+"""Friction coefficient mu_EHL by family; that of ball bearings is `BALL_FILM_FRICTION`."""
 BALL_FILM_FRICTION = 0.05
-"""mu_EHL of ball bearings with mineral oil; 0.04 with synthetic oils, 0.1 with transmission fluids."""
+"""Friction coefficient mu_EHL of ball bearings with mineral oil; 0.04 with synthetic oils, 0.1 with transmission
+fluids."""
 BOUNDARY_FRICTION = 0.15
-"""mu_bl; the later table has 0.12 for bearings in motion."""
+"""Boundary friction coefficient mu_bl; the later table has 0.12 for bearings in motion."""
 DRAG_LEVELS = (0.0, 0.025, 0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.3, 0.5, 0.8, 1.0, 1.2, 1.4)
-"""Oil level over mean diameter H/d_m at which V_M is known."""
+"""Values of H/d_m, oil level over mean diameter, for which V_M is tabulated."""
 BALL_DRAG_VARIABLE = (
     *(0.0, 2e-6, 1.2e-5, 3e-5, 6.5e-5, 1e-4, 1.45e-4, 1.95e-4, 2.45e-4, 3.8e-4),
     *(5.5e-4, 8e-4, 1e-3, 1.25e-3, 1.25e-3),
@@ -99,7 +100,8 @@ ROLLER_DRAG_VARIABLE = (
 
 
 class SealConstants(NamedTuple):
-    """A seal's K_S1, K_S2 and beta for both lips, and outside diameters over and up to which they hold, mm."""
+    """Constants K_S1, K_S2 and beta of two seals of a kind, and the bearing outside diameters, mm, over which and up to
+    which they hold."""
 
     k1: float
     k2: float
@@ -122,4 +124,4 @@ SEALS = {
     ("angular_contact", "RS1"): (SealConstants(0.014, 10.0, 2.0, 30.0, 120.0),),
     ("cylindrical_full", "LS"): (SealConstants(0.032, 50.0, 2.0, 42.0, 360.0),),
 }
-"""Family and seal -> constants by outside diameter."""
+"""Constants of seals by family and name of the seal, each for a range of outside diameters."""

@@ -15,26 +15,27 @@ if TYPE_CHECKING:
 
 
 def solution_to_dataset(solution: "AbstractSolution", dims: Sequence[str] = ()) -> xr.Dataset:
-    """All results with `units`, `long_name` and `path` on every variable; units as UDUNITS writes them ("rad s-1").
+    """All results, with the attributes `units`, `long_name` and `path` on every variable; units in UDUNITS notation
+    ("rad s-1").
 
-    What a kind of solution has as dimensions and coordinates is said by `to_dataset` of its folder.
-    The attributes of the data set hold warnings and notes in words, and the version.
+    The function `to_dataset` for each kind of solution documents its dimensions and coordinates. The attributes of the
+    data set hold warnings and notes as text, and the version.
 
     **Arguments:**
-    - `solution`: one solution, or a batch of bearings' from `jax.vmap` or `jax.lax.map`.
+    - `solution`: one solution, or a batch of bearing solutions from `jax.vmap` or `jax.lax.map`.
     - `dims`: names of the batch's leading dimensions, `("case",)`.
 
-    **Raises:** `ValueError` for a single solution that did not converge, and where `dims` does not fit; `TypeError`
+    **Raises:** `ValueError` if a single solution did not converge, or if `dims` does not match the batch; `TypeError`
     for another kind of solution.
     """
     return output(solution, "dataset", "data set")(solution, dims)
 
 
 def write_netcdf(dataset: xr.Dataset | xr.DataTree, path: str | os.PathLike[str]) -> None:
-    """Write a NetCDF-4 file, of a tree one group a node, that appears whole or not at all, with checksums: damage to
-    its arrays is an error for who reads them. The file is built in memory.
+    """Writes a NetCDF-4 file, with one group for each node of a tree. The file is built in memory and appears whole or
+    not at all; it has checksums, so that reading damaged arrays raises an error.
 
-    **Raises:** `OSError` where the place cannot be written; nothing is there then, or what was there before.
+    **Raises:** `OSError` if the file cannot be written; an earlier file at `path` then stays as it was.
     """
     tree = xr.DataTree(dataset) if isinstance(dataset, xr.Dataset) else dataset
     write_whole(path, netcdf_image({node.path: node.to_dataset(inherit=False) for node in tree.subtree}))

@@ -1,4 +1,4 @@
-"""One description of a diagram of boxes and arrows, drawn by matplotlib on paper and as SVG on a page.
+"""Description of a diagram of boxes and arrows, which matplotlib draws on paper and the SVG backend on an HTML page.
 
 Places, sizes and widths are in points, x to the right and y up. A backend that draws a diagram larger or smaller
 scales the texts with it."""
@@ -12,9 +12,9 @@ from .colours import INK, RING
 Place = tuple[float, float]
 
 TEXT = 9.5
-"""Size of the texts."""
+"""Size of the texts, points."""
 LETTER = 0.56
-"""Width of a letter, in sizes: the room that texts are given."""
+"""Width allowed for a letter, as a fraction of the text size."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Arrow:
-    """A straight arrow. `at`: centre of its text; `width`: of its shaft."""
+    """A straight arrow. `at`: centre of its text; `width`: width of its shaft."""
 
     start: Place
     end: Place
@@ -64,5 +64,5 @@ class Diagram:
 
     @property
     def size(self) -> Place:
-        """Width and height."""
+        """Width and height of the picture, points."""
         return self.high[0] - self.low[0], self.high[1] - self.low[1]

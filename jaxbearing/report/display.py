@@ -1,4 +1,4 @@
-"""Numbers as people read them: engineering units for screens and axes, significant digits, bars of text."""
+"""Numbers for readers: engineering units for screens and axes, significant digits, bars made of text."""
 
 import math
 import re
@@ -23,7 +23,7 @@ _ENGINEERS: dict[str, tuple[str, float]] = {
 """SI unit of a result -> (unit on the screen, factor from SI). Other units are shown unchanged."""
 
 MILLIMETRE = 1e-3
-"""Length from which on lengths are shown in mm, m."""
+"""Length, m, from which lengths are shown in mm."""
 
 _SCALES = {
     "N": ((1e3, "kN", 1e-3), (0.0, "N", 1.0)),
@@ -33,14 +33,14 @@ _SCALES = {
     "W": ((1e4, "kW", 1e-3), (0.0, "W", 1.0)),
     "rad": ((0.0, "deg", 180.0 / math.pi),),
 }
-"""SI unit -> choices (limit in SI, unit on the axis, factor from SI). The first choice whose limit the largest value of
-the axis reaches is taken."""
+"""SI unit -> choices (limit in SI, unit on the axis, factor from SI). The first choice whose limit is reached by the
+largest value of the axis applies."""
 
 ZERO_CELSIUS = 273.15
-"""0 degC in K."""
+"""Temperature of 0 degC in K."""
 _NIL = 1e-9
-"""A smaller number in the unit of the screen is round-off and is shown as 0: in micrometres, less than the diameter of
-a nucleus."""
+"""Numbers smaller than this in the unit of the screen are round-off and are shown as 0: a length in micrometres would
+be smaller than an atomic nucleus."""
 _BLOCKS = " ▏▎▍▌▋▊▉█"
 
 
@@ -52,15 +52,15 @@ def _shown(unit: str, largest: float) -> tuple[str, float]:
 
 
 def display_unit(unit: str, largest: float = 0.0) -> str:
-    """The unit in which a result of this SI unit is shown.
+    """The unit in which a result with this SI unit is shown.
 
-    **Arguments:** `largest`: of the numbers that have the unit together, in SI: lengths from 1 mm on are shown in mm.
+    **Arguments:** `largest`: largest of the numbers that share the unit, in SI: lengths from 1 mm on are shown in mm.
     """
     return _shown(unit, largest)[0]
 
 
 def displayed(value: float, unit: str, largest: float = 0.0) -> float:
-    """A result in the unit in which it is shown. **Arguments:** `largest`: as that of `display_unit`."""
+    """A result in the unit in which it is shown. **Arguments:** `largest`: as in `display_unit`."""
     return value * _shown(unit, largest)[1]
 
 
@@ -74,8 +74,8 @@ def axis_unit(unit: str, largest: float) -> tuple[str, float]:
 
 
 def digits(value: float, significant: int = 4) -> str:
-    """A number that is rounded to `significant` digits, but never before the decimal point. It has an exponent below
-    1e-4 and from 1e8 on. NaN and infinity give "-"."""
+    """A number rounded to `significant` digits as text; digits before the decimal point are never rounded. Numbers
+    below 1e-4 and from 1e8 on have an exponent. NaN and infinity give "-"."""
     if not math.isfinite(value):
         return "-"
     if value == 0.0:
@@ -87,15 +87,14 @@ def digits(value: float, significant: int = 4) -> str:
 
 
 def tick(value: float) -> str:
-    """A number at an axis or a contour, to 10 digits. From 10 000 on thin spaces part the thousands. It has an exponent
-    below 1e-4 and from 1e10 on."""
+    """A number at an axis or a contour as text, to 10 digits. From 10 000 on thin spaces separate the thousands.
+    Numbers below 1e-4 and from 1e10 on have an exponent."""
     return f"{value:.10g}" if abs(value) < 1e4 else f"{value:,.10g}".replace(",", "\N{THIN SPACE}")
 
 
 def number(value: float, unit: str, significant: int = 4, largest: float = 0.0) -> str:
-    """The digits of a result in the unit of the screen; the name of the unit is not among them. `value` is in the SI
-    unit `unit`, `largest` as that of `display_unit`. Beside a unit no number has an exponent, and what is zero to
-    round-off is 0."""
+    """The digits of a result in the unit of the screen, without the name of the unit. `value` is in the SI unit `unit`;
+    `largest` is as in `display_unit`. Numbers with a unit have no exponent, and round-off is shown as 0."""
     shown = displayed(value, unit, largest)
     text = digits(shown, significant)
     if "e" not in text or not display_unit(unit, largest):
@@ -119,7 +118,7 @@ def span(low: float, high: float, unit: str) -> str:
 
 
 def bar(fraction: float, width: int, ascii_only: bool = False) -> str:
-    """A horizontal bar of text, in steps of an eighth of a character, or of a whole one with `ascii_only`.
+    """A horizontal bar of text, in steps of an eighth of a character, or of a whole character with `ascii_only`.
 
     **Arguments:** `fraction`: filled part, 0 to 1; `width`: characters of a full bar.
     """
@@ -139,5 +138,6 @@ def typeset(text: str) -> str:
 
 
 def pretty(text: str) -> str:
-    """A list with commas for the head of a figure or page: typeset units, and dots in the place of the commas."""
+    """A list with commas, as text for the head of a figure or page: units are typeset and commas become centred
+    dots."""
     return typeset(text).replace(", ", "   ·   ")

@@ -1,8 +1,8 @@
-"""A drawing of a bearing that shows what each dimension of its scene is.
+"""A drawing of a bearing that shows the meaning of each dimension of its scene.
 
-To scale, but for the clearances: they are micrometres beside millimetres, so each is drawn at one visible size and its
-true value stands beside it. Bore, outside diameter and width of the rings are no part of a scene and are drawn at
-usual proportions.
+The drawing is to scale except for the clearances: these are micrometres beside millimetres, so they are all drawn at
+one visible size, with their true values beside them. Bore, outside diameter and width of the rings are not part of a
+scene and have usual proportions.
 """
 
 from typing import TYPE_CHECKING
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 
 def draw_bearing(scene: object) -> "matplotlib.figure.Figure":
-    """A bearing seen along its axis and in a section through the axis; of a cylindrical roller bearing one roller and
-    its pocket too.
+    """Draws a bearing seen along its axis and in a section through the axis; for a cylindrical roller bearing also one
+    roller in its pocket.
 
     Every dimension that the scene has is marked, or listed beside the drawing, with its field name and value.
 
-    **Raises:** `TypeError` for something else than a bearing.
+    **Raises:** `TypeError` for anything but a bearing.
     """
     if not isinstance(scene, AbstractBearing):
         raise TypeError(f"draw_bearing draws a bearing, got a {type(scene).__name__}")

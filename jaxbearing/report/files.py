@@ -1,7 +1,8 @@
 """Files that appear whole or not at all: the one way in which the package writes a file.
 
-What a file holds is made in memory and handed to `write_whole`; what may be larger than memory goes through
-`atomic_file`. Libraries that do not survive a disk that fills up (HDF5 crashes the process) never see the disk.
+The content of a file is built in memory and passed to `write_whole`; content that may be larger than memory is written
+through `atomic_file`. Libraries that do not survive a full disk (HDF5 crashes the process) never write to the disk
+themselves.
 """
 
 import os
@@ -17,10 +18,10 @@ _unfinished: set[Path] = set()
 
 
 def write_whole(path: str | os.PathLike[str], content: str | bytes | memoryview) -> None:
-    """Write a file, text in UTF-8; it appears whole or not at all.
+    """Writes a file, text in UTF-8; it appears whole or not at all.
 
-    **Raises:** `OSError` where the place cannot be written or the disk is full: nothing is there then, or what was
-    there before.
+    **Raises:** `OSError` if the file cannot be written or the disk is full; an earlier file at `path` then stays as it
+    was.
     """
     data = content.encode("utf-8") if isinstance(content, str) else content
     with atomic_file(path) as temporary, _named(path), temporary.open("wb") as file:
@@ -29,16 +30,17 @@ def write_whole(path: str | os.PathLike[str], content: str | bytes | memoryview)
 
 @contextmanager
 def atomic_file(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """A temporary path in the same folder to write to; it takes the place of `path` when the block ends well.
+    """A temporary path in the same folder to write to, which replaces `path` when the block ends without an error.
 
-    Where the block fails the temporary file is removed, and a file that was at `path` is what it was.
+    If the block fails, the temporary file is removed and an earlier file at `path` stays as it was.
 
-    **Raises:** `OSError` where the place cannot be written (before the block is run), or is no ordinary file.
+    **Raises:** `OSError` if the file cannot be written (before the block is run), or if `path` is not an ordinary file.
     """
     check_place(path)
     target = Path(os.path.realpath(path))  # a link stays a link
-    # Not the number of the process: what a killed one left would be in the way of the next with the same number, which
-    # a container gives to every run. File systems count bytes, of which a letter may have four.
+    # A random name, not the process number: a file left by a killed process would block the next process with the same
+    # number, and in a container every run has the same. 60 letters: file systems limit bytes, and a letter may have
+    # four.
     temporary = target.with_name(f".{target.name[:60]}.{secrets.token_hex(4)}.part")
     _unfinished.add(temporary)
     try:
@@ -48,12 +50,12 @@ def atomic_file(path: str | os.PathLike[str]) -> Iterator[Path]:
         with _named(path):
             if target.exists():
                 shutil.copymode(target, temporary)
-            # some file systems tell only now that they have no room
+            # some file systems report only now that they are full
             with temporary.open("rb") as file:
                 os.fsync(file.fileno())
             os.replace(temporary, target)
     finally:
-        # it may not have been made, or is in its place
+        # it may not exist, or may already have replaced the target
         with suppress(OSError):
             temporary.unlink()
         _unfinished.discard(temporary)
@@ -61,7 +63,7 @@ def atomic_file(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 @contextmanager
 def _named(path: str | os.PathLike[str]) -> Iterator[None]:
-    """The user knows the place by the name given, not by that of the temporary file."""
+    """Errors in the block name the path that the user gave, not that of the temporary file."""
     try:
         yield
     except OSError as error:
@@ -69,8 +71,10 @@ def _named(path: str | os.PathLike[str]) -> Iterator[None]:
 
 
 def check_place(path: str | os.PathLike[str]) -> None:
-    """**Raises:** `OSError` where something is that a file must not take the place of: a folder, a device (/dev/null
-    must stay one), a file that is write-protected, which it is on purpose."""
+    """Checks that a file may be written at a path.
+
+    **Raises:** `OSError` if a file must not replace what is there: a folder, a device (such as /dev/null), or a
+    write-protected file."""
     target = Path(os.path.realpath(path))
     if target.is_dir():
         raise IsADirectoryError(21, "Is a directory", os.fspath(path))
@@ -83,7 +87,7 @@ def check_place(path: str | os.PathLike[str]) -> None:
 
 @contextmanager
 def temporary_folder() -> Iterator[Path]:
-    """A folder for files that other programs write, in the system's place for temporary files; it is removed.
+    """A folder for files written by other programs, in the system's temporary folder; removed at the end of the block.
 
     **Raises:** `OSError`.
     """
@@ -97,7 +101,7 @@ def temporary_folder() -> Iterator[Path]:
 
 
 def remove_unfinished() -> None:
-    """Remove the temporary files and folders of this process: for one that ends at once, as after Ctrl-C."""
+    """Removes the temporary files and folders of this process, for use when it ends abruptly, as after Ctrl-C."""
     for path in list(_unfinished):
         if path.is_dir():
             shutil.rmtree(path, ignore_errors=True)

@@ -1,4 +1,4 @@
-"""A transient run on the screen, as numbers, as a data set, as a page of plots and in motion, whatever its kind."""
+"""Outputs of a transient run of any kind: screen, numbers and texts, data set, page of plots, animation."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -20,12 +20,12 @@ _CALLED = "report"
 
 
 def history_to_dict(history: "AbstractHistory") -> dict[str, Any]:
-    """The run as plain numbers and texts in SI units; what is not finite is `None`."""
+    """The run as plain numbers and texts in SI units; numbers that are not finite are `None`."""
     return output(history, "json_report", _CALLED, RUNS)(history)
 
 
 def not_begun_to_dict(scene: Any, duration: float | None, error: SolveError) -> dict[str, Any]:
-    """A run whose start was not found, with the keys that `history_to_dict` has and nothing in those of results."""
+    """The output of a run whose initial state was not found: it has the keys of `history_to_dict`, without results."""
     from ..bearings.checks import input_excess
     from ..bearings.motion.settings import Simulation
     from ..bearings.warming.runs import settings_of
@@ -54,7 +54,7 @@ def not_begun_to_dict(scene: Any, duration: float | None, error: SolveError) -> 
 
 
 def print_history(history: "AbstractHistory", label: str, console: "Console") -> None:
-    """The run on the screen."""
+    """Prints a summary of the run on the screen."""
     output(history, "summary", _CALLED, RUNS)(without_round_off(history), label, console)
 
 
@@ -71,5 +71,5 @@ def plot_history(history: "AbstractHistory", title: str) -> "matplotlib.figure.F
 def animate_history(
     history: "AbstractHistory", scene: "AbstractScene", title: str
 ) -> "matplotlib.animation.FuncAnimation":
-    """A run as moving pictures, for `save_animation`. **Arguments:** `scene`: that of the run."""
+    """An animation of a run, for `save_animation`. **Arguments:** `scene`: scene of the run."""
     return output(history, "animation", _CALLED, RUNS)(without_round_off(history), scene, title)

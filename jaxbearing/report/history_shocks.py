@@ -1,4 +1,4 @@
-"""Shocks between rolling elements and cage: peaks turn by turn, how they are spread round the azimuth, and whirl."""
+"""Shocks between rolling elements and cage: peaks turn by turn, their distribution over the azimuth, and cage whirl."""
 
 import math
 from typing import NamedTuple
@@ -11,17 +11,18 @@ from .round_off import RESOLUTIONS
 
 FACES = ("front", "rear")
 SECTORS = 12
-"""Equal parts of the circumference, the first one beginning at the load line."""
+"""Number of equal sectors of the circumference; the first begins at the load line."""
 SHOCK_OVER_MEDIAN, SHOCK_OVER_LARGEST = 10.0, 0.1
-"""A pocket load counts as a shock above this many times the median of all pocket loads of the run, and above this part
-of the largest one."""
+"""A pocket load counts as a shock if it exceeds both this multiple of the median of all pocket loads of the run and
+this fraction of the largest."""
 SHOCK = "a tenth of the largest and ten times the median pocket load"
-"""Smallest pocket load that counts as a shock, in words."""
+"""Threshold of a shock in words."""
 
 
 class Sectors(NamedTuple):
-    """Shocks round the azimuth: `number` and `mean_peak`, N (NaN where there is none), front and rear; `edges`, rad,
-    from the load line; `threshold`, N, from which a load is a shock. Neighbouring intervals above it are one shock."""
+    """Shocks by azimuth, on the front and the rear walls: `number` and `mean_peak`, N (NaN without shocks), in each
+    sector; `edges` of the sectors, rad, from the load line; `threshold`, N, above which a load is a shock. Neighbouring
+    intervals above it are one shock."""
 
     edges: Float[np.ndarray, " edge"]
     threshold: float
@@ -30,8 +31,8 @@ class Sectors(NamedTuple):
 
 
 def angle_of(history: History) -> Float[np.ndarray, " time"]:
-    """Angle by which the cage (or, without one, the first rolling element) has turned since the start, at each time,
-    rad."""
+    """Angle through which the cage (without a cage, the first rolling element) has turned since the start, at each
+    time, rad."""
     instants = history.instants
     if instants.cage is None and getattr(instants.elements, "orbital_speed", None) is None:
         azimuth = np.asarray(instants.elements.azimuth)[:, 0]
@@ -43,33 +44,35 @@ def angle_of(history: History) -> Float[np.ndarray, " time"]:
 
 
 def turns(history: History) -> Int[np.ndarray, " time"]:
-    """Whole turns of the cage (or, without one, of the first rolling element) since the start, at each time."""
+    """Number of whole turns of the cage (without a cage, of the first rolling element) since the start, at each
+    time."""
     return np.floor(np.abs(angle_of(history)) / (2.0 * math.pi) + 1e-12).astype(int)
 
 
 def pocket_peaks(history: History) -> Float[np.ndarray, "2 time element"] | None:
-    """Largest pocket loads, front and rear, N, since the instant before; `None` without pockets."""
+    """Largest pocket loads since the previous instant, front and rear, N; `None` without pockets."""
     peaks = history.instants.pocket_peaks
     return None if peaks is None else np.stack([np.asarray(getattr(peaks, face)) for face in FACES])
 
 
 def peaks_by_turn(history: History) -> Float[np.ndarray, "2 turn element"] | None:
-    """Largest pocket load of each roller in each turn of the cage, front and rear, N; the last turn may be a part."""
+    """Largest pocket load of each rolling element in each turn of the cage, front and rear, N; the last turn may be
+    incomplete. `None` without pockets."""
     load = pocket_peaks(history)
     if load is None:
         return None
     number = turns(history)
-    # no instant may lie in a turn where instants are far apart
+    # where instants are far apart, a turn may contain none
     return np.stack([load[:, number == turn].max(axis=1, initial=0.0) for turn in range(number[-1] + 1)], axis=1)
 
 
 def shocks(history: History) -> dict[str, list[dict[str, float]]]:
     """Largest load of each rolling element on the front and the rear wall of its pocket, turn by turn: mean and maximum
-    over the elements, N; the last turn may not be a whole one (`part` says how much of it there is)."""
+    over the elements, N. The last turn may be incomplete: `part` is the fraction of a turn that was run."""
     peaks = peaks_by_turn(history)
     if peaks is None:
         return {}
-    # all turns but the last are whole
+    # all turns but the last are complete
     done = float(np.abs(angle_of(history)[-1])) / (2.0 * math.pi)
     parts = [min(1.0, done - turn) for turn in range(peaks.shape[1])]
     return {
@@ -82,7 +85,7 @@ def shocks(history: History) -> dict[str, list[dict[str, float]]]:
 
 
 def sectors(history: History) -> Sectors | None:
-    """Distribution of shocks round the azimuth; `None` without pockets."""
+    """Distribution of shocks over the azimuth; `None` without pockets."""
     load = pocket_peaks(history)
     if load is None:
         return None
@@ -100,7 +103,7 @@ def sectors(history: History) -> Sectors | None:
 
 
 def single_shocks(load: Float[np.ndarray, " time"], threshold: float) -> list[tuple[int, float]]:
-    """Index and height of the peak of every uninterrupted stay above a threshold."""
+    """Index and height of the peak of each uninterrupted interval above a threshold."""
     above = np.concatenate([[False], load > threshold, [False]])
     begins, ends = np.flatnonzero(above[1:] & ~above[:-1]), np.flatnonzero(above[:-1] & ~above[1:])
     found = [int(begin) + int(np.argmax(load[begin:end])) for begin, end in zip(begins, ends, strict=True)]
@@ -108,9 +111,9 @@ def single_shocks(load: Float[np.ndarray, " time"], threshold: float) -> list[tu
 
 
 def whirl_ratio(history: History) -> float | None:
-    """Mean angular speed of the cage's centre about its mean place over the mean cage speed; > 0: whirls the way it
-    turns. `None` without a cage, for less than a turn of the cage, whose mean place is that of an arc, and for a centre
-    that stays where it is."""
+    """Mean angular speed of the cage centre about its mean position over the mean cage speed; > 0: whirl in the
+    direction of rotation. `None` without a cage, for a run of less than one cage turn (its mean position is that of an
+    arc), and for a centre that does not move."""
     cage, time = history.instants.cage, np.asarray(history.time)
     if cage is None:
         return None
@@ -122,6 +125,6 @@ def whirl_ratio(history: History) -> float | None:
 
 
 def mean_whirl(time: np.ndarray, x: np.ndarray, y: np.ndarray) -> float:
-    """Mean angular speed, rad/s, of a point about its mean place: X to the right, Y upwards, counter-clockwise > 0."""
+    """Mean angular speed of a point about its mean position, rad/s; positive from X (right) to Y (up)."""
     turned = np.unwrap(np.arctan2(y - np.mean(y), x - np.mean(x)))
     return float((turned[-1] - turned[0]) / (time[-1] - time[0]))

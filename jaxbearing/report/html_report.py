@@ -27,19 +27,19 @@ def html_report(
     listings: Sequence[Listing] = (),
     interval: PowerInterval | None = None,
 ) -> str:
-    """The page of one solve, with all results as JSON in it.
+    """The HTML page of one solve, with all results embedded as JSON.
 
     **Arguments:**
-    - `scene`, `solution`: what was solved, and one solution of it that converged.
+    - `scene`, `solution`: the scene, and one converged solution of it.
     - `title`: name of the scene.
-    - `inputs`: fields of the scene by table, of `scenes.inputs.scene_inputs`.
-    - `when`: the date that the page bears.
-    - `catalogue`: of a bearing, with which makers' formulas stand beside its losses where one has a total; not given:
-      they do not.
-    - `listings`: further tables, which come before the makers' formulas.
-    - `interval`: of the power loss, by the inputs that are known by a distribution only; `None`: it is not shown.
+    - `inputs`: fields of the scene by table, as `scenes.inputs.scene_inputs` gives them.
+    - `when`: date printed on the page.
+    - `catalogue`: catalogue data of a bearing; if given, makers' formulas are compared with its losses, as far as one
+      of them gives a total.
+    - `listings`: further tables, shown before the makers' formulas.
+    - `interval`: interval of the power loss due to the inputs given by a distribution; not shown if `None`.
 
-    **Raises:** `ValueError` for a solution that did not converge: it has no results; `TypeError` for another kind of
+    **Raises:** `ValueError` for a solution that did not converge and so has no results; `TypeError` for another kind of
     solution.
     """
     content = output(solution, "page_content", "report")
@@ -55,7 +55,7 @@ def html_report(
     shown = dataclasses.replace(shown, listings=(*shown.listings, *listings))
     if catalogue is not None:
         beside = compared(scene, solution, catalogue)
-        # of a scene without an oil the formulas have no total
+        # for a scene without an oil the formulas give no total
         if any(law.total is not None for law in beside.laws):
             shown = dataclasses.replace(shown, listings=(*shown.listings, comparison_listing(beside)))
     return page(shown, title, inputs, solution_to_dict(solution), when)

@@ -1,4 +1,4 @@
-"""The interval of a power loss as a table of a page, and as a line of the screen."""
+"""The interval of a power loss as a table for the page and as text for the screen."""
 
 from collections.abc import Iterator
 
@@ -12,7 +12,8 @@ REMARK = "Only these inputs are counted, each independent of the others. All oth
 
 
 def interval_listing(interval: PowerInterval) -> Listing:
-    """The interval by all inputs that have a distribution, then that by each alone, the widest first."""
+    """Table of the interval due to all inputs with a distribution together, then of those due to each input alone,
+    widest first."""
     rows = [(part.path, with_unit(part.low, "W"), with_unit(part.high, "W"), part.assumed) for part in interval.parts]
     together = ("all of these", with_unit(interval.low, "W"), with_unit(interval.high, "W"), "")
     left_out = not_counted(part.path for part in interval.parts)
@@ -21,12 +22,12 @@ def interval_listing(interval: PowerInterval) -> Listing:
 
 
 def interval_headline(interval: PowerInterval) -> tuple[str, str]:
-    """Name and value of the interval among the few results at the top."""
+    """Name and value of the interval for the main results at the top."""
     return "power loss, 90 % between", f"{with_unit(interval.low, 'W')} and {with_unit(interval.high, 'W')}"
 
 
 def interval_lines(interval: PowerInterval) -> Iterator[str]:
-    """The same in sentences."""
+    """The interval and the inputs behind it as a sentence."""
     name, limits = interval_headline(interval)
     paths = [part.path for part in interval.parts]
     said = f"{name} {limits}, {'by' if len(paths) == 1 else 'mostly by'} {interval.by} ({interval.assumed})"

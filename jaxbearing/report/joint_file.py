@@ -15,7 +15,7 @@ _NEEDED = ("centre", "positive", "covariance")
 
 
 def write_joint(joint: JointDistribution, units: Mapping[str, str], path: str | os.PathLike[str], title: str) -> None:
-    """Writes a joint distribution. **Arguments:** `units`: SI, by field. **Raises:** `OSError`."""
+    """Writes a joint distribution. **Arguments:** `units`: SI unit of each field. **Raises:** `OSError`."""
     said = lambda text: {"units": "see field_units", "long_name": text}
     made = xr.Dataset(
         {
@@ -40,9 +40,9 @@ def write_joint(joint: JointDistribution, units: Mapping[str, str], path: str | 
 
 
 def read_joint(path: str | os.PathLike[str]) -> JointDistribution:
-    """Reads a file of `write_joint`.
+    """Reads a file written by `write_joint`.
 
-    **Raises:** `ValueError`, with the name of the file, for one that is not there or holds no joint distribution.
+    **Raises:** `ValueError`, with the name of the file, if the file does not exist or holds no joint distribution.
     """
     name = os.fspath(path)
     try:

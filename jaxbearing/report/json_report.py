@@ -30,12 +30,12 @@ RESULTS = {
     "film": "film.central",
     "traction": "traction_coefficient",
 }
-"""Fields of `Sensitivities` and the results that they are about."""
+"""Field of `Sensitivities` -> the result that it is about."""
 
 
 def sensitivities_to_dict(sensitivities: Sensitivities) -> dict[str, Any]:
-    """Sensitivities of each result to every input, largest modulus first; those that are not finite are `None`.
-    Results that the scene does not have are left out."""
+    """Sensitivities of each result to every input, largest absolute value first; values that are not finite are `None`.
+    Results that the scene does not model are left out."""
     return {
         RESULTS[name]: {path: plain(values[path]) for path in dict.fromkeys([*largest(values, len(values)), *values])}
         for name, values in sensitivities.modelled().items()
@@ -45,8 +45,8 @@ def sensitivities_to_dict(sensitivities: Sensitivities) -> dict[str, Any]:
 def effects_to_dict(
     effects: Mapping[str, Mapping[str, float]], tolerances: Mapping[str, UsualTolerance]
 ) -> dict[str, Any]:
-    """By how much each result moves for the usual tolerance of each input, the largest first: `effect`, relative to the
-    result (slip and temperature: absolute), `tolerance`, SI, and its `reason`."""
+    """Changes of each result due to the usual tolerance of each input, largest first: `effect`, relative to the result
+    (absolute for slip and temperature), `tolerance`, SI, and its `reason`."""
     return {
         RESULTS[name]: {
             path: {"effect": plain(value), "tolerance": tolerances[path].size, "reason": tolerances[path].reason}

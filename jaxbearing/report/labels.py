@@ -1,4 +1,4 @@
-"""The labels of results: units, and the dimensions of what is labelled."""
+"""The labels of results: units and dimensions."""
 
 import dataclasses
 import re
@@ -12,10 +12,10 @@ _FACTOR = re.compile(r"([A-Za-z]+)(?:\^([2-9]))?")
 
 
 def udunits(unit: str) -> str:
-    """A unit of the labels as UDUNITS and the CF conventions write it: "m^3/s" is "m3 s-1". A unit with a fractional
-    power, which they do not have, stands as it is: "N/m^(10/9)".
+    """A unit of the labels in the notation of UDUNITS and the CF conventions: "m^3/s" becomes "m3 s-1". Units with a
+    fractional power, which that notation lacks, stay unchanged: "N/m^(10/9)".
 
-    **Raises:** `ValueError` for what is not a product of powers over further units.
+    **Raises:** `ValueError` if the text is not a product of unit powers, possibly divided by further units.
     """
     if "^(" in unit:
         return unit
@@ -31,7 +31,7 @@ def udunits(unit: str) -> str:
 
 
 def label_unit(units: str) -> str:
-    """The way back: a unit of a data set, "m3 s-1", as the labels write it, "m^3/s"."""
+    """Inverse of `udunits`: converts the unit of a data set, "m3 s-1", to the notation of the labels, "m^3/s"."""
     powers = [re.fullmatch(r"([A-Za-z]+)(-?)([2-9]?)1?", factor) for factor in units.split()]
     if not powers or any(power is None for power in powers):
         return units
@@ -41,15 +41,15 @@ def label_unit(units: str) -> str:
 
 
 def variable_name(path: str) -> str:
-    """Name of a result in data sets."""
+    """Name of a result in a data set."""
     return path.removeprefix("elements.").replace(".", "_")
 
 
 def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Mapping[str, Any]]]:
-    """Path, value and label of every result, at any depth: fields that have a label, then what follows from them.
+    """Path, value and label of every result, at any depth: labelled fields first, then results derived from them.
 
-    The label is the field's metadata with `dims`, names of the dimensions of one result (see `dimensions`), and
-    `derived`, true for what follows from other results.
+    The label is the metadata of the field plus `dims`, the names of the dimensions of one result (see `dimensions`),
+    and `derived`, true for results derived from others.
     """
     for field in dataclasses.fields(part):
         value = getattr(part, field.name)
@@ -66,8 +66,8 @@ def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Mapping[str
 
 
 def dimensions(annotation: object) -> tuple[str, ...]:
-    """Names of the dimensions that an annotation says: of `Float[Array, "time node"] | None` they are `time` and
-    `node`; none of a number. Those of a batch, `*batch`, are no dimensions of one result."""
+    """Names of the dimensions in an annotation: `time` and `node` for `Float[Array, "time node"] | None`, none for a
+    number. Batch dimensions, `*batch`, are left out, because they are not dimensions of one result."""
     shape = getattr(annotation, "dim_str", None)
     if shape is not None:
         return tuple(name.partition("=")[0] for name in shape.split() if not name.startswith("*"))

@@ -1,4 +1,4 @@
-"""The last state of a run from its NetCDF file, to go on from."""
+"""Reads the last state of a transient run from its NetCDF file, to continue the run."""
 
 import json
 import os
@@ -25,15 +25,15 @@ _PREFIX = "last_state_"
 def read_last_state(path: object) -> LastState | FilmState | WarmState:
     """Reads the end of a run from the file of `jaxbearing simulate --out`, for `jaxbearing.simulate(..., restart=...)`.
 
-    The run may be of a bearing, of its temperatures or of a line contact, and may have been interrupted or have stopped
-    early.
+    The run may be that of a bearing, of bearing temperatures or of a line contact; it may have been interrupted or have
+    stopped early.
 
-    **Raises:** `OSError` for a file that cannot be read, `ValueError` for one that is not of a transient run.
+    **Raises:** `OSError` for a file that cannot be read, `ValueError` for a file that holds no transient run.
     """
     if not isinstance(path, str | os.PathLike):
         raise TypeError(f"read_last_state takes the path of a file, got {path!r}")
     name = os.fspath(path)
-    # the reader's own message for a missing file is a guess at engines
+    # xarray's own message for a missing file only suggests other engines
     check_regular(path)
     with open(path, "rb"):
         pass
@@ -46,7 +46,7 @@ def read_last_state(path: object) -> LastState | FilmState | WarmState:
             return _bearing_state(dataset)
     except _Other as error:
         raise ValueError(f"{name} is not a transient run that can be continued: {error}") from None
-    # what is no NetCDF file, or half of one, fails in many ways
+    # a truncated file, or one that is not NetCDF, fails in many ways
     except Exception as error:
         raise ValueError(f"{name} is not a NetCDF file that can be read: {_first_line(error)}") from None
 
@@ -113,20 +113,20 @@ def _identity(dataset: xr.Dataset) -> Identity | None:
 
 
 _MOST = 1_000_000
-"""Rolling elements or nodes of a state."""
+"""Largest allowed number of rolling elements or nodes of a state."""
 
 
 def _require(dataset: xr.Dataset, fields: Sequence[str]) -> None:
     missing = [field for field in fields if field not in dataset.variables]
     if missing:
         raise _Other(f"it has no {', '.join(missing)}")
-    # of a damaged or malicious file; the number of instants does not count, of which one is read
+    # of a damaged or malicious file; the number of instants may be larger, because only one is read
     if any(size > _MOST for name, size in dataset.sizes.items() if name != "time"):
         raise _Other("its dimensions are too large")
 
 
 class _Other(Exception):
-    """Error of a file that holds no transient run."""
+    """Error for a file that holds no transient run."""
 
 
 def _first_line(error: Exception) -> str:

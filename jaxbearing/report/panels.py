@@ -1,4 +1,4 @@
-"""One description of a chart, which every backend draws in its own way: matplotlib on paper, plotly on a page."""
+"""Descriptions of charts, which each backend draws in its own way: matplotlib on paper, plotly on a page."""
 
 import math
 from collections.abc import Sequence
@@ -11,15 +11,15 @@ from .display import digits
 
 DASHES = ("solid", "dash", "dot", "dashdot")
 MARKERS = ("circle", "square", "triangle-up", "diamond", "triangle-down", "triangle-left", "triangle-right")
-"""Shapes of points, and styles of lines, by which curves differ besides their colours."""
+"""Marker shapes (`DASHES`: line styles) that distinguish curves besides their colours."""
 
 
 @dataclass(frozen=True)
 class Series:
-    """A curve of numbers in the unit of the panel; what is not finite is a gap.
+    """A curve in the unit of its panel, with gaps where values are not finite.
 
     - `marker`: one of `MARKERS`, or "" for a line without points.
-    - `faint`: True for what the results are compared with.
+    - `faint`: True for a reference curve, with which the results are compared.
     """
 
     name: str
@@ -33,7 +33,7 @@ class Series:
 
 @dataclass(frozen=True)
 class Axis:
-    """Title, ends and ticks of an axis; those that are left out follow from the curves."""
+    """Title, limits and ticks of an axis; limits and ticks that are not given follow from the curves."""
 
     title: str = ""
     limits: tuple[float, float] | None = None
@@ -44,7 +44,7 @@ class Axis:
 
 @dataclass(frozen=True)
 class Mark:
-    """A point of a curve that is written out."""
+    """A point of a curve with a text beside it."""
 
     x: float
     y: float
@@ -53,11 +53,11 @@ class Mark:
 
 @dataclass(frozen=True)
 class Curves:
-    """Curves over one axis.
+    """Curves over a common horizontal axis.
 
-    - `unit`: of the vertical axis, "" for a number; it stands behind the title.
-    - `of_elements`: True if each point is a rolling element at its azimuth, deg; points are then marked everywhere.
-    - `levels`, `marks`: horizontal lines and points that are named, on paper only: a page shows numbers at the pointer.
+    - `unit`: of the vertical axis, after the title; "" for a dimensionless number.
+    - `of_elements`: True if each point is a rolling element at its azimuth, deg; every backend then marks the points.
+    - `levels`, `marks`: named horizontal lines and points, on paper only; a page shows values at the pointer.
     """
 
     name: str
@@ -74,9 +74,9 @@ class Curves:
 
 @dataclass(frozen=True)
 class Polar:
-    """Curves round a bearing, closed, over the azimuth in rad; azimuth 0 points down, counter-clockwise.
+    """Closed curves round a bearing over the azimuth in rad, which is 0 downwards and grows counter-clockwise.
 
-    `arrow`: azimuth along which the load points, on paper only: a page has the load in its drawing.
+    `arrow`: azimuth of the load, drawn on paper only; a page shows the load in its drawing.
     """
 
     name: str
@@ -89,9 +89,9 @@ class Polar:
 
 @dataclass(frozen=True)
 class Numbers:
-    """Results that are the same everywhere, as numbers in the place of flat curves.
+    """Results that are equal at all elements, as a table of numbers instead of flat curves.
 
-    `columns`: name and colour of each column; `rows`: name of a result and its numbers with units, one a column.
+    `columns`: name and colour of each column; `rows`: name of a result, and its number with unit for each column.
     """
 
     name: str
@@ -103,7 +103,7 @@ class Numbers:
 
 @dataclass(frozen=True)
 class Bars:
-    """Horizontal bars, the first above. `shares`: parts of the total, in words."""
+    """Horizontal bars, the first one at the top; `shares`: share of each bar in the total, as text."""
 
     name: str
     title: str
@@ -117,12 +117,12 @@ class Bars:
     colour: str
 
     def text(self, value: float) -> str:
-        """A value or the total, with as many decimals as the largest bar needs for four digits and at least one."""
+        """Text of a value or of the total, with decimals for four digits of the largest bar, but at least one."""
         shown = digits(max(self.values, key=abs))
         return digits(value) if "e" in shown else f"{value:.{max(1, len(shown.partition('.')[2]))}f}"
 
     def fraction(self, value: float) -> float:
-        """Length of a bar over that of the largest one; 0 for a value that is not above 0."""
+        """Length of the bar relative to the longest one; 0 for values that are not positive."""
         largest = max(self.values)
         return max(0.0, value) / largest if largest > 0.0 else 0.0
 
@@ -130,16 +130,16 @@ class Bars:
 Panel = Bars | Polar | Curves | Numbers
 
 SAME = 5e-4
-"""Largest difference of the values of a curve, over the largest one, that is no news: four digits show no more."""
+"""Relative spread of values up to which a curve counts as constant: in four digits it is hardly visible."""
 
 
 def constant(panel: Polar | Curves) -> bool:
-    """True if no curve of the panel changes by more than `SAME`."""
+    """True if the relative spread of each curve of the panel is at most `SAME`."""
     return all(_spread(np.asarray(one.y, dtype=float)) <= SAME for one in panel.series)
 
 
 def _spread(values: np.ndarray) -> float:
-    """Largest difference over the largest value by modulus; infinite where some values are not finite."""
+    """Largest minus smallest value, relative to the largest modulus; infinite if any value is not finite."""
     if not np.all(np.isfinite(values)):
         return math.inf
     largest = float(np.max(np.abs(values)))
@@ -147,12 +147,12 @@ def _spread(values: np.ndarray) -> float:
 
 
 def headed(panel: Polar | Curves) -> str:
-    """Title and unit."""
+    """Title of the panel with its unit."""
     return f"{panel.title}, {panel.unit}" if panel.unit else panel.title
 
 
 def round_up(value: float) -> float:
-    """The next number of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten."""
+    """The value rounded up to 1, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten; 1 if not positive."""
     if not value > 0.0:
         return 1.0
     power = 10.0 ** math.floor(math.log10(value))
@@ -161,7 +161,8 @@ def round_up(value: float) -> float:
 
 
 def log_ticks(low: float, high: float) -> list[float]:
-    """1, 2 and 5 times powers of ten between these limits; of many powers, the powers only."""
+    """Ticks of a logarithmic axis between `low` and `high`: 1, 2 and 5 times powers of ten, or powers of ten only over
+    many decades."""
     powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
     ticks = [step * 10.0**power for power in powers for step in ((1, 2, 5) if len(powers) < 5 else (1,))]
     return [tick for tick in ticks if low <= tick <= high]

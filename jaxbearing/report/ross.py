@@ -61,7 +61,7 @@ def ross_bearing(
     - `version`: major version of ROSS, 2 or 3.
 
     **Raises:** `ValueError` for fewer than 2 speeds (ROSS reads a single one as a constant), a stiffness that is not
-    finite, a table without the radial and the lateral degree of freedom, or another `tag`.
+    finite, a table without the radial and the lateral degree of freedom, or an invalid `tag`.
     """
     if len(table.speed) < FEWEST_SPEEDS:
         raise ValueError(f"a table over speed needs at least {FEWEST_SPEEDS} speeds, got {len(table.speed)}")

@@ -1,8 +1,8 @@
-"""The one rule about round-off, for all that people look at: screen, page, figures, notebooks.
+"""Removal of round-off from results on screen, page, figures and in notebooks.
 
-A number that is less than what a solve resolves of its quantity is shown as 0. Lengths, angles and ratios have an
-absolute resolution, since the scales of the equations fix it. Forces, powers, speeds and pressures have that of the
-largest one of their unit in the same result. Results in Python, JSON and NetCDF stay as they were found.
+A number whose modulus is below the resolution of the solve for its quantity is shown as 0. The resolution of lengths,
+angles and ratios is absolute, given by the scales of the equations. That of forces, powers, speeds and pressures is
+relative to the largest value of the same unit in the result. Results in Python, JSON and NetCDF stay unchanged.
 """
 
 import dataclasses
@@ -19,7 +19,7 @@ Result = TypeVar("Result")
 
 
 class Resolution(NamedTuple):
-    """Resolution of a quantity: `absolute`, in its SI unit, and `relative` to the largest one."""
+    """Resolution of a quantity: the larger of `absolute`, in its SI unit, and `relative` times the largest value."""
 
     absolute: float
     relative: float = 0.0
@@ -36,20 +36,21 @@ RESOLUTIONS = {
     "rad/s": Resolution(1e-12, 1e-9),
     "Pa": Resolution(1e-3, 1e-9),
 }
-"""By SI unit; numbers of other units are shown as they are. A length of 1 pm is a hundredth of an atom."""
+"""SI unit -> resolution; numbers of other units are shown as they are. 1 pm is about a hundredth of an atom."""
 RELATIVE = 1e-9
-"""Ratio of a force on a ring to the largest (lever 1 m), and of an entry of a stiffness to those of its diagonal."""
+"""Resolution of entries of a force vector relative to its largest force (moments with a lever of 1 m), and of entries
+of a stiffness matrix relative to the geometric mean of the diagonal entries of their row and column."""
 _FORCES = ("force", "on_shaft")
 _INPUTS = ("scene", "operation")
-"""Fields that hold inputs, which are shown as they were typed."""
+"""Fields with inputs, which are shown as given."""
 _OVERFLOWN = 1e30
-"""Numbers beyond belong to a case that failed; they make nothing of the other cases."""
+"""Larger numbers belong to failed cases of a batch and do not count as the largest value of a unit."""
 _DIAGNOSTICS = ("residual_norm", "inner_residual")
-"""Results that say how well a solve has converged, which is round-off by its nature."""
+"""Residuals of the solve, which are shown although they are of the size of round-off."""
 
 
 def without_round_off(result: Result) -> Result:
-    """A copy of a solution, or of a transient run, whose numbers below their resolution are 0."""
+    """A copy of a solution or transient run in which numbers below their resolution are 0."""
     largest: dict[str, float] = {}
     for part in _parts(result):
         for _, value, metadata in labelled(part):
@@ -59,12 +60,12 @@ def without_round_off(result: Result) -> Result:
 
 
 def _largest(numbers: np.ndarray) -> float:
-    """Largest modulus of those that have not overflown."""
+    """Largest modulus of the numbers that have not overflowed (`_OVERFLOWN`)."""
     return float(np.max(np.abs(numbers), initial=0.0, where=np.abs(numbers) < _OVERFLOWN))
 
 
 def _parts(result: Any) -> Iterator[Any]:
-    """The result, and the results of the bearings and sets that it holds by their names."""
+    """The result itself, then the results of its bearings and sets, which it holds in dictionaries."""
     yield result
     for field in dataclasses.fields(result):
         inner = getattr(result, field.name)
@@ -73,7 +74,7 @@ def _parts(result: Any) -> Iterator[Any]:
 
 
 def _cleaned(part: Any, floors: Mapping[str, float]) -> Any:
-    """The part itself where nothing of it is round-off."""
+    """A copy of the part without round-off; the part itself if it has none."""
     changes: dict[str, Any] = {}
     for field in dataclasses.fields(part):
         value = getattr(part, field.name)

@@ -1,5 +1,5 @@
-"""Statistics of a transient run: loads, motion of the cage, variation of the speeds, energy that sliding takes,
-skidding, and stresses of the cage. Shocks and peaks turn by turn are in `history_shocks`."""
+"""Statistics of a transient run: loads, motion of the cage, variation of orbital speeds, energy lost by sliding,
+skidding, and stresses of the cage. Shocks and peaks of each turn are in `history_shocks`."""
 
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -16,19 +16,21 @@ if TYPE_CHECKING:
 
 SIDES = ("inner", "outer")
 SKID = 0.02
-"""Sliding along rolling over the mean speed of the surfaces from which an element counts as skidding: tractions reach
-most of their limit below 1 %."""
+"""Slide-to-roll ratio in the rolling direction above which an element counts as skidding: below 1 % already, tractions
+reach most of their limit."""
 PLACES_PER_POCKET = 4
-"""Places of the rails, to each pocket, at which their bending is looked at."""
+"""Number of places per pocket at which the bending of the rails is evaluated."""
 
 
 class CageStress(NamedTuple):
     """Stresses of the cage over time, Pa.
 
-    - `hoop`: of rotation; `rail`: largest bending of the rails, by the pocket loads of the instants; `bar`: bending of
-      each bar between a pocket and the next one, by the larger one of its loads since the instant before.
-    - `rail_mean`, `rail_range`: of rotation and bending together at the place of the rails where that range over the
-      run is largest.
+    - `hoop`: hoop stress by rotation, Pa.
+    - `rail`: largest bending stress of the rails under the pocket loads at each instant, Pa.
+    - `bar`: bending stress of each bar between two pockets, Pa, under the larger of the two peak loads on it since the
+      previous instant.
+    - `rail_mean`, `rail_range`: mean and range over the run of hoop plus bending stress, Pa, at the place of the rails
+      where this range is largest.
     """
 
     hoop: Float[np.ndarray, " time"]
@@ -39,7 +41,7 @@ class CageStress(NamedTuple):
 
 
 def load_statistics(values: "npt.ArrayLike") -> dict[str, float]:
-    """Mean, root of the mean square, 99 % quantile and largest of all values."""
+    """Mean, root mean square, 99 % quantile and maximum of all values."""
     values = np.asarray(values, dtype=float)
     return {
         "mean": float(values.mean()),
@@ -50,8 +52,8 @@ def load_statistics(values: "npt.ArrayLike") -> dict[str, float]:
 
 
 def cage_orbit(history: History) -> dict[str, float] | None:
-    """The orbit of the cage's centre: its mean place, mean and largest distance from that, m, and the standard
-    deviation of its speed over the mean (small: the centre whirls evenly). `None` without a cage."""
+    """Orbit of the cage centre: mean position, mean and largest distance from it, m, and standard deviation of the
+    centre's speed over its mean (small: steady whirl). `None` without a cage."""
     cage = history.instants.cage
     if cage is None:
         return None
@@ -68,8 +70,12 @@ def cage_orbit(history: History) -> dict[str, float] | None:
 
 
 def speed_variation(history: History) -> dict[str, float] | None:
-    """Variation of the orbital speeds: the largest range over the run of one element's speed over the mean of all, and
-    the largest distance of an element along the pitch circle from its own mean place in the row, m."""
+    """Variation of the orbital speeds; `None` for families without them.
+
+    `range_of_one`: largest range of one element's speed over the run; `between_elements`: largest range of the speeds
+    of all elements at one instant; both over the mean speed. `excursion`: largest displacement of an element along the
+    pitch circle from its mean place in the row, m.
+    """
     found = getattr(history.instants.elements, "orbital_speed", None)
     if found is None:
         return None
@@ -88,7 +94,7 @@ def speed_variation(history: History) -> dict[str, float] | None:
 
 
 def sliding_power(history: History) -> dict[str, Float[np.ndarray, "time element"]]:
-    """Loss by sliding of each element, W, by place: on both raceways and in the pocket, as far as a family has it."""
+    """Power loss by sliding of each element, W: on the raceways and in the pocket, as far as the run has them."""
     instants, elements = history.instants, history.instants.elements
     found = {}
     for side in SIDES:
@@ -103,15 +109,14 @@ def sliding_power(history: History) -> dict[str, Float[np.ndarray, "time element
 
 
 def sliding_energy(history: History) -> dict[str, Float[np.ndarray, " element"]]:
-    """Energy that sliding takes at each element over the run, J, by place: the trapezoidal rule over the instants."""
+    """Energy lost by sliding of each element over the run, J: `sliding_power` integrated by the trapezoidal rule."""
     time = np.asarray(history.time)
     return {place: _integral(time, power) for place, power in sliding_power(history).items()}
 
 
 def groove_energy(history: History) -> dict[str, Float[np.ndarray, " groove_angle"]]:
-    """Energy that sliding takes over the run in each interval of angle of the grooves (`Instant.groove_angles`), J, by
-    side: the trapezoidal rule over the instants. It is empty for families and laws that do not tell where in a contact
-    power is lost."""
+    """Energy lost by sliding over the run in each angle interval of the grooves (`Instant.groove_angles`), J, by side:
+    trapezoidal rule over the instants. It is empty for families and laws that do not resolve the loss in a contact."""
     instants, time = history.instants, np.asarray(history.time)
     losses = {side: getattr(instants, f"groove_loss_{side}", None) for side in SIDES}
     return {side: _integral(time, np.asarray(loss)) for side, loss in losses.items() if loss is not None}
@@ -123,16 +128,17 @@ def _integral(time: np.ndarray, values: np.ndarray) -> np.ndarray:
 
 
 def turns_done(history: History) -> float:
-    """Turns of the cage (or, without one, of the first element) in the run."""
+    """Number of turns of the cage in the run; of the first element, if there is no cage."""
     return float(np.abs(angle_of(history)[-1])) / (2.0 * math.pi)
 
 
 def skidding(history: History) -> dict[str, dict[str, Any]]:
-    """Tells where and when elements skid on each raceway; it is empty for families without `slide_to_roll`.
+    """Where and when elements skid on each raceway; empty for families without `slide_to_roll`.
 
-    It has the share of instants and elements with more than `SKID`, the largest and the mean sliding over rolling, the
-    share by azimuth (`SECTORS` from the load line) and the stretches of time (s) in which more than half of the
-    elements skid."""
+    For each side: share of the instants and elements that skid (above `SKID`), mean and largest slide-to-roll ratio,
+    share by azimuth (`SECTORS` sectors from the load line), and time intervals, s, in which more than half of the
+    elements skid.
+    """
     instants, found = history.instants, {}
     time = np.asarray(history.time)
     azimuth = np.mod(np.asarray(instants.elements.azimuth), 2.0 * math.pi)
@@ -155,14 +161,14 @@ def skidding(history: History) -> dict[str, dict[str, Any]]:
 
 
 def _stretches(time: np.ndarray, on: np.ndarray) -> list[tuple[float, float]]:
-    """First and last instants of every stretch of time in which something holds."""
+    """First and last instant of each time interval in which `on` is true."""
     edges = np.diff(np.concatenate([[0], on.astype(int), [0]]))
     begins, ends = np.flatnonzero(edges > 0), np.flatnonzero(edges < 0) - 1
     return [(float(time[a]), float(time[b])) for a, b in zip(begins, ends, strict=True)]
 
 
 def cage_stress(history: History) -> CageStress | None:
-    """Stresses of the cage; `None` without one, or where the run does not say what the cage is like."""
+    """Stresses of the cage; `None` without a cage, or if the run lacks its section or the peaks of pocket loads."""
     section, instants = history.cage_section, history.instants
     if section is None or instants.cage is None or instants.pocket_peaks is None:
         return None
@@ -171,10 +177,10 @@ def cage_stress(history: History) -> CageStress | None:
     count = front.shape[1]
     pockets = 2.0 * np.pi * np.arange(count) / count
     places = 2.0 * np.pi * np.arange(PLACES_PER_POCKET * count) / (PLACES_PER_POCKET * count)
-    # the elements push their cage forward by its front walls
+    # elements push the cage forward at the front walls of the pockets
     rails = np.asarray(section.rails(jnp.asarray(places), jnp.asarray(pockets), jnp.asarray(front - rear)))
     hoop = np.asarray(section.hoop(jnp.asarray(instants.cage.speed)))
-    # between a pocket and the next one ahead stands a bar: the front wall of the one, the rear wall of the other
+    # a bar is the front wall of its pocket and the rear wall of the next pocket ahead
     on_bar = np.maximum(np.asarray(peaks.front), np.roll(np.asarray(peaks.rear), -1, axis=1))
     together = hoop[:, None] + rails
     worst = int(np.argmax(np.ptp(together, axis=0)))

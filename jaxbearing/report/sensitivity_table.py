@@ -1,4 +1,4 @@
-"""Sensitivities on the screen: the inputs that decide each result."""
+"""Sensitivities on the screen: the inputs with the largest influence on each result."""
 
 import math
 from collections.abc import Mapping
@@ -20,11 +20,12 @@ from .display import digits, with_unit
 SHOWN = 5
 """Number of inputs that are shown for each result."""
 SMALL = 0.01
-"""Part of the widest interval below which that of an input is not shown."""
+"""Width of an input's interval relative to the widest one, below which the interval is not printed."""
 UNCERTAIN = ("drag.coefficient",)
 """Poorly known inputs, which are always shown."""
 LAW_CONSTANTS = ("oil.", "contact.")
-"""Constants of laws: an engineer does not choose them one by one; the oil's temperature stands for them here."""
+"""Beginnings of the paths of law constants, which are not listed: an engineer does not choose them one by one; the
+temperature of the oil represents them."""
 
 
 NAMES = {
@@ -50,12 +51,12 @@ TITLES = {
     "traction": "d ln(traction coefficient) / d ln(input)",
 }
 ABREAST = 2
-"""Results side by side: more do not fit into the width of a terminal."""
+"""Number of results side by side, as many as fit into the width of a terminal."""
 
 
 def print_sensitivities(sensitivities: Sensitivities, console: Console, interval: PowerInterval | None = None) -> None:
-    """The five largest of each result, and always the inputs that nobody knows well; limits of the power loss where
-    they are given."""
+    """Prints the `SHOWN` largest sensitivities of each result, always those of `UNCERTAIN` inputs, and the interval of
+    the power loss if it is given."""
     console.print(Rule("Sensitivities", align="left", style="dim"))
     modelled = list(sensitivities.modelled().items())
     for first in range(0, len(modelled), ABREAST):
@@ -72,7 +73,7 @@ def print_effects(
     console: Console,
     interval: PowerInterval | None = None,
 ) -> None:
-    """The inputs that move each result most by their usual tolerances. **Arguments:** `effects`: of
+    """Prints the inputs whose usual tolerances change each result most. **Arguments:** `effects`: result of
     `sensitivity.effects`."""
     units = {path: _unit_of(scene, path) for path in tolerances}
     console.print(Rule("Sensitivities, by usual tolerances", align="left", style="dim"))
@@ -102,20 +103,20 @@ def _effects_table(
 
 
 def _unit_of(scene: AbstractScene, path: str) -> str:
-    """SI unit of a number of a scene; "1" where its class says none."""
+    """SI unit of the field of a scene at `path`; "1" if its class gives no unit."""
     above, _, last = path.rpartition(".")
     part: Any = scene.part_at(above) if above else scene
     return type(part).__dataclass_fields__[last].metadata.get("unit", "1")
 
 
 def ranked(found: Mapping[str, float]) -> list[str]:
-    """Paths by the modulus of their effects, the largest first, without what has none."""
+    """Paths in descending order of the modulus of their effects, without those of zero or non-finite effect."""
     there = [path for path, value in found.items() if value and math.isfinite(value)]
     return sorted(there, key=lambda path: -abs(found[path]))
 
 
 def _effect(name: str, value: float) -> str:
-    """A change: in per cent, of a temperature in K, of the slip in points."""
+    """Text of a change: in K for a temperature, in percentage points for `ABSOLUTE` results, else in per cent."""
     sign = "+" if value > 0.0 else ""
     if name == "temperature":
         return f"{sign}{digits(value, 3)} K"

@@ -1,4 +1,4 @@
-"""Stiffness of a bearing over the speed of its shaft: solved speed by speed, and as JSON."""
+"""Stiffness of a bearing over shaft speed, and its form for JSON."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 
 class StiffnessTable(NamedTuple):
-    """Tangent stiffness of the inner ring at each shaft speed, everything inside the bearing in equilibrium.
+    """Tangent stiffness of the inner ring at each shaft speed, with everything inside the bearing in equilibrium.
 
     - `speed`: of the inner ring, rad/s.
     - `stiffness`: d load / d displacement of all five degrees of freedom, N/m, N/rad, N m/m and N m/rad; axes: speed,
-      row, column. Entries of a freedom that the model does not have are 0.
-    - `freedom`: names of its rows and columns.
-    - `modelled`: those that the model has.
-    - `warnings`: what left the range of a law at some speed, and what the model assumed.
+      row, column. Entries of a degree of freedom that is not modelled are 0.
+    - `freedom`: names of the rows and columns.
+    - `modelled`: names of the degrees of freedom that are modelled.
+    - `warnings`: laws used outside their ranges at any speed, and assumptions of the model.
     """
 
     speed: np.ndarray
@@ -37,11 +37,12 @@ class StiffnessTable(NamedTuple):
 
 
 def at_speeds(scene: AbstractScene, speeds: "npt.ArrayLike") -> list[AbstractBearing]:
-    """The scene at each speed of the inner ring, rad/s, with the degrees of freedom of the ring that its stiffness
-    needs: where the ring of a roller bearing moves along the load line only, it is given the lateral freedom too.
+    """The scene at each speed of the inner ring, rad/s, with the degrees of freedom that the stiffness needs.
 
-    **Raises:** `TypeError` for a scene of something else than a bearing; `ValueError` for speeds that are not finite,
-    >= 0 and increasing, or that the scene refuses.
+    A roller bearing whose ring moves only along the load line gets the lateral degree of freedom as well.
+
+    **Raises:** `TypeError` for a scene that is not a bearing; `ValueError` for speeds that are not finite, >= 0 and
+    increasing, or that the scene refuses.
     """
     if not isinstance(scene, AbstractBearing):
         raise TypeError(f"a {type(scene).__name__} has no stiffness; expected a bearing")
@@ -53,7 +54,7 @@ def at_speeds(scene: AbstractScene, speeds: "npt.ArrayLike") -> list[AbstractBea
 
 
 def _at_speed(scene: AbstractBearing, speed: float) -> AbstractBearing:
-    """**Raises:** `ValueError` that names the speed for which the scene has no meaning."""
+    """The scene at one speed. **Raises:** `ValueError` that names the speed, if the scene refuses it."""
     try:
         return scene.at_operation(inner_speed=speed)
     except ValueError as error:
@@ -63,13 +64,13 @@ def _at_speed(scene: AbstractBearing, speed: float) -> AbstractBearing:
 def stiffness_over_speed(
     scene: AbstractScene, speeds: "npt.ArrayLike", *, solver: Callable[[AbstractBearing], Solution] | None = None
 ) -> StiffnessTable:
-    """Solves at each speed; the loads on the bearing are the scene's at all of them.
+    """Table of the stiffness over speed: solves the bearing at each speed, under the loads of the scene.
 
     **Arguments:**
-    - `speeds`: of the shaft, which carries the inner ring; rad/s, increasing.
-    - `solver`: from a scene to a solution, without raising; that of `jit_solver` if not given.
+    - `speeds`: of the shaft and inner ring, rad/s, increasing.
+    - `solver`: function from a scene to a solution that does not raise; that of `jit_solver` if not given.
 
-    **Raises:** as `at_speeds`; `SolveError` for the first speed that fails: there is no table with a gap.
+    **Raises:** as `at_speeds`; `SolveError` for the first speed at which the solve fails.
     """
     scenes = at_speeds(scene, speeds)
     if not scenes:
@@ -92,7 +93,7 @@ def stiffness_over_speed(
 
 
 def stiffness_to_dict(table: StiffnessTable) -> dict[str, Any]:
-    """The table as JSON has it: SI units and radians; numbers that are not finite, and entries of degrees of freedom
-    that are not modelled, are `None`."""
+    """The table for JSON, in SI units and radians; `None` for numbers that are not finite and for entries of degrees of
+    freedom that are not modelled."""
     found = {name: plain(value) for name, value in table._asdict().items()}
     return found | {"stiffness": modelled_only(table.stiffness, table.modelled)}

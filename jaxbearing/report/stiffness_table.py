@@ -1,4 +1,4 @@
-"""Stiffness over the speed of the shaft on the screen."""
+"""Stiffness of a bearing over shaft speed, on the screen."""
 
 from collections.abc import Iterable
 
@@ -11,7 +11,7 @@ from .stiffness import StiffnessTable
 
 
 def print_stiffness(table: StiffnessTable, scene_label: str, console: Console, full: bool = False) -> None:
-    """The diagonal of the stiffness against speed; in full all columns."""
+    """Prints the diagonal of the stiffness matrix over speed. **Arguments:** `full`: print all columns."""
     state = f"{counted(len(table.speed), 'speed')} solved; entries off the diagonal: --json"
     headline(scene_label, "CONVERGED", "bold green", state, console)
     units = stiffness_units()

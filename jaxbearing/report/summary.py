@@ -1,4 +1,4 @@
-"""The summary of a solution on the screen, whatever its kind."""
+"""Summary of a solution of any kind on the screen."""
 
 from typing import TYPE_CHECKING
 
@@ -12,14 +12,13 @@ if TYPE_CHECKING:
 
 
 def print_summary(solution: "AbstractSolution", scene_label: str, console: Console, full: bool = False) -> None:
-    """Print one solution; where the solve failed, status, residual and worst equation and no result.
+    """Prints one solution; if the solve failed, status, residual and worst equation instead of results.
 
     **Arguments:**
     - `scene_label`: name or file of the scene.
-    - `console`: where to; it decides on colours, width and characters.
-    - `full`: whether assumptions are listed, and a bearing's summary has all that there is, with a row for each loaded
-      element.
+    - `console`: console to print to; it determines colours, width and characters.
+    - `full`: True to list assumptions, and to print all results of a bearing, with a row for each loaded element.
 
-    **Raises:** `TypeError` for another kind of solution.
+    **Raises:** `TypeError` for a solution of a kind that has no summary.
     """
     output(solution, "summary", "summary")(without_round_off(solution), scene_label, console, full)

@@ -1,4 +1,4 @@
-"""A sweep on the screen: how many cases, why some failed, the spread of the main results."""
+"""Summary of a sweep on the screen: number of cases, reasons of failures, range of the main results."""
 
 import collections
 import os
@@ -32,15 +32,19 @@ _MAIN = (
     "bearing_largest_load",
     "torque_power_loss",
 )
-"""Results that are shown, where the scene has them."""
+"""Results that are shown, if the data set has them."""
 _FEW, _FEW_FIELDS = 20, 3
-"""Cases, and fields that vary, up to which every case is shown."""
+"""Numbers of cases and of varied fields, up to which all cases are listed."""
 _REASONS = 3
-"""Reasons of failures that are shown, the most frequent ones."""
+"""Number of reasons of failures that are shown, the most frequent ones first."""
 
 
 def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: float, console: Console) -> None:
-    """**Arguments:** `file`: the store; `kept`: cases that an earlier run had computed; `seconds`: of this run."""
+    """Prints the summary of a sweep.
+
+    **Arguments:** `file`: store of the sweep; `kept`: number of cases computed by an earlier run; `seconds`: duration
+    of this run, s.
+    """
     with opened(file) as whole:
         dataset, failure = without_lives_that_yield(whole), failures(whole)
         failed = int(np.sum(failure != ""))
@@ -88,7 +92,7 @@ def _yield(dataset: xr.Dataset) -> Iterator[str]:
 
 
 def _held(dataset: xr.Dataset) -> dict[str, str]:
-    """Loads that the degrees of freedom need whose displacement the scene gives."""
+    """Name -> range of the load that results for each prescribed displacement."""
     found = {}
     for freedom, load in LOAD_FIELDS.items():
         given = f"operation_{HELD_FIELDS[freedom].replace('.', '_')}"
@@ -100,7 +104,7 @@ def _held(dataset: xr.Dataset) -> dict[str, str]:
 
 
 def _spread(values: xr.DataArray) -> str:
-    """Smallest and largest value, in engineer's units."""
+    """Text of the smallest and largest finite value, in display units; "-" if there is none."""
     numbers = values.values[np.isfinite(values.values)]
     if numbers.size == 0:
         return "-"

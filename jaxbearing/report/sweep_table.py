@@ -1,4 +1,4 @@
-"""A sweep as a table, one case a row: a few columns on the screen, all of them in a CSV file."""
+"""A sweep as a table with one row for each case: some columns on the screen, all in a CSV file."""
 
 import csv
 import os
@@ -19,13 +19,13 @@ from .stores import opened
 
 CONVERGED, YIELDS = "converged", "yields"
 _LIFE = re.compile(r"(.*_)?L(10|n)")
-"""Beginning of the names of lives, in hours, in millions of turns, of a bearing and of a system."""
+"""Pattern of the beginning of the names of lives, of bearings and systems, in hours or millions of turns."""
 _EXACT = 10
-"""Digits of the numbers in a file."""
+"""Significant digits of the numbers in a file."""
 
 
 class Column(NamedTuple):
-    """Numbers of all cases in the unit in which results are shown."""
+    """Values of a field or result in all cases, in the display unit."""
 
     name: str
     unit: str
@@ -33,17 +33,17 @@ class Column(NamedTuple):
 
     @property
     def header(self) -> str:
-        """Name and unit, as a list of cases for a sweep has them."""
+        """Heading with name and unit, in the form of a list of cases for a sweep."""
         return f"{self.name} [{self.unit}]" if self.unit else self.name
 
 
 def failures(dataset: xr.Dataset) -> np.ndarray:
-    """Reason of each case that failed, "" for the others."""
+    """Reason of failure of each case; "" for a case that converged."""
     return dataset["failure"].values.astype(object).ravel()
 
 
 def yielding(dataset: xr.Dataset) -> xr.DataArray:
-    """True for each case whose elements and races yield: one of its static safeties is below 1."""
+    """True for each case in which elements and raceways yield, because a static safety is below 1."""
     cases = dataset["failure"]
     yields = xr.zeros_like(cases, dtype=bool)
     for name in dataset.data_vars:
@@ -54,24 +54,24 @@ def yielding(dataset: xr.Dataset) -> xr.DataArray:
 
 
 def without_lives_that_yield(dataset: xr.Dataset) -> xr.Dataset:
-    """The sweep with NaN for the lives of cases that yield, as `solve` gives none."""
+    """The sweep with NaN for the lives of cases that yield, for which `solve` gives no life either."""
     good = ~yielding(dataset)
     return dataset.assign({name: one.where(good) for name, one in dataset.data_vars.items() if _LIFE.match(str(name))})
 
 
 def ends(dataset: xr.Dataset) -> list[str]:
-    """The reason of failure of each case, or `YIELDS`, or `CONVERGED`."""
+    """State of each case: its reason of failure, `YIELDS` or `CONVERGED`."""
     own = yielding(dataset).transpose(*dataset["failure"].dims).values.ravel()
     return [why or (YIELDS if bad else CONVERGED) for why, bad in zip(failures(dataset), own, strict=True)]
 
 
 def fields(dataset: xr.Dataset) -> list[Column]:
-    """The fields that the sweep varies, under their paths in a scene file."""
+    """Columns of the fields that the sweep varies, under their paths in a scene file."""
     return [_column(dataset, path.replace(".", "_"), path) for path in dataset.attrs["sweep_fields"].split()]
 
 
 def results(dataset: xr.Dataset, names: Iterable[str] | None = None) -> list[Column]:
-    """Results that are one number a case. **Arguments:** `names`: those that are wanted and there; `None`: all."""
+    """Columns of the results with one number per case. **Arguments:** `names`: wanted results; `None`: all."""
     cases = set(dataset["failure"].dims)
     varied = {path.replace(".", "_") for path in dataset.attrs["sweep_fields"].split()}
     wanted = dataset.data_vars if names is None else [name for name in names if name in dataset]
@@ -83,7 +83,7 @@ def results(dataset: xr.Dataset, names: Iterable[str] | None = None) -> list[Col
 
 
 def print_cases(dataset: xr.Dataset, names: Iterable[str], console: Console) -> None:
-    """The fields, how each case ended unless all are well, and the named results that are not 0 everywhere."""
+    """Prints the varied fields, the state of each case unless all are `CONVERGED`, and results not all 0."""
     own = fields(dataset)
     shown = [*own, *(one for one in results(dataset, names) if np.nansum(np.abs(one.values)))]
     last = [one.name.rpartition(".")[2] for one in shown]
@@ -97,11 +97,11 @@ def print_cases(dataset: xr.Dataset, names: Iterable[str], console: Console) -> 
 
 
 def write_table(path: Path, file: str | os.PathLike[str]) -> None:
-    """Writes a sweep as a CSV file: the fields, all results that are one number a case, and how each case ended.
+    """Writes a sweep as a CSV file: varied fields, all results with one number per case, and the state of each case.
 
-    A number that a case lacks is left empty, as are the lives of a bearing that yields. Units are those of the screen.
+    Cells of missing numbers and of the lives of cases that yield are empty. Units are those of the screen.
 
-    **Arguments:** `path`: of the CSV file, which appears whole or not at all; `file`: the store of the sweep.
+    **Arguments:** `path`: path of the CSV file, which appears whole or not at all; `file`: store of the sweep.
 
     **Raises:** `OSError` if the file cannot be written.
     """

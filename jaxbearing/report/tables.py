@@ -1,4 +1,4 @@
-"""Results as rows of tables, from the labels that the result classes carry."""
+"""Results as rows and columns of tables, from the labels of the result classes."""
 
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from .labels import labelled
 
 @dataclass(frozen=True)
 class Row:
-    """One number: dotted path of the Python result, value in its unit, what it is."""
+    """A scalar result: dotted path in Python, value as text, its unit, and description."""
 
     path: str
     value: str
@@ -23,7 +23,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Column:
-    """A result with one value for each element: name, unit, description, values."""
+    """A result with one value for each element: name, unit, description, and values as texts."""
 
     name: str
     unit: str
@@ -32,7 +32,7 @@ class Column:
 
 
 def result_rows(solution: AbstractSolution, left_out: Collection[str] = ()) -> list[Row]:
-    """All results that are one number, but for those at these paths."""
+    """Rows of all scalar results except those at the paths `left_out`."""
     return [
         row_of(path, np.asarray(value), metadata)
         for path, value, metadata in labelled(solution)
@@ -49,7 +49,7 @@ def row_of(path: str, value: np.ndarray, metadata: Mapping[str, str]) -> Row:
 
 
 def element_columns(solution: AbstractSolution) -> list[Column]:
-    """All results that have one value for each rolling element, whichever part of the solution they are in."""
+    """Columns of all results with one value for each rolling element, in any part of the solution."""
     return list(_columns(solution))
 
 
@@ -65,8 +65,8 @@ def _columns(solution: AbstractSolution) -> Iterator[Column]:
 
 
 def derived_facts(solution: AbstractSolution, left_out: Collection[str] = ()) -> Iterator[tuple[str, str]]:
-    """Lines for the screen of the results that follow from others, but for those at these paths: value and meaning, of
-    many the least and largest value."""
+    """Heading and text of each derived result except those at the paths `left_out`: value and description; of an array
+    the smallest and the largest value."""
     head = "Derived"
     for path, value, metadata in labelled(solution):
         if metadata["derived"] and path not in left_out:

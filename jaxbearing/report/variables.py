@@ -1,4 +1,4 @@
-"""From fields with labels to variables of a data set: meanings, dimensions, names, attributes."""
+"""Variables of a data set, with dimensions and attributes, from the labels of result fields."""
 
 import json
 import re
@@ -14,7 +14,7 @@ from .._scene import AbstractSolution
 from .labels import udunits
 
 CHECK = "check"
-"""Dimension of the checks of the laws' ranges."""
+"""Name of the dimension of the range checks of the laws."""
 
 
 def variable(
@@ -27,9 +27,9 @@ def variable(
     """A result as a variable, with the dimensions of its label.
 
     **Arguments:**
-    - `leading`: dimensions of a batch; a number that the whole batch shares, such as the number of unknowns, has none
-      of them.
-    - `names`: other names for dimensions of the label.
+    - `leading`: dimensions of a batch; a value that the whole batch shares, such as the number of unknowns, has none of
+      them.
+    - `names`: dimension of the label -> its name in the data set, where they differ.
     """
     values, renamed = np.asarray(value), names or {}
     own = [renamed.get(name, name) for name in metadata["dims"]]
@@ -42,7 +42,7 @@ def described(metadata: Mapping[str, str], path: str) -> dict[str, str]:
 
 
 def flags(dtype: np.dtype, meanings: Sequence[str]) -> dict[str, Any]:
-    """Attributes of an enumeration: its values and what they mean."""
+    """Attributes of an enumeration: its values and their meanings."""
     words = " ".join(re.sub(r"[^\w-]+", "_", meaning) for meaning in meanings)
     return {"flag_values": np.arange(len(meanings), dtype=dtype), "flag_meanings": words}
 
@@ -55,9 +55,11 @@ def checks(solution: AbstractSolution, dims: tuple[str, ...]) -> xr.Variable:
 
 
 def common(values: np.ndarray, own: int, name: str) -> np.ndarray:
-    """Gives what is the same in all lanes, from values with `own` dimensions behind the batch; failed lanes are NaN.
+    """The value that all lanes of a batch share; NaN of failed lanes is ignored.
 
-    **Raises:** `ValueError` where the lanes differ.
+    **Arguments:** `own`: number of dimensions of the value, after those of the batch.
+
+    **Raises:** `ValueError` if the lanes differ.
     """
     lanes = values.reshape(-1, *values.shape[values.ndim - own :])
     # fmax and fmin pass over NaN
@@ -68,14 +70,14 @@ def common(values: np.ndarray, own: int, name: str) -> np.ndarray:
 
 
 def without_fill(dataset: xr.Dataset) -> xr.Dataset:
-    """Removes the mark of missing values from coordinates: they have none, and the conventions forbid the mark."""
+    """Removes `_FillValue` from coordinates, which have no missing values; the CF conventions forbid it there."""
     for coordinate in dataset.coords.values():
         coordinate.encoding["_FillValue"] = None
     return dataset
 
 
 def attributes(solution: AbstractSolution, title: str) -> dict[str, str]:
-    """Gives the attributes of the data set: title, version, warnings and notes in words."""
+    """Attributes of the data set: title, version, warnings and notes."""
     return {
         "Conventions": "CF-1.11",
         "title": title,
@@ -87,13 +89,13 @@ def attributes(solution: AbstractSolution, title: str) -> dict[str, str]:
 
 
 NODES = "nodes"
-"""Attribute of the file of a run of temperatures: names of the nodes, with commas between them."""
+"""Attribute in the file of a transient run of temperatures: names of the nodes, separated by commas."""
 IDENTITY = "scene_identity"
-"""Attribute of the file of a transient run: which bearing or contact it is, as JSON."""
+"""Attribute in the file of a transient run: identity of the bearing or contact, as JSON."""
 
 
 def identity_text(identity: Identity | None) -> dict[str, str]:
-    """The identity as an attribute of a data set."""
+    """The identity of a scene as an attribute of a data set; empty without one."""
     return {} if identity is None else {IDENTITY: json.dumps(identity.told())}
 
 

@@ -1,5 +1,5 @@
 """CSV files that a person or a spreadsheet wrote: lines numbered as in an editor, cells, headers with units, numbers
-with one decimal mark throughout a file. What they hold is for their readers to know."""
+with one decimal mark throughout a file. The callers interpret the content."""
 
 import csv
 import math
@@ -15,14 +15,14 @@ from .toml_files import read_text
 from .words import describe
 
 SEPARATORS = {",": "','", ";": "';'", "\t": "a tab"}
-"""Separators of columns, with their names in messages. A decimal comma needs one of the latter two."""
+"""Separators of columns, with their names in messages. With decimal commas only the latter two are possible."""
 _HEADER = re.compile(r"(?P<name>[^\[\]]*?(?:\[[0-9]+\])*)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?")
 # Stricter than `float`, which takes "1_000", digits of other scripts and "infinity".
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+(?P<mark>[.,])?[0-9]*|(?P<leading_mark>[.,])[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _NON_FINITE = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
 _MARK_NAMES = {".": "point", ",": "comma"}
 _MINUS = "\N{MINUS SIGN}"
-"""Characters that typesetters and some spreadsheets write for "-"."""
+"""Character that typesetters and some spreadsheets write for "-"."""
 
 Refuse = Callable[[int, str, str, str], NoReturn]
 """Raises the error of a reader: line, column, what was found, what is expected."""
@@ -41,14 +41,14 @@ def numbered_lines(text: str) -> list[Line]:
 
 
 def telling_lines(text: str) -> list[Line]:
-    """Lines that are neither blank nor a remark, which begins with `#`."""
+    """Lines that are neither blank nor comments, which begin with `#`."""
     return [line for line in numbered_lines(text) if line.text.strip() and not line.text.lstrip().startswith("#")]
 
 
 def cells_of(text: str, separator: str) -> list[str]:
     """The cells of one line, without the spaces around them.
 
-    **Raises:** `ValueError` where quotation marks are not in pairs.
+    **Raises:** `ValueError` for unpaired quotation marks.
     """
     try:
         # one line at a time: a quotation mark left open must not swallow the rest of the file
@@ -59,8 +59,8 @@ def cells_of(text: str, separator: str) -> list[str]:
 
 
 def name_and_unit(cell: str) -> tuple[str, str | None]:
-    """Name and unit of a column headed `name [unit]`; `None` where it has no brackets. A number in brackets right after
-    the name, as in `force[0] [N]`, belongs to it. What cannot be parted is a name."""
+    """Name and unit of a column headed `name [unit]`; `None` if there are no brackets. A number in brackets right
+    after the name, as in `force[0] [N]`, belongs to the name. A cell of any other form is a name."""
     match = _HEADER.fullmatch(cell.strip())
     return (cell, None) if match is None else (match["name"], match["unit"])
 
@@ -70,7 +70,7 @@ class NumberReader:
 
     **Arguments:**
     - `refuse`: raises the error.
-    - `comma_allowed`: whether "0,05" may be a number: not where the comma separates columns.
+    - `comma_allowed`: True if "0,05" may be a number, False if commas separate the columns.
     """
 
     def __init__(self, refuse: Refuse, comma_allowed: bool):
@@ -78,8 +78,8 @@ class NumberReader:
         self._mark, self._mark_line = "", 0
 
     def number(self, cell: str, line: int, column: str) -> float:
-        """A finite number; whatever else the cell holds is refused: nothing, text, what is not finite, a second
-        decimal mark."""
+        """The finite number in a cell. Refused are empty cells, text, numbers that are not finite, and a decimal mark
+        other than that of the earlier cells."""
         text = cell.strip().replace(_MINUS, "-", 1)
         if not text:
             self._refuse(line, column, "an empty cell", "a number")
@@ -117,9 +117,9 @@ class CsvTable:
     """A table of numbers that a scene or a sweep takes.
 
     **Arguments:**
-    - `file`: as it was given.
-    - `header`: its first line that is neither blank nor a remark.
-    - `rows`: the others, each with as many cells; without those that are empty.
+    - `file`: name of the file, as given.
+    - `header`: first line that is neither blank nor a comment.
+    - `rows`: the following lines, each with as many cells as the header; empty rows are left out.
     - `separator`: between the cells.
     """
 
@@ -130,9 +130,9 @@ class CsvTable:
 
     @classmethod
     def of(cls, file: str | Path, expected: str) -> "CsvTable":
-        """Read a file. The separator is the one that is in the header most often.
+        """Read a file. The separator is the one that occurs most often in the header.
 
-        **Arguments:** `expected`: what should be there, for messages.
+        **Arguments:** `expected`: expected content, for messages.
 
         **Raises:** `SceneError` that names file and line.
         """
@@ -154,7 +154,7 @@ class CsvTable:
     def numbers(self, labels: list[str]) -> list[list[float]]:
         """All cells below the header, row by row. **Arguments:** `labels`: names of the columns, for messages.
 
-        **Raises:** `SceneError` for the first cell that is no finite number.
+        **Raises:** `SceneError` for the first cell without a finite number.
         """
 
         def refuse(line: int, column: str, found: str, expected: str) -> NoReturn:
@@ -167,7 +167,7 @@ class CsvTable:
         return [read(row) for row in self.rows]
 
     def at(self, line: int) -> str:
-        """A line of the file, for messages."""
+        """Name of the file and number of a line, for messages."""
         return f"{self.file}, line {line}"
 
 

@@ -10,7 +10,7 @@ _FIRST = "turbine_roller"
 
 @functools.cache
 def builtin_names() -> tuple[str, ...]:
-    """Names of the built-in scenes, the one to begin with first."""
+    """Names of the built-in scenes; the first is recommended for beginners."""
     return tuple(sorted(_names(_scenes()), key=lambda name: (name != _FIRST, name)))
 
 
@@ -35,7 +35,7 @@ def oil_names() -> tuple[str, ...]:
 
 
 def oil_named(given: object) -> str | None:
-    """The oil of the catalogue that a person may call "FVA3" or "Mobil Jet II"; `None` for something else."""
+    """Catalogue name of an oil that a person may write as "FVA3" or "Mobil Jet II"; `None` if there is no such oil."""
     name = given.strip().lower().replace(" ", "_").replace("-", "_") if isinstance(given, str) else ""
     return name if name in oil_names() else None
 
@@ -62,7 +62,7 @@ def _oils() -> Traversable:
 
 
 def _lubricants() -> Traversable:
-    # the name of the package of the laws would import it, and JAX
+    # `files("jaxbearing.lubricants")` would import that package, and with it JAX
     return resources.files("jaxbearing") / "lubricants"
 
 

@@ -1,8 +1,8 @@
-"""Fields of a scene file that are given as a distribution: read as their mean, and what scatters about it.
+"""Fields of a scene file that are given as a distribution, of which the scene takes the mean or the median.
 
-`{mean = "12 um", deviation = "2 um"}` or `{low = "5 um", high = "20 um"}`, with `shape = "normal"` (where not given)
-or `"uniform"` or `"lognormal"`; or `{median = 0.3, log_deviation = 0.9, high = 1.2}`, which is lognormal and cut off
-at the limits that are given. Any field that is one number may be given so.
+The forms are `{mean = "12 um", deviation = "2 um"}` and `{low = "5 um", high = "20 um"}`, with `shape = "normal"` (the
+default), `"uniform"` or `"lognormal"`, and `{median = 0.3, log_deviation = 0.9, high = 1.2}`, which is lognormal and
+truncated at the given limits. Any field with a single number can be given as a distribution.
 """
 
 import typing
@@ -27,9 +27,9 @@ _FORMS = "'mean' and 'deviation', or 'low' and 'high', or 'median' and 'log_devi
 def means_of(
     raw: Mapping[str, object], model: type[BaseModel], file: str
 ) -> tuple[dict[str, Any], dict[str, Distribution]]:
-    """The tables with a mean in the place of each distribution, and the distributions by dotted path, in SI.
+    """The tables with the mean or median in place of each distribution, and the distributions by dotted path, in SI.
 
-    **Raises:** `SceneError` with all that is wrong with distributions.
+    **Raises:** `SceneError` with all errors in the distributions.
     """
     found: dict[str, Distribution] = {}
     problems: list[SceneError] = []
@@ -65,7 +65,7 @@ def _plain(
 def _read(
     given: Mapping[str, object], path: tuple[str, ...], model: type[BaseModel], file: str
 ) -> tuple[Any, Distribution]:
-    """Gives the number that stands for a distribution in the tables, and the distribution. **Raises:** `SceneError`."""
+    """The number that replaces a distribution in the tables, and the distribution. **Raises:** `SceneError`."""
     kind = type_at(model, path)
     what = no_number(kind)
     where = ".".join(path)
@@ -108,7 +108,7 @@ def _read(
 def _lognormal(
     given: Mapping[str, object], names: list[str], path: tuple[str, ...], model: type[BaseModel], file: str
 ) -> tuple[object, Distribution]:
-    """A distribution by its median, which stands for it in the tables. **Raises:** `SceneError`."""
+    """The median, which replaces it in the tables, and the lognormal distribution. **Raises:** `SceneError`."""
     where = ".".join(path)
     values = {name: _value(given[name], name, path, model, file) for name in names if name != "log_deviation"}
     try:
@@ -149,7 +149,7 @@ def _deviation(given: object, dimension: Dimension | None) -> float:
 
 
 def no_number(kind: object) -> str:
-    """Description of a field that is not one number; "" for one that is."""
+    """Description of a field that is not a single number; "" for a single number."""
     base = parts_of(kind)[0]
     if base is float:
         return ""
@@ -165,12 +165,12 @@ def no_number(kind: object) -> str:
 
 
 def text_of(value: float, dimension: Dimension | None) -> float | str:
-    """A value in SI as a file has it: a number where the field has no unit."""
+    """A value in SI as written in a file: a text with a unit, or a number for a field without a unit."""
     return float(value) if dimension is None else quantity_text(float(value), dimension)
 
 
 def said_of(path: str, distribution: Distribution, model: type[BaseModel]) -> str:
-    """Says that a scene has the mean of a field."""
+    """Text which says that a scene uses the mean or median of a field."""
     dimension = dimension_of(type_at(model, path.split(".")))
     value = with_unit(distribution.nominal, "1" if dimension is None else dimension.si)
     word = "mean" if distribution.median is None else "median"

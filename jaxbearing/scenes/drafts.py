@@ -1,4 +1,4 @@
-"""A table of a file as far as it is sound: so that one look at a file finds everything that is wrong with it."""
+"""Drafts: tables with errors, of which the valid fields can be used, so that one pass finds all errors of a file."""
 
 import functools
 import inspect
@@ -18,15 +18,15 @@ AnyTable = TypeVar("AnyTable", bound=Table)
 
 
 class Unreadable(Exception):
-    """A field of a draft was asked for that is refused already."""
+    """Raised when code reads a field of a draft that is refused already."""
 
 
 class Draft:
-    """Stands for a table that is refused somewhere: gives the fields that are sound as the table would.
+    """Replaces a table with errors: its valid fields read as those of the table.
 
-    A field that is refused raises `Unreadable`, so that what depends on it is left undecided. So does a field that the
-    file does not have while it has an unknown name that may be meant for it. A table inside that is refused somewhere
-    is a draft itself if `nested` (for checks), otherwise `PartFields` (for building parts).
+    Reading a refused field raises `Unreadable`, so that checks that depend on it are skipped. So does reading an absent
+    field if the file has an unknown name that may be meant for it. An inner table with errors is a draft itself if
+    `nested` (for checks), otherwise `PartFields` (for building parts).
     """
 
     def __init__(self, model: type[Table], raw: Mapping[str, Any], refused: Collection[str] = (), nested: bool = False):
@@ -59,7 +59,7 @@ class Draft:
             return PartFields(inner, inside)
 
     def problems(self, inside: str = "") -> Iterator[tuple[str, Mapping[str, str]]]:
-        """Dotted path, and the words, of what the checks of this table and of those in it find."""
+        """Dotted path and wording of each problem that the checks of this table and of its inner tables find."""
         for method in self._model.checks():
             try:
                 for problem in method(self):
@@ -77,8 +77,8 @@ class Draft:
 
 
 def _meant(name: str, model: type[Table], absent: Collection[str]) -> str:
-    """The field that an unknown name may be meant for: a table that has a field of this name, or the nearest absent
-    name; "" where there is none."""
+    """The field that an unknown name may be meant for: the inner table that has a field of this name, or the nearest
+    absent field; "" if there is none."""
     tables = ((field, plain_table_at(model, field)) for field in model.model_fields)
     inside = next((field for field, table in tables if table is not None and name in table.model_fields), None)
     return nearest(name, absent) if inside is None else inside
@@ -90,8 +90,8 @@ def _reader(model: type[Table], name: str) -> TypeAdapter[Any]:
 
 
 class PartFields:
-    """Stands for a table that is refused somewhere, for a part whose attributes are its fields: `STAND_IN` is in the
-    place of a number that is refused, so that the rules of the class that do not need it are checked all the same.
+    """Replaces a table with errors in the building of a part whose attributes are its fields. `STAND_IN` replaces a
+    refused number, so that the checks of the class that do not need this number still run.
     """
 
     def __init__(self, model: type[Table], fields: Draft):
@@ -103,7 +103,7 @@ class PartFields:
     def model_dump(
         self, include: Collection[str] | None = None, exclude: Collection[str] = (), exclude_none: bool = False
     ) -> dict[str, Any]:
-        """The fields as those of a table. **Raises:** `Unreadable` where something else than a number is refused."""
+        """The fields as of a table. **Raises:** `Unreadable` if a field of another type than a number is refused."""
         fields: dict[str, Any] = {}
         for name, info in self._model.model_fields.items():
             if name in exclude or (include is not None and name not in include):
@@ -118,7 +118,7 @@ class PartFields:
 
 
 def read_table(model: type[AnyTable], raw: Mapping[str, object], file: str) -> AnyTable:
-    """The table of a file, validated. **Raises:** `SceneError` with all that is wrong with it."""
+    """The table of a file, validated. **Raises:** `SceneError` with all its errors."""
     table, problems = draft(model, raw, file)
     if problems:
         raise SceneError.of_all(problems)
@@ -128,9 +128,9 @@ def read_table(model: type[AnyTable], raw: Mapping[str, object], file: str) -> A
 def draft(
     model: type[Any], raw: Mapping[str, object], file: str, refused: Collection[str] = ()
 ) -> tuple[Any, list[SceneError]]:
-    """The table of a file, or a draft of it with everything that its fields and checks refuse.
+    """The table of a file, or a draft of it with all problems that its fields and checks find.
 
-    **Arguments:** `refused`: names in the table that are refused already, and said to be.
+    **Arguments:** `refused`: names in the table that are refused and reported already.
     """
     problems: list[SceneError] = []
     try:

@@ -1,4 +1,4 @@
-"""Symbols and words of catalogues for fields of scenes, for the suggestions of messages. No file is read with them."""
+"""Symbols and words of catalogues for fields of scenes. Messages suggest the field; files do not accept the words."""
 
 from collections.abc import Collection
 
@@ -25,5 +25,5 @@ _FIELDS = {
 
 
 def usual_word(name: str, valid: Collection[str]) -> str:
-    """The field among these that is usually called so; empty if none is. **Arguments:** `valid`: fields of a table."""
+    """The field that engineers call by this name; "" if there is none. **Arguments:** `valid`: fields of a table."""
     return next((field for field, words in _FIELDS.items() if field in valid and name.lower() in words), "")

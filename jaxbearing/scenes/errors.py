@@ -24,9 +24,9 @@ class SceneError(ValueError):
     **Arguments:**
     - `file`: name of the file or of the built-in scene.
     - `path`: dotted path of the field; empty if the problem concerns the whole file.
-    - `found`, `expected`: what the file holds, and what it should hold, in words.
+    - `found`, `expected`: actual and expected content of the field, in words.
     - `suggestion`: nearest valid name; may be empty.
-    - `reason`: why that is expected, in words; may be empty.
+    - `reason`: reason for the expectation, in words; may be empty.
     - `others`: the other problems, each a `SceneError`.
     """
 
@@ -89,11 +89,11 @@ class SceneError(ValueError):
 
 
 class StatesUnusedWarning(UserWarning):
-    """A scene was read from a file with a load spectrum: it has none of the states."""
+    """A scene was read from a file with a load spectrum, whose states it leaves out."""
 
 
 def printable(text: str) -> str:
-    """A text for a terminal: what cannot be printed (escape sequences, null bytes) is escaped as in Python code."""
+    """A text for a terminal, with unprintable characters (escape sequences, null bytes) escaped as in Python code."""
     return "".join(char if char.isprintable() else repr(char)[1:-1] for char in text)
 
 

@@ -1,4 +1,4 @@
-"""Every field of a kind of scene file: its unit, what it takes, its default, what it is, from the schemas."""
+"""Lists the fields of a kind of scene file from the schemas: unit, accepted values, default and description."""
 
 import dataclasses
 import types
@@ -22,10 +22,11 @@ class Field:
     """One field of a table of a scene file.
 
     **Arguments:**
-    - `unit`: of SI, or "".
-    - `expected`: what it takes, in words.
-    - `tables`: those that it takes.
-    - `default`: in words: "required", "optional" (what it stands for is not modelled, computed or assumed), or a value.
+    - `unit`: SI unit, or "".
+    - `expected`: accepted values, in words.
+    - `tables`: schemas of the accepted tables.
+    - `default`: "required", a value, or "optional" (without the field its subject is not modelled, or it is computed or
+      assumed).
     """
 
     name: str
@@ -37,7 +38,7 @@ class Field:
 
 
 def fields(model: type[BaseModel], owner: type | None) -> Iterator[Field]:
-    """The fields of a table; descriptions are those of `owner`, the class that the table builds."""
+    """The fields of a table; the descriptions come from `owner`, the class that the table builds."""
     for name, info in model.model_fields.items():
         if name in ("sources", "note", "ranges", "law"):
             continue
@@ -53,7 +54,7 @@ def fields(model: type[BaseModel], owner: type | None) -> Iterator[Field]:
         words = name.replace("_", " ")
         source, own = model.made_from.get(name, (owner, name)) if issubclass(model, Table) else (owner, name)
         said = _described(owner, name) or _described(source, own)
-        # a field that no class has, or that its class does not explain, is explained by its table
+        # the table describes fields that no class has and fields that their class does not describe
         said = said if said and said != words else described_argument(model, name)
         expected, tables = _expected(model, name, annotation, unit)
         text = " ".join((said.removeprefix(f"{words}: ") or words).split())
@@ -61,13 +62,13 @@ def fields(model: type[BaseModel], owner: type | None) -> Iterator[Field]:
 
 
 def _described(owner: type | None, name: str) -> str:
-    """Words of a class about its argument."""
+    """Description of an argument by its class, without the name."""
     text = described_argument(owner, name) if owner is not None else ""
     return text.removeprefix(f"{name.replace('_', ' ')}: ")
 
 
 def _dimension(annotation: object) -> Dimension | None:
-    """The unit of a type, or of one of its alternatives."""
+    """The dimension of a type, or of one of its alternatives."""
     for part in typing.get_args(annotation):
         found = part.dimension if isinstance(part, QuantityValidator) else _dimension(part)
         if found is not None:
@@ -76,10 +77,10 @@ def _dimension(annotation: object) -> Dimension | None:
 
 
 def _expected(model: type[BaseModel], name: str, annotation: Any, unit: str) -> tuple[str, tuple[type[BaseModel], ...]]:
-    """Returns what the field takes, in the words of its own refusal of what is out of range, and its tables."""
+    """Accepted values of a field, in the words of its error message, and the tables that it accepts."""
     tables = tuple(one for one in tables_at(model, (name,)) if not one.__name__.startswith("Unknown"))
     reader = TypeAdapter(annotation)
-    # a value below the range, of the right kind; then what nothing takes
+    # first a number below the range, then an object that no field accepts
     for probe in (f"-1 {unit}" if unit else -1, object()):
         try:
             reader.validate_python(probe)
@@ -93,8 +94,8 @@ def _expected(model: type[BaseModel], name: str, annotation: Any, unit: str) -> 
 
 
 def tables_of_kind(kind: str) -> Iterator[tuple[str, type[BaseModel], type | None]]:
-    """Dotted path, table and class of every table of a kind of scene, the outer before the inner; alternatives one
-    after the other."""
+    """Dotted path, schema and class of every table of a kind of scene, outer tables before inner ones. Alternatives
+    at the same path are listed one after the other."""
     model, scene = schema_of_kind(kind)
     yield from _inside(model, scene, "")
 
@@ -112,7 +113,7 @@ def _inside(
 
 
 def class_of(owner: type | None, name: str, table: type[BaseModel]) -> type | None:
-    """The class of the scene that a field of `owner` holds, or that such a table builds."""
+    """The class of the objects in a field of `owner`; if it is not known, the class that the table builds."""
     hint = typing.get_type_hints(owner).get(name) if owner is not None else None
     classes = [one for one in _classes(hint) if dataclasses.is_dataclass(one)]
     return classes[0] if classes else class_of_table(table)

@@ -1,4 +1,4 @@
-"""Names that a scene file may use, and their places, from the schema's classes: for messages and `--set`."""
+"""Finds the valid names of a scene file and their types in the schemas, for messages and `--set`."""
 
 import typing
 from collections.abc import Mapping, Sequence
@@ -12,8 +12,13 @@ from .units import Dimension, QuantityValidator
 
 @dataclass(frozen=True)
 class Names:
-    """Valid names of one table, names that later versions will know and names of other tables (both with what to expect
-    instead), names that exclude each other, and names that say more about another."""
+    """Names that are known in a table.
+
+    - `names`: valid names.
+    - `not_yet`, `elsewhere`: names of later versions and of other tables -> what is expected instead, in words.
+    - `instead`: field -> fields that it excludes.
+    - `about`: field -> fields that have a meaning only with it.
+    """
 
     names: tuple[str, ...] = ()
     not_yet: Mapping[str, str] = field(default_factory=dict)
@@ -23,12 +28,12 @@ class Names:
 
 
 def is_tag(part: int | str) -> bool:
-    """Alternatives of a field (a name or a table, one of several laws) are tagged "<...>" in pydantic's locations."""
+    """True for a tag "<...>", which marks an alternative of a field (such as a law) in locations of pydantic."""
     return isinstance(part, str) and part.startswith("<")
 
 
 def path_of(location: Sequence[int | str]) -> str:
-    """Dotted path as a person writes it."""
+    """Dotted path of a location, without the tags of alternatives."""
     return ".".join(str(part) for part in location if not is_tag(part))
 
 
@@ -49,7 +54,7 @@ def names_at(model: type[BaseModel], location: Sequence[int | str]) -> Names:
 
 
 def tables_at(model: type[BaseModel], location: Sequence[int | str]) -> list[type[BaseModel]]:
-    """The tables that may stand at a location: several where there are alternatives, none where it is a value."""
+    """The tables that a location accepts: several if there are alternatives, none if it only accepts values."""
     models = [model]
     for part in location:
         if is_tag(part):
@@ -65,14 +70,14 @@ def is_known(model: type[BaseModel], path: Sequence[str]) -> bool:
 
 
 def is_optional(model: type[BaseModel], location: Sequence[int | str]) -> bool:
-    """True if the field at a location may be left out, the table around it being there."""
+    """True if the field at a location may be left out of its table."""
     owners = tables_at(model, location[:-1])
     fields = [owner.model_fields[str(location[-1])] for owner in owners if str(location[-1]) in owner.model_fields]
     return bool(fields) and all(not info.is_required() and info.default is None for info in fields)
 
 
 def type_at(model: type[BaseModel], location: Sequence[int | str]) -> Any:
-    """The type of the field at a location with all that validates it; `None` where there is no such field."""
+    """The type of the field at a location with its validators; `None` if there is no such field."""
     for owner in tables_at(model, location[:-1]):
         info = owner.model_fields.get(str(location[-1]))
         if info is not None:
@@ -81,7 +86,7 @@ def type_at(model: type[BaseModel], location: Sequence[int | str]) -> Any:
 
 
 def parts_of(kind: object) -> list[object]:
-    """A type without what may be left out, and all that annotates it."""
+    """A type without its alternative `None`, followed by its annotations."""
     if typing.get_origin(kind) is typing.Annotated:
         inner, *notes = typing.get_args(kind)
         return [*parts_of(inner), *notes]
@@ -98,13 +103,13 @@ def dimension_of(kind: object) -> Dimension | None:
 
 
 def plain_table_at(model: type[BaseModel], name: str) -> Any:
-    """The table of a field that holds one kind of table and nothing else; `None` for any other field."""
+    """The table of a field that accepts a single kind of table; `None` for any other field."""
     models = _models_of_field(model, name)
     return models[0] if len(models) == 1 and not getattr(models[0], "tag", "") else None
 
 
 def required_names(model: type[BaseModel]) -> tuple[str, ...]:
-    """Names of the fields of a table that may not be left out, or not without something in their place."""
+    """Names of the fields that a table requires, including those that another field can replace."""
     required = tuple(name for name, info in model.model_fields.items() if info.is_required())
     return (*required, *getattr(model, "needs", ()))
 

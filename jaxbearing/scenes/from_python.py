@@ -1,4 +1,4 @@
-"""Scenes and oils from what a program holds: tables of SI numbers or texts with units, names of oils, files."""
+"""Makes scenes and oils from data in a program: tables with SI numbers or texts with units, names of oils, files."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -22,13 +22,12 @@ from .units import bare_numbers_are_si
 def scene_from_mapping(mapping: Mapping[str, object]) -> AbstractScene:
     """A scene from the tables of a scene file, {"kind": ..., "geometry": {...}, ...}.
 
-    A number of a field with a unit is an SI value here; a text carries its own unit, as in a file. The numbers must be
-    known: in place of traced ones make the scene first, and change it with `replace`. A field that is given as a
-    distribution has its mean in the scene: a `MeanUsedWarning` says so. A `PresetUsedWarning` says what `laws = "best"`
-    stands for.
+    A number in a field with a unit is an SI value here; a text carries its own unit, as in a file. Traced numbers are
+    not allowed: make the scene with known numbers first, and change it with `replace`. A field that is given as a
+    distribution takes its mean, and a `MeanUsedWarning` reports it. A `PresetUsedWarning` lists the laws that
+    `laws = "best"` stands for.
 
-    **Raises:** `SceneError` with all that is wrong; `TypeError` for something else than a mapping, and for traced
-    numbers.
+    **Raises:** `SceneError` with all errors; `TypeError` for an object that is not a mapping, and for traced numbers.
     """
     if not isinstance(mapping, Mapping):
         raise TypeError(f"scene_from_mapping takes the tables of a scene, got a {type(mapping).__name__}")
@@ -41,12 +40,12 @@ def scene_from_mapping(mapping: Mapping[str, object]) -> AbstractScene:
 
 
 def load_oil(source: str | Path, base: str | None = None) -> Lubricant:
-    """An oil of the catalogue by its name, a standard oil by its grade ("ISO VG 68"), or the oil of a file such as
+    """An oil of the catalogue by its name, a standard oil by its grade ("ISO VG 68"), or an oil from a file, such as
     `jaxbearing fit --out` writes.
 
-    **Arguments:** `base`: base stock of a grade: "mineral" (if not given), "PAO", "ester" or "polyglycol".
+    **Arguments:** `base`: base stock of a grade: "mineral" (the default), "PAO", "ester" or "polyglycol".
 
-    **Raises:** `SceneError` for a name, a grade or a base stock that there is not, and for a file that is no oil.
+    **Raises:** `SceneError` for an unknown name, grade or base stock, and for a file that is not an oil file.
     """
     if isinstance(source, str) and (oil_named(source) or not source.endswith(".toml")):
         return oils.load_oil(source, base)
@@ -54,7 +53,7 @@ def load_oil(source: str | Path, base: str | None = None) -> Lubricant:
 
 
 def _plain(value: object, path: str) -> Any:
-    """The tables with Python's own numbers and lists."""
+    """The tables with arrays, tuples and paths converted to Python's numbers, lists and texts."""
     if isinstance(value, Mapping):
         return {str(key): _plain(inner, f"{path}.{key}".lstrip(".")) for key, inner in value.items()}
     if isinstance(value, list | tuple):

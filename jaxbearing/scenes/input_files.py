@@ -1,7 +1,7 @@
 """Reading the files that a user names: regular files of sane size, and nothing else.
 
-A device may have no end, a named pipe nobody who writes to it; neither is waited for. A pipe that the shell has opened
-for this process, as `<(command)` and `/dev/stdin` do, is read, up to the same size: whoever types it means it.
+Devices and named pipes are refused: a device may be endless, and a named pipe may have no writer. A pipe that the shell
+has opened for this process, as for `<(command)` and `/dev/stdin`, is read up to the same size, since the user meant it.
 """
 
 import os
@@ -11,19 +11,19 @@ from contextlib import contextmanager
 from pathlib import Path
 
 LARGEST_TEXT = 4 * 2**20
-"""Largest scene or oil file, bytes: a thousand times what one needs."""
+"""Largest scene or oil file, bytes: a thousand times the usual size."""
 LARGEST_TABLE = 32 * 2**20
 """Largest table of numbers, bytes: about a million rows."""
 _PIPES = ("/dev/fd/", "/dev/stdin", "/proc/self/fd/")
 _read_pipes: dict[tuple[int, int], bytes] = {}
-"""Contents of pipes, by device and number: a pipe can be read once only, and some files are looked at twice."""
+"""Contents of pipes, by device and inode number: a pipe can be read only once, but some inputs are read twice."""
 _inputs: set[tuple[int, int]] | None = None
-"""Files that were read, by device and number, while somebody wants to know them."""
+"""Files that were read inside `remembered_inputs`, by device and inode number; `None` outside."""
 
 
 @contextmanager
 def remembered_inputs() -> Iterator[None]:
-    """Context in which `is_input` knows the files that were read since it began."""
+    """Context that records the files which are read inside it, for `is_input`."""
     global _inputs
     before, _inputs = _inputs, set()
     try:
@@ -33,7 +33,7 @@ def remembered_inputs() -> Iterator[None]:
 
 
 def is_input(path: str | os.PathLike[str]) -> bool:
-    """True for a file that was read in this `remembered_inputs`, by whatever name or link."""
+    """True for a file that was read inside the present `remembered_inputs`, under any name or link."""
     try:
         status = os.stat(path)
     except (OSError, ValueError):
@@ -47,8 +47,8 @@ def _remember(status: os.stat_result) -> None:
 
 
 class UnfitFileError(ValueError):
-    """A file that is not to be read. **Attributes:** `found`: what is there, in words; `missing`: whether nothing is
-    there."""
+    """Raised for a file that must not or cannot be read. **Attributes:** `found`: description of the file; `missing`:
+    True if there is no file."""
 
     def __init__(self, found: str, missing: bool = False):
         super().__init__(found)
@@ -56,7 +56,7 @@ class UnfitFileError(ValueError):
 
 
 def read_bytes(path: str | os.PathLike[str], largest: int = LARGEST_TEXT) -> bytes:
-    """The content of a file of at most so many bytes.
+    """The content of a file of at most `largest` bytes.
 
     **Raises:** `UnfitFileError` for a file that is missing, too large, unreadable, or not regular (see above).
     """
@@ -65,12 +65,12 @@ def read_bytes(path: str | os.PathLike[str], largest: int = LARGEST_TEXT) -> byt
         if stat.S_ISFIFO(status.st_mode) and os.fspath(path).startswith(_PIPES):
             return _of_pipe(path, status, largest)
         _check(status, largest)
-        # not to be waited for, should it have become a pipe since
+        # non-blocking, because the file may have been replaced by a pipe since the check
         descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
         with open(descriptor, "rb") as file:
             _check(status := os.fstat(descriptor), largest)
             _remember(status)
-            # some regular files, in /proc, do not tell their size
+            # some regular files (in /proc) do not report their size
             return _bounded(file.read(largest + 1), largest)
     except FileNotFoundError:
         raise UnfitFileError("no such file", missing=True) from None

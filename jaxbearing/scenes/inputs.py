@@ -1,4 +1,4 @@
-"""Inputs of a scene file, field by field, with descriptions: for pages that list them."""
+"""Lists the inputs of a scene file, field by field, with descriptions, for reports."""
 
 import dataclasses
 import inspect
@@ -23,13 +23,16 @@ _NO_NEWS = re.compile(
     r"(?:m|s|rad|rad/s|N|N m|N/m|K|Pa|Pa s|Hz|m/s|m\^2/s|m\^3/s|1/Pa|K/Pa|K\^2/Pa|kg/m\^3|kg/\(m\^3 K\)|W/\(m K\)"
     r"|W/\(m K\^2\)|N/m\^\(10/9\)|structure|[<>]=? ?[\d.e-]+)\.?"
 )
-"""Units and bounds in the text of an argument: the value beside it has its unit."""
+"""Units and bounds in docstrings, which are left out of a description: the value beside it has its unit."""
 
 
 @dataclass(frozen=True)
 class SceneInput:
-    """One field: its dotted path, its value as the file or `--set` has it, what it is. `given`: otherwise a default.
-    `mark`: where its value comes from, in words, if nobody gave it."""
+    """One field of a scene file.
+
+    **Arguments:** `path`: dotted path; `text`: value as written in the file or in `--set`; `description`: in words;
+    `given`: False for a default value; `mark`: origin of a value that nobody gave, in words.
+    """
 
     path: str
     text: str
@@ -41,7 +44,7 @@ class SceneInput:
 def scene_inputs(
     source: str | Path, overrides: Mapping[str, str] | None, scene: AbstractScene
 ) -> dict[str, list[SceneInput]]:
-    """Fields by table, of a scene that `load_scene` made of the same arguments; "" holds those outside tables."""
+    """Fields by table; "" holds the fields outside tables. `scene`: made by `load_scene` from the same arguments."""
     label, mapping = read_tables(source)
     overrides = overrides or {}
     model = scene_model(mapping, overrides, label)
@@ -79,7 +82,7 @@ def _fields(
 
 
 def _meaning(scene: AbstractScene, path: tuple[str, ...]) -> str:
-    """Description of a field that stands beside its name, which it does not say again."""
+    """Description of a field without its name, which stands beside it."""
     words = path[-1].replace("_", " ")
     if path == ("kind",):
         return "family, which decides what tables a scene has"
@@ -97,21 +100,21 @@ def _text(value: object) -> str:
 
 
 def described_field(scene: AbstractScene, path: tuple[str, ...]) -> str:
-    """Description of a field: what a law says of itself, the label of the class that holds the field, what the class's
-    docstring says of its argument, or what that of its table says."""
+    """Description of a field: the first sentence of the docstring of a law, or the label of the field in its class, or
+    the text of the argument in the docstring of the class or of the table."""
     words = path[-1].replace("_", " ")
     law = scene.part_at(".".join(path))
     if dataclasses.is_dataclass(law):
         summary = _first_sentence(type(law))
         return f"{words}: {summary}" if summary else words
-    # a field that no class has, or that its class does not explain, is explained by its table
+    # the table describes fields that no class has and fields that their class does not describe
     places = [owner_of(scene, path), *((table, path[-1]) for table in _tables(scene, path[:-1]))]
     return next((said for place in places if place and (said := described_argument(*place))), words)
 
 
 def owner_of(scene: AbstractScene, path: Sequence[str]) -> tuple[type, str] | None:
-    """The class that has a field of a scene, and its name there: the class of the part at this place or, of a field
-    that only files have there, the one that its table was made from."""
+    """The class that has a field of a scene, and the name of the field in it. This is the class of the part that holds
+    the field or, if only files have the field there, the class that its table was made from."""
     part = scene.part_at(".".join(path[:-1])) if len(path) > 1 else scene
     if dataclasses.is_dataclass(part) and path[-1] in {field.name for field in dataclasses.fields(part)}:
         return type(part), path[-1]
@@ -120,14 +123,14 @@ def owner_of(scene: AbstractScene, path: Sequence[str]) -> tuple[type, str] | No
 
 
 def _tables(scene: AbstractScene, path: Sequence[str]) -> list[type[BaseModel]]:
-    """The tables that may stand at a place of the files of such scenes."""
+    """The tables that files of such scenes accept at a path."""
     model = model_of(scene)
     return [] if model is None else tables_at(model, path)
 
 
 def described_argument(owner: type, name: str) -> str:
-    """Description of a field of a scene's class: its label, or what the docstring of the class or of its `__init__`
-    says of the argument; "" where neither says anything."""
+    """Description of a field of a class: its label, or the text of the argument in the docstring of the class or of its
+    `__init__`; "" if there is none."""
     if dataclasses.is_dataclass(owner):
         label = {field.name: field.metadata for field in dataclasses.fields(owner)}.get(name, {}).get("description")
         if label:
@@ -139,12 +142,12 @@ def described_argument(owner: type, name: str) -> str:
 def _first_sentence(law: type) -> str:
     paragraph = (inspect.cleandoc(law.__doc__ or "")).split("\n\n")[0]
     sentence = " ".join(paragraph.split()).partition(". ")[0].rstrip(".")
-    # formulas are written for another reader
+    # a sentence with a formula is no description
     return "" if "$" in sentence else sentence.replace("`", "")
 
 
 def _arguments(one: type) -> dict[str, str]:
-    """Argument -> what a class's docstring says of it."""
+    """Argument -> its text in the docstring of a class."""
     found: dict[str, str] = {}
     names: list[str] = []
     docstrings = (one.__dict__.get("__doc__"), getattr(one.__dict__.get("__init__"), "__doc__", None))

@@ -1,4 +1,4 @@
-"""Kinds of scenes by the names that people give them."""
+"""Kinds of scenes and the further names that people use for them."""
 
 from collections.abc import Collection
 from typing import Any
@@ -27,7 +27,7 @@ ALIASES: dict[str, str] = {
 
 
 def kind_named(given: object) -> Any:
-    """The name in scene files of a kind that a person may call "deep groove ball bearing"; anything else as it is."""
+    """The kind for a name as a person may write it, such as "deep groove ball bearing"; other values are unchanged."""
     if not isinstance(given, str):
         return given
     plain = "_".join(given.lower().replace("-", " ").replace("_", " ").split())
@@ -51,8 +51,8 @@ _OTHERS = (
 
 
 def kind_refused(given: object, kinds: Collection[str]) -> tuple[str, str]:
-    """Words for an unknown kind of scene, and the nearest kind. A bearing that is not modelled has none, however near
-    its name is to that of another one."""
+    """Description of an unknown kind of scene, and the kind with the nearest name, or "". For a bearing type that is
+    not modelled no kind is suggested, however similar the names are."""
     plain = given.lower().replace("-", "_").replace(" ", "_") if isinstance(given, str) else ""
     if any(word in plain for word in _OTHERS):
         return f"{describe(given)}, which is not modelled", ""

@@ -1,7 +1,7 @@
-"""Names of laws in scene files, each registered once: the fields that take them, their lists in messages and pages, and
-the laws that are built all follow from here.
+"""Registry of the laws that scene files can name. Fields, lists in messages and pages, and the laws that are built
+use these names.
 
-A law of another package is named by an entry point of the group `jaxbearing.laws`, see `docs/contributing.md`.
+A law of another package has the name of an entry point of the group `jaxbearing.laws`, see `docs/contributing.md`.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -57,22 +57,22 @@ _NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
 class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
-    """Laws of one kind by their names in scene files: the type of a field that holds such a name is
+    """Laws of one kind by their names in scene files. A field that holds such a name has the type
     `Annotated[str, laws]`.
 
     **Arguments:**
-    - `named`: name -> class, or another maker, of the law.
-    - `kinds`: the abstract classes of which a law of another package must be one.
+    - `named`: name -> class or function that makes the law.
+    - `kinds`: abstract classes; a law of another package must be a subclass of one of them.
     """
 
     def __init__(self, named: Mapping[str, Callable[..., AnyLaw]], *kinds: type):
         self._named, self._kinds = dict(named), kinds
 
     def __getitem__(self, name: str) -> Callable[..., AnyLaw]:
-        """The class of a law of this package or, by the name of an entry point, of another."""
+        """The class of the law with this name, from this package or from an entry point of another package."""
         return self._named[name] if name in self._named else self._loaded(name)
 
-    # a type is compared and hashed with all that annotates it
+    # types are compared and hashed together with their annotations, of which this object is one
     __eq__ = object.__eq__
     __hash__ = object.__hash__  # pyright: ignore[reportAssignmentType]  (mappings have none)
 
@@ -87,7 +87,7 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
 
     @property
     def isoviscous(self) -> tuple[str, ...]:
-        """The names of laws that hold for an oil of the same viscosity at every pressure."""
+        """The names of laws that hold for an oil whose viscosity does not depend on pressure."""
         return tuple(name for name in self._named if not self.piezoviscous_only(name))
 
     def piezoviscous_only(self, name: str) -> bool:
@@ -95,7 +95,7 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
         return bool(getattr(self[name], "piezoviscous_only", True))
 
     def fits(self, name: str) -> bool:
-        """True if the law of this name is one of these. **Raises:** `KeyError` for a name that stands for none."""
+        """True if the film law of this name is of this kind. **Raises:** `KeyError` for an unknown name."""
         if name in self._named:
             return True
         law = ANY_FILMS[name]
@@ -112,14 +112,14 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
                     yield found.name
 
     def name_of(self, law: object) -> str:
-        """The name of the law of which this is one."""
+        """The name of the class of this law."""
         return next(name for name, kind in self._named.items() if type(law) is kind)
 
     def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_before_validator_function(self.read, handler(source))
 
     def read(self, given: object) -> str:
-        """The name, if it stands for a law. **Raises:** `PydanticCustomError` otherwise."""
+        """The given name, if there is a law of this name. **Raises:** `PydanticCustomError` otherwise."""
         if isinstance(given, str):
             if given in self._named:
                 return given
@@ -134,10 +134,10 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
         raise PydanticCustomError(LAW_ERROR, "Input should be {expected}", {"expected": words})
 
     def _loaded(self, name: str) -> Callable[..., AnyLaw]:
-        """The class that an entry point of this name holds.
+        """The class to which the entry point of this name refers.
 
-        **Raises:** `KeyError` without such an entry point; `PydanticCustomError` for one that cannot be loaded or is of
-        another kind.
+        **Raises:** `KeyError` if there is no such entry point; `PydanticCustomError` if its class cannot be loaded or
+        is of another kind.
         """
         from importlib.metadata import entry_points
 
@@ -157,7 +157,7 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
 
 
 class RollingLaws(Laws[AnyLaw]):
-    """Laws of rolling resistance: `true` stands for the first of them; `older` names are read as present ones."""
+    """Laws of rolling resistance. In files `true` means the first of them. `older`: former name -> present name."""
 
     def __init__(self, named: Mapping[str, Callable[..., AnyLaw]], *kinds: type, older: Mapping[str, str] = _NOTHING):
         super().__init__(named, *kinds)
@@ -170,10 +170,10 @@ class RollingLaws(Laws[AnyLaw]):
 
 
 def for_raceways(films: Laws[Any], joined: Callable[[Any], Any]) -> Laws[Any]:
-    """The films of contacts of which some carry nothing.
+    """Film laws for the raceways of bearings, in which some contacts carry no load.
 
-    A formula for oils whose viscosity rises with pressure alone has a finite film at no load, where an unloaded rolling
-    element needs the rigid film: `joined` puts the two together.
+    Formulas that hold only for piezoviscous oils give a finite film at zero load, but an unloaded rolling element needs
+    the film of rigid bodies: `joined` combines the two.
     """
     return _RacewayFilms(films, joined)
 
@@ -209,19 +209,19 @@ RIB_FILMS: Laws[AbstractPointFilm] = Laws({"chittenden": ChittendenCentral, **PO
 """Film laws of roller ends on a rib, which roll along the longer axis of the contact."""
 ROLLER_FILMS = for_raceways(LINE_FILMS, MartinBlend)
 BALL_FILMS = for_raceways(POINT_FILMS, RigidBlend)
-"""Film laws of bearings, in which some rolling elements may carry nothing."""
+"""Film laws of raceways, where some rolling elements may be unloaded."""
 POINT_THERMAL: Laws[AbstractThermalFactor] = Laws({"gupta": Gupta}, AbstractThermalFactor)
 LINE_THERMAL: Laws[AbstractThermalFactor] = Laws({**POINT_THERMAL, "hsu_lee": HsuLee}, AbstractThermalFactor)
 VISCOUS: Laws[AbstractViscousFunction] = Laws(VISCOUS_LAWS, AbstractViscousFunction)
 MAXWELL_EYRING = "maxwell_eyring"
-"""Ree and Eyring's flow with the Maxwell element that every law here has."""
+"""Name of Ree and Eyring's flow law in bearings. Like every traction law here it has a Maxwell element."""
 TRACTIONS: Laws[AbstractViscousFunction] = Laws({MAXWELL_EYRING: ReeEyring, **VISCOUS}, AbstractViscousFunction)
 ROLLING: Laws[AbstractRollingResistance] = RollingLaws(
     {
         "full_range": FullRangeRollingResistance,
         "biboulet_houpert": BibouletHoupertRollingResistance,
         "rigid_isoviscous": RigidRollingResistance,
-        # under load; a roller outside the loaded zone has the rigid law's
+        # for loaded rollers; a roller outside the loaded zone has the rigid law
         "ertel_grubin": JoinedRollingResistance,
     },
     AbstractRollingResistance,
@@ -231,7 +231,7 @@ POINT_ROLLING: Laws[AbstractPointRollingResistance] = RollingLaws(
     AbstractPointRollingResistance,
     older={"houpert": "source_86"},
 )
-"""The first law of each is that of a scene with `rolling_resistance = true`."""
+"""Laws of rolling resistance of balls. As in `ROLLING` the first law is that of `rolling_resistance = true`."""
 TURBULENCE: Laws[AbstractTurbulence] = Laws(
     {"laminar": Laminar, "blend": BlendedTurbulence, "pure": FullTurbulence}, AbstractTurbulence
 )
@@ -246,7 +246,7 @@ def thermal_factor(name: str | None) -> AbstractThermalFactor:
 
 
 def viscous_function(name: str, oil: Lubricant | None) -> AbstractViscousFunction:
-    """The flow law of this name, with the exponent with which the oil's data were fitted."""
+    """The flow law of this name, with the exponent that was used to fit the data of the oil."""
     name = ReeEyring.name if name == MAXWELL_EYRING else name
     if name not in VISCOUS_LAWS:
         return VISCOUS[name]()
@@ -256,11 +256,11 @@ def viscous_function(name: str, oil: Lubricant | None) -> AbstractViscousFunctio
 def distributed_traction(
     name: str, accuracy: float | None, oil: Lubricant | None, spin: bool = False
 ) -> DistributedTraction:
-    """The traction of a bearing's contact with the flow law of this name, to this or the assumed accuracy; `spin`:
-    whether the bodies spin against each other."""
+    """Distributed traction with the flow law of this name, resolved for `accuracy` or else `DISTRIBUTED_ACCURACY`.
+    **Arguments:** `spin`: True if the bodies spin against each other."""
     resolution = Resolution.for_accuracy(DISTRIBUTED_ACCURACY if accuracy is None else accuracy, spin)
     return DistributedTraction(viscous_function(name, oil), resolution)
 
 
 TractionAccuracy = Annotated[float, units.among_note(PRESETS)]
-"""Relative error of the forces for which there is a measured resolution."""
+"""Relative error of the traction forces; for each allowed value a resolution has been determined."""

@@ -1,8 +1,8 @@
-"""Marks in the comments of a scene file: which of its numbers are estimated, assumed, or those of an example.
+"""Marks in the comments of a scene file, which tell that a number is estimated, assumed or from an example.
 
 `jaxbearing new` writes a mark behind each number that nobody gave. The marks are read back, so that results repeat
-them. A mark belongs to the value on its line; a value that an override replaces has none. A comment that begins with
-one of `WORDS` is a mark, and so is one that contains "estimated:".
+them. A mark belongs to the value on its line; values replaced by an override have no mark. A comment is a mark if it
+begins with one of `WORDS` or contains "estimated:".
 """
 
 import re
@@ -19,19 +19,19 @@ from .shaft.members import at, each_bearing
 from .toml_files import parse_toml, read_text
 
 WORDS = {"estimated": "estimated", "assumed": "assumed", "an example": "an example"}
-"""Word at the beginning of a comment -> what is said of the number."""
+"""Word at the beginning of a comment -> word for the number in results."""
 UNMOUNTED = "unmounted"
-"""The word in the comment of a clearance that is that of the bearing before mounting."""
+"""Word in the comment of a clearance before mounting."""
 CLEARANCE = "geometry.diametral_clearance"
 _HEADER = re.compile(r"\s*\[{1,2}\s*([\w.-]+)\s*\]{1,2}\s*(?:#.*)?")
 _LINE = re.compile(r"""\s*([\w.-]+)\s*=(?:[^#"']|"[^"]*"|'[^']*')*#\s*(.*)""")
 
 
 class Mark(NamedTuple):
-    """Tells what the comment of a field says of its value.
+    """Mark of a field, read from its comment.
 
-    **Arguments:** `word`: one of the values of `WORDS`, "" without a mark; `unmounted`: whether it is a clearance
-    before mounting.
+    **Arguments:** `word`: one of the values of `WORDS`, "" without a mark; `unmounted`: True for a clearance before
+    mounting.
     """
 
     word: str
@@ -62,7 +62,7 @@ def _mark(comment: str) -> Mark:
 
 def marks_of(source: str | Path, overrides: Overrides | None = None) -> dict[str, Mark]:
     """The marks of a scene file, and of the files of the bearings on a shaft, by dotted path. Fields that `overrides`
-    replaces have none; a built-in scene has none, and neither has a pipe, which cannot be read twice.
+    replaces have no mark. Built-in scenes have no marks, nor have pipes, which cannot be read twice.
 
     **Raises:** `SceneError` for a file that cannot be read.
     """
@@ -80,7 +80,7 @@ def marks_of(source: str | Path, overrides: Overrides | None = None) -> dict[str
 
 
 def _of_bearing(entry: Any, above: str) -> dict[str, Mark]:
-    """Marks in the file of a bearing on a shaft, of what the bearing keeps there and its entry does not replace."""
+    """Marks in the scene file of a bearing on a shaft, for the values that the shaft and the entry do not replace."""
     scene = entry.get(SCENE) if isinstance(entry, Mapping) else None
     text = _text(scene) if isinstance(scene, str) else None
     marks = {} if text is None else marks_in(text)
@@ -93,7 +93,7 @@ def _of_bearing(entry: Any, above: str) -> dict[str, Mark]:
 
 
 def _text(source: str | Path) -> str | None:
-    """Text of a file that can be read again; `None` for a built-in scene and a pipe."""
+    """Text of a scene file; `None` for a built-in scene, and for a pipe, which cannot be read again."""
     if str(source) in builtin_names() or not Path(source).is_file():
         return None
     return read_text(source, "a scene")
@@ -104,8 +104,8 @@ def _within(path: str, other: str) -> bool:
 
 
 def notes_of_file(source: str | Path, overrides: Overrides | None = None) -> list[str]:
-    """Says which numbers of a scene nobody gave, which clearance is not that of the running bearing, and which
-    materials of the seats are assumed.
+    """Notes on a scene file: numbers that nobody gave, clearances before mounting that are used as operating
+    clearances, and assumed materials of the seats.
 
     **Raises:** `SceneError` for a file that cannot be read.
     """
@@ -136,11 +136,11 @@ def notes_of_file(source: str | Path, overrides: Overrides | None = None) -> lis
 
 
 _OF_SEAT = ("interference", "tolerance")
-"""Ends of the names of fields that give a part a seat."""
+"""Endings of the field names that define the seat of a part."""
 
 
 def _complete(source: str | Path, overrides: Overrides | None) -> Mapping[str, object]:
-    """The tables of a scene with its overrides; empty where they cannot be applied."""
+    """The tables of a scene with its overrides; empty if these cannot be applied."""
     label, mapping = read_tables(source)
     texts = as_texts(overrides)
     try:

@@ -37,7 +37,7 @@ def _material_name(value: object) -> str:
     name = str(value) if isinstance(value, int) and not isinstance(value, bool) else value
     known = material_named(name) if isinstance(name, str) else None
     if known is None:
-        # "AISI M-50": the standard's name in front hides the material's
+        # "AISI M-50": the name of the standard in front hides that of the material
         near = (nearest(name, CATALOGUE) or nearest(name.split(" ")[-1], CATALOGUE)) if isinstance(name, str) else ""
         fields = ", ".join(MaterialTable.model_fields)
         expected = f"a material of the catalogue ({one_of(CATALOGUE)}) or a table with {fields}"
@@ -53,8 +53,8 @@ MaterialField = Annotated[
 
 
 def material(given: str | MaterialTable, *, thermal: bool = False) -> Material:
-    """The material that a valid field means. **Arguments:** `thermal`: with the thermal properties that it has, which
-    are left out where nothing of the scene depends on temperatures."""
+    """The material that a valid field describes. **Arguments:** `thermal`: True to include thermal properties, which
+    are left out if nothing in the scene depends on temperatures."""
     if isinstance(given, str):
         return catalogue_material(given, thermal=thermal)
     named = given.model_dump(exclude_none=True, exclude=set() if thermal else THERMAL_FIELDS)
@@ -64,7 +64,7 @@ def material(given: str | MaterialTable, *, thermal: bool = False) -> Material:
 class RingMaterialsTable(Table):
     """Materials of the rings of a bearing.
 
-    - `rings`: material of both rings, or of the outer one alone where `inner_ring` is given
+    - `rings`: material of both rings, or of the outer ring alone if `inner_ring` is given
     - `inner_ring`: material of the inner ring; not given: that of `rings`
     """
 

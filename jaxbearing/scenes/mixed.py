@@ -30,14 +30,14 @@ CONSTANTS = {
     "zhou_hoeprich": ("coefficient", "exponent"),
     "greenwood_tripp_pressure": ("asperity_product", "asperity_slope"),
 }
-"""Constants of the laws that have some."""
+"""Law of the load share -> names of its constants."""
 RIB = ZhouHoeprich(1.90, 0.99)
-"""Zhou and Hoeprich's share on the rib of a tapered roller bearing, where nothing else is given."""
+"""Zhou and Hoeprich's load share with the default constants for the rib of a tapered roller bearing."""
 _ALL = tuple(name for names in CONSTANTS.values() for name in names)
 
 
 class MixedTable(table_of(MixedFriction, ZhouHoeprich, GreenwoodTrippPressure, optional=_ALL)):
-    """Mixed friction of the raceways. Left out: the films carry all of the loads.
+    """Mixed friction of the raceways. Without this table the films carry the whole load.
 
     - `share`: law of the load share of asperities
     - `coefficient`, `exponent`: constants of 'zhou_hoeprich', 2.32 and 0.97 if not given
@@ -60,7 +60,7 @@ class MixedTable(table_of(MixedFriction, ZhouHoeprich, GreenwoodTrippPressure, o
 class RibMixedTable(MixedTable):
     """Mixed friction of the raceways and the rib of a tapered roller bearing.
 
-    - `flange_roughness`: of rib and roller end together; that of the raceways if not given
+    - `flange_roughness`: combined roughness of rib and roller end; that of the raceways if not given
     - `flange_coefficient`, `flange_exponent`: constants of 'zhou_hoeprich' on the rib, 1.90 and 0.99 if not given
     """
 
@@ -79,7 +79,7 @@ class RibMixedTable(MixedTable):
 
 
 def mixed_needs_traction(contact: Any) -> Problems:
-    """A check of [contact]."""
+    """Refuses a table [contact] with mixed friction but without traction."""
     if contact.mixed is not None and contact.traction is None:
         yield refusal_at("traction", "a law, without which mixed has no meaning", "nothing")
 
@@ -108,14 +108,14 @@ def _built(table: MixedTable, roughness: float, constants: Mapping[str, object])
 
 
 def mixed_rows(mixed: MixedFriction | None) -> Rows:
-    """The load share of the table of raceways."""
+    """The load share of the raceways, for the table [contact]."""
     if mixed is None:
         return {}
     return {"mixed": {"share": _name(mixed.share, "contact.mixed.share")} | rows(MixedTable, mixed.share)}
 
 
 def rib_mixed_rows(races: MixedFriction | None, rib: MixedFriction | None) -> Rows:
-    """The load shares of the table of a tapered roller bearing, of the raceways and of the rib."""
+    """The load shares of raceways and rib of a tapered roller bearing, for the table [contact]."""
     if (races is None) != (rib is None):
         raise unwritable("rib.mixed", shown(rib), "mixed friction of raceways and rib, or of neither")
     if races is None or rib is None:
@@ -130,7 +130,7 @@ def rib_mixed_rows(races: MixedFriction | None, rib: MixedFriction | None) -> Ro
 
 
 def _name(law: AbstractLoadShare, path: str) -> str:
-    """The name of a law, whatever its constants."""
+    """The name of a law; its constants may have any values."""
     try:
         return SHARES.name_of(law)
     except StopIteration:

@@ -22,9 +22,9 @@ from .table import Table
 from .words import describe
 
 Overrides = Mapping[str, str | float | np.generic | np.ndarray | jax.Array]
-"""Dotted path of a field -> value as it would be typed, or a number or truth value of Python, numpy or JAX."""
+"""Dotted path of a field -> value as typed by a user, or a number or truth value of Python, numpy or JAX."""
 REMOVE = "none"
-"""The value that takes an optional table or field out of the scene."""
+"""The value that removes an optional table or field from the scene."""
 _NOT_QUITE_TOML = re.compile(r"[+-]?(?:\.[0-9]+|[0-9]+\.)(?:[eE][+-]?[0-9]+)?")
 
 
@@ -48,7 +48,7 @@ def split_assignments(assignments: Iterable[str]) -> dict[str, str]:
 
 
 def as_texts(overrides: Overrides | None) -> dict[str, str]:
-    """Changes as they would be typed: a plain number or a truth value, from Python, numpy or JAX, as well.
+    """Overrides as texts, as a user would type them; numbers and truth values of Python, numpy or JAX are converted.
 
     **Raises:** `SceneError` for a value of another kind.
     """
@@ -72,8 +72,8 @@ def as_texts(overrides: Overrides | None) -> dict[str, str]:
 
 
 def parse_value(text: str) -> Any:
-    """A value of a `--set`: TOML where it is TOML (numbers, true, "quoted"), a number also as ".3" or "3.", otherwise
-    the text itself."""
+    """The value of a `--set`: read as TOML if possible (numbers, true, "quoted"), also numbers such as ".3" and "3.";
+    otherwise the text itself."""
     if "\n" in text:
         return text
     if _NOT_QUITE_TOML.fullmatch(text):
@@ -86,10 +86,10 @@ def parse_value(text: str) -> Any:
 
 
 def apply(raw: Mapping[str, object], overrides: Mapping[str, str], model: type[BaseModel], file: str) -> dict[str, Any]:
-    """A copy of the tables with the overrides; unknown names too: the validation refuses them with a suggestion.
+    """A copy of the tables with the overrides. Unknown names are applied too; the validation refuses them later.
 
-    **Raises:** `SceneError` where a path goes through something that is not a table, or where an unknown name is to be
-    taken out.
+    **Raises:** `SceneError` if a path leads through a value that is not a table, or if an unknown name is to be
+    removed.
     """
     changed, problems = applied(raw, overrides, model, file)
     if problems:
@@ -100,8 +100,8 @@ def apply(raw: Mapping[str, object], overrides: Mapping[str, str], model: type[B
 def applied(
     raw: Mapping[str, object], overrides: Mapping[str, str], model: type[BaseModel], file: str
 ) -> tuple[dict[str, Any], list[SceneError]]:
-    """A copy of the tables with the overrides that can be applied, and what is wrong with the others; see `apply`. The
-    laws of a preset are in it."""
+    """A copy of the tables with the valid overrides and with the laws of a preset, and the errors of the other
+    overrides; see `apply`."""
     found, problems = preset(raw, overrides, model, file)
     return found.tables, problems
 
@@ -109,7 +109,7 @@ def applied(
 def preset(
     raw: Mapping[str, object], overrides: Mapping[str, str], model: type[BaseModel], file: str
 ) -> tuple[Filling, list[SceneError]]:
-    """Does what `applied` does, with what a preset adds to the tables."""
+    """Does what `applied` does, and also returns the entries that a preset adds to the tables."""
     changed, problems = _applied(raw, overrides, model, file)
     removed = tuple(path for path, text in overrides.items() if text == REMOVE)
     return filling(changed, removed, model, file), problems
@@ -148,7 +148,7 @@ def completed(
 
 
 def _take_out(changed: dict[str, object], inside: list[str], names: Iterable[str]) -> None:
-    """Values that the file gives for these fields of a table; an override may put them in again."""
+    """Removes these fields from a table of the file; another override may set them again."""
     table: object = changed
     for key in inside:
         table = table.get(key) if isinstance(table, dict) else None
@@ -158,7 +158,7 @@ def _take_out(changed: dict[str, object], inside: list[str], names: Iterable[str
 
 
 def _remove(changed: dict[str, object], keys: list[str], path: str, model: type[BaseModel], file: str) -> None:
-    """Takes a field or table out; what is not there must at least be something that could be."""
+    """Removes a field or table. If it is absent, its name must at least be valid."""
     _keep_catalogue(changed, keys, path, file)
     table = changed
     for depth, key in enumerate(keys):
@@ -174,7 +174,7 @@ def _remove(changed: dict[str, object], keys: list[str], path: str, model: type[
 
 
 def _keep_catalogue(changed: Mapping[str, object], keys: list[str], path: str, file: str) -> None:
-    """**Raises:** `SceneError` where the name or the file of the oil would bring back what is taken out."""
+    """Refuses to remove data that the name, grade or file of the oil would supply again. **Raises:** `SceneError`."""
     oil = changed.get("oil")
     if len(keys) < 2 or keys[0] != "oil" or keys[1] in ("name", "grade", "base", "file") or not isinstance(oil, dict):
         return
@@ -204,16 +204,16 @@ def _table(
 
 
 def _as_toml(text: str) -> str:
-    """A value as it stands in a TOML file: a number, or a text in quotes."""
+    """A value as written in a TOML file: a number, or a text in quotes."""
     return text if isinstance(parse_value(text), int | float) else f'"{text}"'
 
 
 MOST_DEEP = 20
-"""Levels of tables in a scene; the deepest of a scene has five."""
+"""Largest depth of nested tables in a scene; valid scenes have at most five levels."""
 
 
 def _copy(table: Mapping[str, object], file: str, above: tuple[str, ...] = ()) -> dict[str, object]:
-    """**Raises:** `SceneError` for tables inside tables without end."""
+    """A copy of the tables with plain values. **Raises:** `SceneError` for tables that are nested too deeply."""
     if len(above) > MOST_DEEP:
         raise SceneError(file, ".".join(above), "a table nested too deeply", f"at most {MOST_DEEP} levels of tables")
     return {
@@ -223,5 +223,5 @@ def _copy(table: Mapping[str, object], file: str, above: tuple[str, ...] = ()) -
 
 
 def _plain(value: object) -> Any:
-    """A value of a table, or a list of them, whose numbers may be numpy's or JAX's, with Python's."""
+    """A value of a table, or a list of values, with numbers of numpy or JAX converted to those of Python."""
     return [plain(one) for one in value] if isinstance(value, list) else plain(value)

@@ -1,6 +1,6 @@
-"""Parts of a scene as tables of a scene file: the way back from the `..._build` modules, to the last bit.
+"""Parts of a scene as tables of a scene file: the way back from the `build` modules, exact to the last bit.
 
-What can be written is what a file can hold. The rest is refused here, by the name of the field.
+Fields that a file cannot hold are refused; the error names the field.
 """
 
 import dataclasses
@@ -22,9 +22,9 @@ from .table import Table
 from .words import shortened
 
 Rows = dict[str, Any]
-"""A table: texts with units, numbers, words, lists and further tables by name."""
+"""A table: name -> text with a unit, number, word, list or inner table."""
 _MANY = 1000
-"""Rows of a table up to which each time has a unit of its own."""
+"""Largest number of rows for which the shortest unit is chosen for each time; longer tables have s."""
 SCENE = "scene"
 """The name of the scene in refusals, before the file is known."""
 
@@ -35,15 +35,15 @@ def unwritable(path: str, found: str, expected: str) -> SceneError:
 
 
 def given(tables: Mapping[str, object]) -> Rows:
-    """The tables and fields that are there."""
+    """The tables and fields without those that are `None`."""
     return {name: value for name, value in tables.items() if value is not None}
 
 
 def rows(table: type[Table], part: object, thermal: bool = False) -> Rows:
-    """The fields of a part that are given and that the table has from its class (`table_of`), its materials and its
-    parts of the same kind. The laws of a part are left to those who know their names.
+    """The given fields of a part that its table takes from the class (`table_of`), its materials, and its inner parts
+    with tables of their own. Laws are left out: the callers know their names.
 
-    **Arguments:** `thermal`: whether the materials have thermal properties.
+    **Arguments:** `thermal`: True if the materials have thermal properties.
     """
     found: Rows = {}
     for name in table.model_fields:
@@ -62,12 +62,12 @@ def rows(table: type[Table], part: object, thermal: bool = False) -> Rows:
 
 
 def all_rows(part: eqx.Module) -> Rows:
-    """The fields of a part, by their names in its class."""
+    """All given fields of a part, by their names in its class."""
     return given({field.name: written(part, field.name) for field in dataclasses.fields(part)})
 
 
 def written(part: Any, name: str) -> Any:
-    """The value of a field of a part, as a file has it."""
+    """The value of a field of a part, as written in a file."""
     value = getattr(part, name)
     said = next(field.metadata for field in dataclasses.fields(part) if field.name == name)
     if "bound" in said:
@@ -79,22 +79,22 @@ def written(part: Any, name: str) -> Any:
 
 
 def number(value: object, unit: str, difference: bool = False) -> float | str:
-    """A number, or its text in a unit. **Arguments:** as for `units.number_note`."""
+    """A number as written in a file: plain, or as a text with a unit. **Arguments:** as for `units.number_note`."""
     plain = float(np.asarray(value))
     return plain if unit == "1" else quantity_text(plain, units.dimension_of_unit(unit, difference))
 
 
 def table_rows(law: Tabulated) -> Rows:
-    """A factor over time by its table."""
+    """The table of a factor over time: times and factors."""
     times, factors = np.asarray(law.times).tolist(), np.asarray(law.factors).tolist()
-    # which unit is the shortest takes longer than all else
+    # the search for the shortest unit would take most of the time
     text = (lambda time: number(time, "s")) if len(times) <= _MANY else (lambda time: f"{time!r} s")
     return {"times": [text(time) for time in times], "factors": factors}
 
 
 def material(one: Material, thermal: bool = False) -> str | Rows:
-    """The name in the catalogue, or a table. **Arguments:** `thermal`: whether names stand for materials with thermal
-    properties."""
+    """The name in the catalogue, or a table. **Arguments:** `thermal`: True if a name stands for a material with
+    thermal properties."""
     named = (name for name in CATALOGUE if same(catalogue_material(name, thermal=thermal), one))
     return next(named, rows(MaterialTable, one))
 
@@ -102,10 +102,10 @@ def material(one: Material, thermal: bool = False) -> str | Rows:
 def law_name(laws: Laws[Any], law: object, path: str, made: Callable[[str], object] | None = None) -> str:
     """The name by which files know a law.
 
-    **Arguments:** `path`: of the law in the scene, for messages; `made`: the law of a name, where it is not that of
-    `laws` alone.
+    **Arguments:** `path`: path of the law in the scene, for messages; `made`: function that makes the law of a name,
+    if `laws` alone cannot.
 
-    **Raises:** `SceneError` for a law without a name, and for one whose numbers are others than those of its name.
+    **Raises:** `SceneError` for a law without a name, and for a law with other numbers than the named one.
     """
     for name in laws.every():
         try:
@@ -119,12 +119,12 @@ def law_name(laws: Laws[Any], law: object, path: str, made: Callable[[str], obje
 
 
 def optional_law(laws: Laws[Any], law: object, absent: object, path: str) -> str | None:
-    """The name of a law; `None` for the one that stands for an absent name."""
+    """The name of a law; `None` for the law `absent`, which is that of a file without a name."""
     return None if same(law, absent) else law_name(laws, law, path)
 
 
 def shown(value: object) -> str:
-    """A value of a scene, for messages: a part on one line."""
+    """A value or part of a scene on one line, for messages."""
     return shortened(" ".join(repr(value).split()))
 
 
@@ -134,7 +134,7 @@ def same(one: object, other: object) -> bool:
 
 
 def differences(one: object, other: object, path: str = "") -> Iterator[tuple[str, Any, Any]]:
-    """Dotted path and both values of what two parts differ in."""
+    """Dotted path and both values of each difference between two parts."""
     if isinstance(one, eqx.Module) and type(one) is type(other):
         for field in dataclasses.fields(one):
             inside = f"{path}.{field.name}".lstrip(".")

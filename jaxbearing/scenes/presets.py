@@ -1,8 +1,8 @@
-"""`laws = "best"`: the laws of a bearing that a scene file need not name one by one, and what they need beside them.
+"""The preset `laws = "best"`: a set of laws for a bearing, with the further data that these laws need.
 
-The preset stands for one law of each kind, those that the package's own scenes use. A field that the file gives itself
-prevails; the word "none" leaves a field or a table out. A cage has dimensions that no catalogue prints: where the file
-does not give them they are estimated, and a note says so.
+The preset supplies one law of each kind, as in the package's own scenes. Fields in the file take precedence; the word
+"none" leaves a field or a table out. Dimensions of the cage, which catalogues do not print, are estimated if the file
+does not give them, and a note reports it.
 """
 
 import math
@@ -29,19 +29,19 @@ Preset = Literal["best"]
 NONE = "none"
 """The word that leaves a field or a table of the preset out."""
 GUIDING_CLEARANCE, POCKET_CLEARANCE, LAND_WIDTH = 0.004, 0.02, 0.15
-"""Estimated cage: diametral clearance of the land over the pitch diameter (0.003 to 0.006 are usual), clearance in the
-pocket and width of a land over the diameter of the rolling elements (0.015 to 0.025, and 0.1 to 0.2)."""
+"""Ratios for an estimated cage: diametral clearance of the cage land over pitch diameter (usually 0.003 to 0.006),
+pocket clearance (0.015 to 0.025) and width of a land (0.1 to 0.2) over the diameter of the rolling elements."""
 OUTER_RIBS = ("NU", "NJ", "NUP")
-"""Types of cylindrical roller bearings whose outer ring has two ribs, which guide the cage."""
+"""Types of cylindrical roller bearings with two ribs on the outer ring, which guide the cage."""
 FREE_GAP = 0.3
-"""Largest part of the gap between two rolling elements that an estimated pocket clearance takes."""
+"""Largest ratio of an estimated pocket clearance to the gap between two rolling elements."""
 
 
 class Given(NamedTuple):
-    """A field for which a preset stands.
+    """A field that a preset supplies.
 
-    **Arguments:** `value`: as a file has it, or a function that finds it in the tables of a scene, `None` where it
-    cannot; `words`: what is listed instead of the function.
+    **Arguments:** `value`: value as written in a file, or a function that computes it from the tables of a scene and
+    returns `None` if it cannot; `words`: text that lists of fields show instead of the function.
     """
 
     value: str | float | Callable[[Mapping[str, Any]], str | None]
@@ -49,10 +49,10 @@ class Given(NamedTuple):
 
 
 class Filling(NamedTuple):
-    """The tables of a scene with what a preset adds.
+    """The tables of a scene with the fields that a preset adds.
 
-    **Arguments:** `added`: dotted path -> value; `estimated`, `assumed`: those of them that are estimates or assumed;
-    `left_out`: in words.
+    **Arguments:** `added`: dotted path -> value of each added field; `estimated`, `assumed`: paths of added fields with
+    an estimated or assumed value; `left_out`: omitted fields and tables with reasons, in words.
     """
 
     tables: dict[str, Any]
@@ -63,7 +63,7 @@ class Filling(NamedTuple):
 
 
 def _flow_law(tables: Mapping[str, object]) -> str:
-    """The law with which the oil's friction was fitted."""
+    """The flow law with which the oil's rheology was fitted."""
     with suppress(SceneError):
         oil = tables.get("oil")
         rheology = with_catalogue(oil).get("rheology") if isinstance(oil, Mapping) else None
@@ -74,7 +74,7 @@ def _flow_law(tables: Mapping[str, object]) -> str:
 
 
 def _length(tables: Mapping[str, object], name: str) -> float | None:
-    """A dimension of the geometry, m; `None` where it is not there or refused."""
+    """A dimension of the geometry, m; `None` if it is absent or invalid."""
     geometry = tables.get("geometry")
     given = geometry.get(name) if isinstance(geometry, Mapping) else None
     try:
@@ -99,7 +99,7 @@ def _land(tables: Mapping[str, object]) -> str | None:
 
 
 def _pocket(tables: Mapping[str, Any]) -> str | None:
-    """Less where the rolling elements stand close."""
+    """Estimated pocket clearance; it is reduced if the gaps between the rolling elements are small."""
     size, pitch = _element(tables), _length(tables, "pitch_diameter")
     counts = [tables["geometry"].get(name) for name in ("n_balls", "n_rollers")] if size is not None else []
     count = next((one for one in counts if isinstance(one, int)), 0)
@@ -163,7 +163,7 @@ BEST: dict[str, dict[str, dict[str, Given]]] = {
         "drag": {"coefficient": Given(DRAG["roller"].nominal)},
     },
 }
-"""Kind of scene -> table -> field -> what `laws = "best"` stands for."""
+"""Kind of scene -> table -> field -> value that `laws = "best"` supplies."""
 _ESTIMATED = ("cage.guiding_clearance", "cage.pocket_clearance", "cage.land_width", "drag.coefficient")
 _ASSUMED = ("cage.guidance",)
 _OF_SLIDING = {
@@ -173,23 +173,23 @@ _OF_SLIDING = {
 }
 """Kind of scene -> tables that only a scene with traction has."""
 _SHAFT = "shaft"
-"""The kind of scenes whose bearings have presets of their own."""
+"""The kind of scene whose bearings can have presets."""
 _TILTS = ("misalignment", "misalignment_lateral", "moment", "moment_lateral")
-"""Fields of the operating point with which cylindrical rollers tilt, and then roll without sliding."""
+"""Fields of the operating point that tilt cylindrical rollers, which then roll without sliding in the model."""
 
 
 def listing(kind: str) -> Iterator[tuple[str, str]]:
-    """Dotted path and value, in words, of each field for which `laws = "best"` stands."""
+    """Dotted path and value, in words, of each field that `laws = "best"` supplies."""
     for table, fields in BEST.get(kind, {}).items():
         for name, given in fields.items():
             yield f"{table}.{name}", given.words or _shown(given.value)
 
 
 def filling(tables: Mapping[str, object], removed: tuple[str, ...], model: type[BaseModel], file: str) -> Filling:
-    """The tables of a scene with what its preset adds, or those of the bearings on a shaft; without a preset as they
-    are.
+    """The tables of a scene with the fields that its preset, or the presets of the bearings on a shaft, add. Without a
+    preset the tables are unchanged.
 
-    **Arguments:** `removed`: dotted paths that a `--set` takes out; `model`: schema of the scene; `file`: its name.
+    **Arguments:** `removed`: dotted paths that a `--set` removes; `model`: schema of the scene; `file`: its name.
     """
     kind = kind_named(tables.get("kind"))
     if kind == _SHAFT:
@@ -218,7 +218,7 @@ def filling(tables: Mapping[str, object], removed: tuple[str, ...], model: type[
 
 
 def _on_shaft(tables: Mapping[str, object], removed: tuple[str, ...], model: type[BaseModel], file: str) -> Filling:
-    """The tables of a shaft with what the presets of its bearings add; arguments as of `filling`."""
+    """The tables of a shaft with the fields that the presets of its bearings add; arguments as for `filling`."""
     found = Filling(dict(tables), {})
     for keys in each_bearing(tables):
         entry, models, above = at(tables, keys), tables_at(model, keys), ".".join(keys)
@@ -237,7 +237,7 @@ def _on_shaft(tables: Mapping[str, object], removed: tuple[str, ...], model: typ
 
 
 def names_a_preset(tables: object) -> bool:
-    """True for tables that may have a preset: they name one, or they name a scene of a bearing that is not read yet."""
+    """True for tables that name a preset, or the scene of a bearing, which is not read yet and may have a preset."""
     if isinstance(tables, list):
         return any(names_a_preset(one) for one in tables)
     if not isinstance(tables, Mapping):
@@ -246,14 +246,14 @@ def names_a_preset(tables: object) -> bool:
 
 
 def _with_means(tables: Mapping[str, object], model: type[BaseModel], file: str) -> Mapping[str, Any]:
-    """The tables with the means of their distributions, as far as these are sound."""
+    """The tables with the means of their distributions; unchanged if a distribution has errors."""
     with suppress(SceneError):
         return means_of(tables, model, file)[0]
     return tables
 
 
 def _without(kind: str, table: str, filled: Mapping[str, Any], removed: tuple[str, ...]) -> str | None:
-    """The reason why a table is left out, in words; "" where the scene says so itself, `None` for one that is not."""
+    """The reason why a table is left out, in words; "" if the scene itself leaves it out; `None` if it is kept."""
     if table in removed or filled.get(table) == NONE:
         return ""
     contact = filled.get("contact")
@@ -270,7 +270,7 @@ def _without(kind: str, table: str, filled: Mapping[str, Any], removed: tuple[st
 def _not_for(
     kind: str, table: str, filled: Mapping[str, Any], removed: tuple[str, ...], left_out: list[str]
 ) -> tuple[str, ...]:
-    """Fields of the preset that do not go with the rest of the scene; adds to `left_out` why."""
+    """Fields of the preset that do not fit the rest of the scene; the reasons are added to `left_out`."""
     if kind != "cylindrical_roller_bearing" or table != "contact":
         return ()
     operation = filled.get("operation")
@@ -295,7 +295,7 @@ def _fields(
     """The fields that the preset adds to a table."""
     names = names_at(model, (table,))
     out = {name for name in fields if f"{table}.{name}" in removed or own.get(name) == NONE}
-    # what is about a field that is left out goes too; what is given may stand in the place of others
+    # fields that have a meaning only with an omitted field are omitted too, and fields that given ones exclude
     out |= {other for name in out for other in names.about.get(name, ())}
     out |= {other for name in own for other in names.instead.get(name, ())}
     found = {}
@@ -307,7 +307,7 @@ def _fields(
 
 
 def said_of(found: Filling) -> str:
-    """Everything that the preset of a scene stands for, law by law, in words; "" without a preset."""
+    """Text that lists the laws and values which the preset of a scene supplies; "" without a preset."""
     if not found.added and not found.left_out:
         return ""
     guessed = (*found.estimated, *found.assumed)

@@ -1,5 +1,4 @@
-"""`SceneError` from the errors of pydantic (`from_validation`) and of the classes that a scene is built of
-(`from_class`).
+"""Makes a `SceneError` from errors of pydantic (`from_validation`) or of the classes of a scene (`from_class`).
 
 A *law* is a formula that a scene chooses by its name. In some tables of a file the field `law` holds that name, and it
 decides which other fields the table has.
@@ -31,8 +30,8 @@ def from_validation(
 ) -> SceneError:
     """The error for all problems that pydantic found.
 
-    Unknown names come first and missing fields last. A missing field is left out if another problem suggests it as the
-    name that was meant, or if it follows from the name that is meant.
+    Unknown names come first and missing fields last. A missing field is not reported if another problem suggests its
+    name in place of an unknown one, or if it would follow from the suggested field.
 
     **Arguments:** `error`: of pydantic; `model`: schema of the scene; `file`: its name for messages; `raw`: the tables.
     """
@@ -55,7 +54,7 @@ def from_validation(
 
 
 def _rules(path: str) -> bool:
-    """True for a field that says which others its table needs."""
+    """True for a field that decides which other fields its table needs."""
     return path.rpartition(".")[2] in ("name", "grade", "file", "law")
 
 
@@ -65,7 +64,7 @@ def meant_by(problem: SceneError) -> str:
 
 
 SLIP = 0.85
-"""Similarity (difflib) of two names from which on one is the other with a typing error."""
+"""Similarity (difflib) of two names above which one is taken as a misspelling of the other."""
 
 
 def _absent_meant(
@@ -74,8 +73,8 @@ def _absent_meant(
     absent: Sequence[Sequence[int | str]],
     raw: Mapping[str, object],
 ) -> str:
-    """The field that an unknown name may be meant for: the nearest one that its table lacks, or the only one that it
-    lacks and needs; "" if there is none."""
+    """The field that an unknown name may be meant for, e.g. the nearest absent field of its table, or the only required
+    field that is absent; "" if there is none."""
     name, inside = str(location[-1]), tuple(location[:-1])
     table: object = raw
     for key in filter(None, path_of(inside).split(".")):
@@ -88,13 +87,13 @@ def _absent_meant(
     if not inside and _inside(name, model, names_at(model, ()).names):
         return ""
     only = needed[0] if len(needed) == len(unknown) == 1 else ""
-    # a wrong letter, or the word of a catalogue, means its field even if that is given, as in changes of a scene
+    # a misspelling or a catalogue's word means its field even if the field is given already, as with overrides
     slip = "".join(difflib.get_close_matches(name, names, n=1, cutoff=SLIP))
     return slip or usual_word(name, names) or only or nearest(name, needed) or nearest(name, valid)
 
 
 def in_words(file: str, path: str, words: Mapping[str, str]) -> SceneError:
-    """One problem. `words` holds `found` and `expected`, and may hold `suggestion`."""
+    """The error for a problem. **Arguments:** `words`: texts `found` and `expected`, and perhaps `suggestion`."""
     return SceneError(file, path, words["found"], words["expected"], words.get("suggestion", ""))
 
 
@@ -135,19 +134,19 @@ def describe_at(raw: Mapping[str, object], path: str) -> str:
 
 
 def _causes(details: list[Any]) -> list[Any]:
-    """Leaves out the problems that follow from a wrong `law`, such as parameters which another law has or lacks."""
+    """The problems without those that follow from a wrong `law`, such as parameters of another law."""
     wrong = {tuple(one["loc"][:-1]) for one in details if one["type"] == "literal_error" and one["loc"][-1] == "law"}
     return [one for one in details if one["loc"][-1:] == ("law",) or tuple(one["loc"][:-1]) not in wrong]
 
 
 def _rank(detail: Any) -> int:
-    """Place of a problem among others: unknown names first, missing fields last."""
+    """Sorting key of a problem: unknown names come first, missing fields last."""
     return {"extra_forbidden": 0, "missing": 2}.get(detail["type"], 1)
 
 
 def _path_and_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]:
-    """Dotted path of one problem of pydantic, and the words for `in_words`. A validator of a schema raises a problem of
-    the type "scene", whose context holds the field and the words."""
+    """Dotted path of one problem of pydantic, and the words for `in_words`. Validators of the schemas raise
+    problems of the type "scene", whose context holds the field and the words."""
     kind, location, context = detail["type"], detail["loc"], detail.get("ctx", {})
     path = path_of(location)
     if kind == "extra_forbidden":
@@ -180,7 +179,7 @@ def _path_and_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str,
 
 
 def _expected_at(model: type[BaseModel], location: Sequence[int | str]) -> str:
-    """The values that the field at a location takes, in the words of its messages, after ": "; empty if unknown."""
+    """The accepted values of the field at a location, in the words of its messages, after ": "; "" if unknown."""
     wanted = type_at(model, location)
     if wanted is None:
         return ""
@@ -212,6 +211,6 @@ def unknown_name(location: Sequence[int | str], model: type[BaseModel]) -> dict[
 
 
 def _inside(name: str, model: type[BaseModel], tables: Iterable[str]) -> str:
-    """The dotted path of a field of this name in one of the tables of a scene; empty if there is not just one."""
+    """The dotted path of the field with this name, if exactly one of these tables has it; otherwise ""."""
     found = [f"{table}.{name}" for table in tables if name in names_at(model, (table,)).names]
     return found[0] if len(found) == 1 else ""

@@ -1,4 +1,4 @@
-"""Texts of numbers with units that are read as these very numbers, to the last bit."""
+"""Writes numbers as texts with units from which exactly the same numbers are read back."""
 
 import math
 from collections.abc import Iterator
@@ -30,33 +30,33 @@ _READABLE = {
     units.FREQUENCY: ("Hz", "kHz"),
     units.LINE_CONTACT_STIFFNESS: ("N/um^(10/9)", "N/mm^(10/9)", "N/m^(10/9)"),
 }
-"""Units of `usual_units` that people write, the preferred one first; other quantities are written in SI units."""
+"""Dimension -> customary units, the preferred unit first; quantities of other dimensions are written in SI units."""
 _DIGITS = (6, 9, 12, 15, 16, 17)
 
 
 def quantity_text(value: float, dimension: units.Dimension) -> str:
-    """The text of a value in SI that is read as this very value, in the unit in which the number is shortest.
+    """The text from which a value in SI is read back exactly, in the unit in which the number is shortest.
 
-    A unit is taken only where it gives the value back to the last bit; the SI unit always does.
+    A unit is used only if it gives the value back to the last bit; the SI unit always does.
     """
     return min(_texts(value, dimension), key=_length)
 
 
 def text_in(unit: str, value: float, dimension: units.Dimension) -> str:
-    """The text of a value in SI in this unit, one of `usual_units`: what was typed in it is read back to the last bit,
-    any other value to 15 digits."""
+    """The text of a value in SI in a unit of `usual_units`. It is exact for a value that was typed in this unit; other
+    values have 15 digits."""
     factor, zero = USUAL[dimension.si][unit]
     return _exact(unit, value, dimension) or f"{(value - zero) / factor:.15g} {unit}"
 
 
 def _length(text: str) -> int:
-    """Digits of the number; it should not begin with 0, and not be 10 000 or more."""
+    """Length of the number in a text, with a penalty for numbers that begin with "0." or are 10 000 or more."""
     number = text.partition(" ")[0].lstrip("-")
     return len(number.replace(".", "")) + (2 if number.startswith("0.") else 3 if float(number) >= 1e4 else 0)
 
 
 def _texts(value: float, dimension: units.Dimension) -> Iterator[str]:
-    """The exact texts, those in preferred units first."""
+    """Exact texts of a value, first in the preferred units, last in the SI unit."""
     for unit in _READABLE.get(dimension, (dimension.si,)):
         exact = _exact(unit, value, dimension)
         if exact is not None:
@@ -65,7 +65,7 @@ def _texts(value: float, dimension: units.Dimension) -> Iterator[str]:
 
 
 def _exact(unit: str, value: float, dimension: units.Dimension) -> str | None:
-    """The shortest text in a unit that is read as this value; `None` if there is none."""
+    """The shortest text in a unit from which exactly this value is read; `None` if there is none."""
     factor, zero = USUAL[dimension.si][unit]
     scaled = (value - zero) / factor
     texts = (f"{scaled:.{digits}g} {unit}" for digits in _DIGITS)
@@ -73,7 +73,7 @@ def _exact(unit: str, value: float, dimension: units.Dimension) -> str | None:
 
 
 def _is_read_as(value: float, text: str, dimension: units.Dimension) -> bool:
-    """Digits may be missing, and the factor of a unit may cost the last place."""
+    """True if exactly this value is read from the text; rounding can prevent it."""
     try:
         found = units.parse(text, dimension)
     except PydanticCustomError:

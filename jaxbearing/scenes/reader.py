@@ -327,7 +327,7 @@ def is_shaft(tables: Mapping[str, object]) -> bool:
 
 
 def _related(a: str, b: str) -> bool:
-    """True if the two dotted paths are equal, or if one is the beginning of the other."""
+    """True if two dotted paths are equal, or if one path contains the other."""
     return f"{a}.".startswith(f"{b}.") or f"{b}.".startswith(f"{a}.")
 
 

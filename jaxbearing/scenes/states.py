@@ -30,7 +30,7 @@ EXAMPLE = '[[state]] tables, each with share = 0.6 and changes such as operation
 
 @dataclass(frozen=True)
 class FileState:
-    """One state of a load spectrum. `changes`: dotted path -> value as it would be typed."""
+    """One state of a load spectrum. `changes`: dotted path -> value as a user would type it."""
 
     name: str
     share: float
@@ -39,7 +39,7 @@ class FileState:
 
 
 def has_states(source: str | Path) -> bool:
-    """True if the file of a bearing has a load spectrum; the states of a shaft are a part of its scene.
+    """True if the file of a bearing has a load spectrum; False for a shaft, whose states are a part of its scene.
 
     **Raises:** `SceneError` for a file that cannot be read.
     """
@@ -48,7 +48,7 @@ def has_states(source: str | Path) -> bool:
 
 
 def base_scene(source: str | Path, overrides: Overrides | None = None) -> AbstractScene:
-    """The scene without its states, as `load_scene` without the warning that they are left out."""
+    """The scene without its states, as from `load_scene`, but without the warning that they are left out."""
     label, mapping = read_all(source)
     mapping = without_states(mapping)
     warn_of_means(mapping, label, overrides)
@@ -58,12 +58,12 @@ def base_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
 
 
 def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple[FileState, ...]:
-    """The states of a load spectrum, each with its scene: the file's with `overrides`, then with the state's changes.
+    """The states of a load spectrum, each with its scene: that of the file with `overrides` and the state's changes.
 
-    **Arguments:** as those of `load_scene`.
+    **Arguments:** as for `load_scene`.
 
-    **Raises:** `SceneError` for a file without states, for states without a share, with the name of another one or
-    with shares that do not add up to 1, for changes of unknown fields and for scenes that cannot be built.
+    **Raises:** `SceneError` for a file without states, for states with missing shares, repeated names or shares that do
+    not add up to 1, for changes of unknown fields and for scenes that cannot be built.
     """
     label, mapping = read_all(source)
     if is_shaft(mapping):
@@ -75,7 +75,7 @@ def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple
     if not isinstance(given, list) or not given or not all(isinstance(one, Mapping) for one in given):
         raise SceneError(label, STATES, describe(given), EXAMPLE)
     texts = as_texts(overrides)
-    # a scene that is wrong without any state is refused once
+    # an error of the scene itself is reported once, not for every state
     scene_from_tables(mapping, label, texts)
     given = numbered(given)
     require_names_and_shares(given, label)
@@ -93,20 +93,20 @@ def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple
 
 
 def numbered(given: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """The states, each with its number where it has no name."""
+    """The states; a state without a name is named by its number."""
     return [{NAME: str(place + 1), **one} for place, one in enumerate(given)]
 
 
 def require_names_and_shares(given: Sequence[Mapping[str, object]], label: str) -> None:
-    """**Raises:** `SceneError` for states without a share, with the name of another one or with shares that do not add
-    up to 1."""
+    """Checks names and shares of states. **Raises:** `SceneError` for missing shares, invalid or repeated names, and
+    shares that do not add up to 1."""
     problems = list(_problems(given, label))
     if problems:
         raise SceneError.of_all(problems)
 
 
 def _problems(given: Sequence[Mapping[str, Any]], label: str) -> Iterator[SceneError]:
-    """Everything that is wrong with names and shares."""
+    """All errors in names and shares."""
     names: list[str] = []
     shares: list[float] = []
     for place, one in enumerate(given):
@@ -154,7 +154,7 @@ def state_of(one: Mapping[str, Any], mapping: Mapping[str, object], texts: dict[
 
 
 def _flat(table: Mapping[str, Any], inside: str = "") -> Iterator[tuple[str, str]]:
-    """Dotted path and text of each value, of tables inside tables too."""
+    """Dotted path and text of each value, also of those in nested tables."""
     for key, value in table.items():
         path = f"{inside}{key}"
         if isinstance(value, Mapping):

@@ -7,15 +7,15 @@ from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
 
 Problems = Iterator[PydanticCustomError]
-"""Problems that the checks of a table find, in the words of `refusal_at`."""
+"""Problems that the checks of a table find, as made by `refusal_at`."""
 _IS_CHECK = "is_check"
 
 
 def check(method: Callable[[Any], Problems]) -> Callable[[Any], Problems]:
-    """Marks a method of a table that yields what is wrong with several of its fields together.
+    """Marks a method of a table that yields problems of several fields together.
 
-    A check reads only what it needs: it ends where it meets a field that is refused already (`drafts.Draft`), and what
-    depends on other fields belongs into a check of its own.
+    A check should read only fields that it needs, because it ends at the first field that is refused already
+    (`drafts.Draft`). Rules about other fields belong in another check.
     """
     setattr(method, _IS_CHECK, True)
     return method
@@ -24,11 +24,13 @@ def check(method: Callable[[Any], Problems]) -> Callable[[Any], Problems]:
 class Table(BaseModel):
     """A table: unknown names are refused, and nothing is converted silently.
 
-    `tag` names a table that is one of several alternatives of a field; `not_yet` are names of later versions, and
-    `elsewhere` names that belong to other tables, both with what to expect instead; `instead`: field -> those that it
-    stands for: a `--set` of it takes them out; `about`: field -> those that say more about it: they go when a `--set`
-    takes it out; `needs`: fields without which, or something in their place, a check refuses the table; `builds`: the
-    class that the table describes; `made_from`: field -> the class, and its field, that it was made from.
+    - `tag`: name of the table as one of several alternatives of a field.
+    - `not_yet`, `elsewhere`: names of later versions and of other tables -> what is expected instead, in words.
+    - `instead`: field -> fields that it replaces: a `--set` of it removes them.
+    - `about`: field -> fields that have a meaning only with it: a `--set` that removes it removes them too.
+    - `needs`: optional fields whose absence a check refuses, unless another field replaces them.
+    - `builds`: class that the table describes.
+    - `made_from`: field -> class and field from which it was made.
     """
 
     # a table is compiled when the first file with it is read
@@ -48,19 +50,19 @@ class Table(BaseModel):
 
     @classmethod
     def of_file(cls, tables: Mapping[str, object], overrides: Mapping[str, str], file: str) -> "type[Table]":
-        """The schema of these tables of a file, of a kind whose files have names of their own in it."""
+        """The schema for these tables of a file. It differs from the class if files define names, as for shafts."""
         return cls
 
     @classmethod
     def example(cls) -> "type[Table]":
-        """The schema of no file in particular, for lists of fields."""
+        """The schema for lists of fields, which belongs to no file."""
         return cls
 
     @classmethod
     def completed(
         cls, tables: dict[str, Any], overrides: Mapping[str, str], file: str
     ) -> tuple[dict[str, Any], Mapping[str, str]]:
-        """The tables with those of other files that they name, and the overrides that are left to be applied."""
+        """The tables, with other scene files that they name replaced by their tables, and the remaining overrides."""
         return tables, overrides
 
     @classmethod
@@ -71,7 +73,7 @@ class Table(BaseModel):
 
     @model_validator(mode="after")
     def _checked(self) -> Self:
-        """**Raises:** the first problem; `drafts` finds all of them."""
+        """Runs the checks. **Raises:** the first problem; `drafts` finds all of them."""
         for method in self.checks():
             for problem in method(self):
                 raise problem
@@ -79,7 +81,7 @@ class Table(BaseModel):
 
 
 def refusal_at(field: str, expected: str, found: str, suggestion: str = "") -> PydanticCustomError:
-    """The error of a check that sees a whole table; `field` is the dotted path, inside the table, to look at;
-    `suggestion`: the nearest valid name."""
+    """The error of a check. **Arguments:** `field`: dotted path of the field inside the table; `suggestion`: nearest
+    valid name."""
     context = {"field": field, "found": found, "expected": expected, "suggestion": suggestion}
     return PydanticCustomError("scene", "{field}: found {found}, expected {expected}", context)

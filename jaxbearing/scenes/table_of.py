@@ -1,8 +1,8 @@
-"""Tables of scene files from the classes that they build: a field is said once, on its class.
+"""Makes tables of scene files from the classes that they build, so that a field is defined only once, in its class.
 
-The class says of a field the SI unit and the bound (`numerics.checks.bounded`), or the choices, the count, the switch
-(`numerics.structure`), its default and what it is. The table states only what is particular to files: names of laws and
-materials, what excludes each other, what a file may leave out.
+The class defines SI unit and bound of a field (`numerics.checks.bounded`), or its choices, count or switch
+(`numerics.structure`), its default and its description. The table defines only the properties of files: names of laws
+and materials, fields that exclude each other, and fields that may be left out.
 """
 
 import dataclasses
@@ -20,17 +20,15 @@ from .table import Table
 def table_of(
     *classes: type, leave_out: Collection[str] = (), optional: Collection[str] = (), base: type[Table] = Table
 ) -> Any:
-    """A table with the fields of classes; a subclass adds what is particular to files.
-
-    Fields that hold a part or a law are left to the subclass, which says how a file names it.
+    """A table with the fields of classes. A subclass adds the rules of files, and the fields that hold a part or a law.
 
     **Arguments:**
-    - `classes`: what the table builds comes first.
+    - `classes`: classes with the fields; the first is the class that the table builds.
     - `leave_out`: fields that files do not have.
-    - `optional`: fields that a file may leave out although the class has no default, or another one than `None`.
+    - `optional`: fields that are `None` if a file leaves them out, although their class has no default or another one.
     - `base`: table with further fields and checks.
 
-    **Returns:** a `type[Table]`, to a type checker any class, since its fields are made here.
+    **Returns:** a `type[Table]`, annotated as `Any` because type checkers cannot know its fields.
     """
     fields: dict[str, Any] = {}
     made_from: dict[str, tuple[type, str]] = {}
@@ -51,8 +49,8 @@ def table_of(
 
 
 def type_of(field: Any) -> Any:
-    """The type that reads a field of a class from a file; `None` for a field that holds something else than a number, a
-    word or a truth value."""
+    """The type that reads a field of a class from a file; `None` for a field that does not hold numbers, a word or a
+    truth value."""
     said: Mapping[str, Any] = field.metadata
     if "bound" in said:
         return Annotated[float, units.number_note(said["bound"], said["unit"], said["difference"])]
@@ -72,12 +70,12 @@ def type_of(field: Any) -> Any:
 
 
 def number_of(owner: type, name: str) -> Any:
-    """The type that reads a field of a class from a file."""
+    """The type that reads the field `name` of a class from a file."""
     return type_of(next(field for field in dataclasses.fields(owner) if field.name == name))
 
 
 def fields_of_class(owner: type) -> Iterator[str]:
-    """Names, in files, of the fields of a class that tables make from it."""
+    """Names in files of the fields of a class that its table has."""
     yield from (name for name, _, field in _fields((owner,)) if type_of(field) is not None)
 
 

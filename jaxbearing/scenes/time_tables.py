@@ -1,4 +1,4 @@
-"""Speed, load or oil over time from a CSV file: two columns, units in the header, one row a time; or from lists."""
+"""Speed, load or oil data over time from a CSV file with two columns and units in the header; checks of lists."""
 
 import itertools
 from collections.abc import Sequence
@@ -20,11 +20,11 @@ _QUANTITIES = {
     "oil_flow": (FLOW, "oil_flow [l/h]"),
 }
 FACTOR = "factor"
-"""The column of a table that is relative to the operating point."""
+"""Name of the column with values relative to the operating point."""
 
 
 class TimeTable(NamedTuple):
-    """Times, s, increasing, and values, as many: SI, or factors where `relative`."""
+    """Increasing times, s, and as many values: in SI units, or factors if `relative`."""
 
     times: np.ndarray
     values: np.ndarray
@@ -32,7 +32,7 @@ class TimeTable(NamedTuple):
 
 
 def check_lists(times: Sequence[float], factors: Sequence[float]) -> Problems:
-    """Refusals of lists in a scene that are no function of time."""
+    """Refuses lists in a scene that do not define a function of time."""
     if len(times) < 2 or len(times) != len(factors):
         expected = "as many factors as times, two or more"
         yield refusal_at("factors", expected, f"{len(factors)} factors and {len(times)} times")
@@ -41,11 +41,11 @@ def check_lists(times: Sequence[float], factors: Sequence[float]) -> Problems:
 
 
 def read_time_table(file: str, quantity: str, field: str) -> TimeTable:
-    """Read `time [ms], speed [rpm]`, or `factor` in place of the second column; blank lines and lines that begin with
-    `#` are skipped, other columns are refused. Columns are separated by commas, semicolons or tabs; decimal commas need
-    one of the latter two.
+    """Read a table with columns such as `time [ms]` and `speed [rpm]`, or `factor` as second column. Blank lines and
+    lines that begin with `#` are skipped; other columns are refused. Columns are separated by commas, semicolons or
+    tabs; files with decimal commas need semicolons or tabs.
 
-    **Arguments:** `file`; `quantity`: one of `_QUANTITIES`; `field`: dotted path of the scene that names the file.
+    **Arguments:** `file`: path; `quantity`: one of `_QUANTITIES`; `field`: dotted path of the field that names it.
 
     **Raises:** `SceneError` that names field, file and line.
     """
@@ -67,7 +67,7 @@ def read_time_table(file: str, quantity: str, field: str) -> TimeTable:
 def _columns(
     table: CsvTable, quantity: str, dimension: Dimension, wanted: str
 ) -> tuple[list[str], list[float], list[float]]:
-    """Names of the two columns, and what their units and their zeros are in SI."""
+    """Names of the two columns, and the SI values of their units and of the zeros of these units."""
     valid, place = ("time", quantity, FACTOR), table.at(table.header.number)
     parted = [name_and_unit(cell) for cell in table.header.cells]
     names = [name for name, _ in parted]
@@ -108,7 +108,8 @@ def _check_times(table: CsvTable, column: int, times: np.ndarray, field: str) ->
 
 
 def _check_values(table: CsvTable, column: int, values: np.ndarray, quantity: str, field: str) -> None:
-    """A run begins with the steady state of its first row, which needs speed and load."""
+    """Refuses values that a run cannot have. It begins with the steady state of its first row, which needs speed and
+    load."""
     name = name_and_unit(table.header.cells[column])[0]
     for i, value in enumerate(values):
         if not np.isfinite(value):

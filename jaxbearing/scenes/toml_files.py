@@ -1,4 +1,4 @@
-"""TOML files that a user names: whatever is wrong with one is a single `SceneError`."""
+"""Reads TOML files that a user names; every error becomes a `SceneError`."""
 
 import os
 import re
@@ -14,8 +14,8 @@ from .words import describe, shortened
 def read_text(path: str | Path, expected: str, near: Iterable[str] = (), largest: int = LARGEST_TEXT) -> str:
     """Text of a file in UTF-8.
 
-    **Arguments:** `expected`: what should be there, for messages; `near`: names that may be meant by that of a file
-    that does not exist; `largest`: number of bytes that it may have.
+    **Arguments:** `expected`: expected content, for messages; `near`: names to suggest if the file does not exist;
+    `largest`: largest size, bytes.
 
     **Raises:** `SceneError`.
     """
@@ -33,7 +33,7 @@ def read_text(path: str | Path, expected: str, near: Iterable[str] = (), largest
 
 
 def parse_toml(text: str, label: str, expected: str) -> dict[str, object]:
-    """The tables of a text. **Arguments:** `label`: of the file; `expected`: what an empty one should hold.
+    """The tables of a TOML text. **Arguments:** `label`: name of the file; `expected`: expected content, for messages.
 
     **Raises:** `SceneError`.
     """
@@ -53,7 +53,7 @@ def parse_toml(text: str, label: str, expected: str) -> dict[str, object]:
 
 
 def _path_near(text: str, message: str) -> str:
-    """Dotted path of the field on the line that a syntax error names, as far as it can be read."""
+    """Dotted path of the field on the line of a syntax error, as far as it can be found."""
     match = re.search(r"at line (\d+)", message)
     if match is None and "end of document" not in message:
         return ""

@@ -1,4 +1,4 @@
-"""Tables as TOML text, laid out as the built-in files are; values are written by the library for TOML."""
+"""Writes tables as TOML text with the layout of the built-in files; `tomli_w` writes the values."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
@@ -8,13 +8,13 @@ import tomli_w
 from .errors import printable
 
 WIDEST = 120
-"""Longest line for a list; a longer list has one value a line."""
+"""Longest line for a list, in letters; longer lists have one value per line."""
 
 
 def toml_text(tables: Mapping[str, object], aligned: bool = True) -> str:
     """The text of a file with these tables, in their order.
 
-    **Arguments:** `aligned`: whether the values of a table stand below each other.
+    **Arguments:** `aligned`: True to align the values of a table.
     """
     return "\n".join(_table(tables, (), aligned)).lstrip("\n") + "\n"
 
@@ -25,12 +25,12 @@ def comments(lines: Iterable[str]) -> str:
 
 
 def one_line(text: str) -> str:
-    """A text on one line, without what is not printable."""
+    """A text on one line, with unprintable characters escaped."""
     return printable(" ".join(text.split()))
 
 
 def _table(table: Mapping[str, Any], path: tuple[str, ...], aligned: bool, listed: bool = False) -> Iterator[str]:
-    """**Arguments:** `listed`: whether the table is one of a list, whose heading is there already."""
+    """The lines of a table. **Arguments:** `listed`: True for a table of a list, whose heading is written already."""
     inner = {name: value for name, value in table.items() if isinstance(value, Mapping) or _are_tables(value)}
     plain = {name: value for name, value in table.items() if name not in inner}
     if path and (plain or not inner) and not listed:

@@ -1,7 +1,7 @@
 """Numbers with units as a person writes them ("30 um", "60degC", "10.4 1/GPa"), turned into SI floats for pydantic.
 
-All knowledge of units is pint's; `usual_units` holds what it says of the most common ones. Number and unit are parted
-here first, because pint's own reader of quantities takes "1,5 mm" for 15 mm and "1 000 m" for 0 m.
+pint defines all units; `usual_units` holds its factors for the most common ones. Number and unit are separated here
+first, because pint's own reader of quantities takes "1,5 mm" for 15 mm and "1 000 m" for 0 m.
 """
 
 import functools
@@ -29,20 +29,21 @@ _FRACTION = r"\([1-9][0-9]?/[1-9][0-9]?\)"
 _POWER = rf"(?: *(?:\*\*|\^) *(?:[+-]?[0-9]{{1,2}}(?![0-9])|{_FRACTION})|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]{{1,2}})"
 _FACTOR = rf"\(* *(?:{_NAME}{_POWER}?|[0-9]+(?:\.[0-9]+)?) *\)*"
 _UNIT = re.compile(rf"{_FACTOR}(?:(?: *[*/·] *| +){_FACTOR})*")
-"""Syntax of a unit. Brackets carry no power, so that none is raised to another: pint evaluates what it reads,
-skips comments and ignores characters that it does not know. A power may be a fraction of whole numbers in brackets."""
+"""Syntax of a unit, checked because pint evaluates its input, skips comments and ignores unknown characters. Brackets
+cannot have a power, so that powers are not nested. A power may be a fraction of whole numbers in brackets."""
 _WORDS = re.compile(r"\b(?:square|sq|squared|cubic|cubed|per)\b", re.IGNORECASE)
-"""Words that pint replaces by powers, which the pattern cannot see."""
+"""Words that pint replaces by powers or a division, which `_UNIT` does not recognise."""
 _LONGEST_UNIT = 40
 _NON_FINITE = re.compile(r"\s*[+-]?(nan|inf|infinity)\b", re.IGNORECASE)
 _SI_NUMBERS: ContextVar[bool] = ContextVar("bare numbers are SI values", default=False)
 _REMEMBERED = 1024
-"""Units that are remembered: pint takes a millisecond to read one, which was most of what a scene took."""
+"""Number of cached units: pint takes a millisecond to read a unit, which dominated the reading of a scene."""
 
 
 @dataclass(frozen=True)
 class Dimension:
-    """Kind of a dimensional field: its name in messages, the SI unit, an example, and how units are compared."""
+    """Physical dimension of a field: name in messages, SI unit, example, and whether units with an offset (degC) are
+    allowed."""
 
     name: str
     si: str
@@ -50,7 +51,7 @@ class Dimension:
     offset_allowed: bool = False
 
     def expected(self, bound: str = "finite") -> str:
-        """Expected content of a field of this kind within a bound of `numerics.ranges.RANGES`."""
+        """Expected content of a field of this dimension, within a bound of `numerics.ranges.RANGES`, in words."""
         bound = "" if bound == "finite" else bound
         if bound == "> 0" and self.offset_allowed:
             bound = "above absolute zero"
@@ -109,20 +110,20 @@ _BY_UNIT = {
 
 
 def dimension_of_unit(unit: str, difference: bool = False) -> Dimension:
-    """The kind of a field whose class has this SI unit; `difference`: of temperatures."""
+    """The dimension of a field with this SI unit; `difference`: True for a temperature difference."""
     return TEMPERATURE_DIFFERENCE if difference and unit == "K" else _BY_UNIT[unit]
 
 
 @functools.cache
 def registry() -> Any:
-    """The unit registry, made at the first use (0.5 s on a quiet machine)."""
+    """The unit registry of pint, made at first use (0.5 s on an idle machine)."""
     import pint
 
     return pint.UnitRegistry()
 
 
 def refusal(expected: str, found: str, suggestion: str = "") -> PydanticCustomError:
-    """The error of a field, in the parts that `SceneError` shows. The texts may hold braces: they travel as context."""
+    """The error of a field, with the texts that `SceneError` shows. As context they may contain braces."""
     return PydanticCustomError(
         "scene", "found {found}, expected {expected}", {"found": found, "expected": expected, "suggestion": suggestion}
     )
@@ -130,7 +131,7 @@ def refusal(expected: str, found: str, suggestion: str = "") -> PydanticCustomEr
 
 @contextmanager
 def bare_numbers_are_si() -> Iterator[None]:
-    """A number without a unit is an SI value here: for what is written in Python, and not by hand in a file."""
+    """Context in which a number without a unit is an SI value, for scenes that are made in Python."""
     token = _SI_NUMBERS.set(True)
     try:
         yield
@@ -167,7 +168,7 @@ def parse(value: object, dimension: Dimension) -> float:
 
 
 def _usual(number: float, unit: str, dimension: Dimension) -> float | None:
-    """The SI value where the unit is a usual one of this dimension."""
+    """The SI value if the unit is in `usual_units` for this dimension, else `None`."""
     factor, zero = USUAL.get(dimension.si, {}).get(unit, (None, 0.0))
     if factor is None or (zero and not dimension.offset_allowed):
         return None
@@ -229,7 +230,7 @@ def _is_proportional(unit: "pint.Unit") -> bool:
 
 
 def quantity(given: object, dimension: Dimension, bound: str = "finite") -> float:
-    """SI value of a text with a unit that is within a bound of `numerics.ranges.RANGES`; refuses as `parse` does."""
+    """SI value of a text with a unit, within a bound of `numerics.ranges.RANGES`. **Raises:** as `parse`."""
     value = parse(given, dimension)
     if not RANGES[bound].holds(value):
         raise refusal(dimension.expected(bound), describe(given))
@@ -238,7 +239,7 @@ def quantity(given: object, dimension: Dimension, bound: str = "finite") -> floa
 
 @dataclass(frozen=True, slots=True)
 class QuantityValidator(BeforeValidator):
-    """Validator of a dimensional field; whoever writes files reads the dimension from it."""
+    """Validator of a field with a unit; it stores the dimension for the writers of files."""
 
     dimension: Dimension | None = None
 
@@ -248,7 +249,7 @@ def _quantity(dimension: Dimension, bound: str = "finite") -> QuantityValidator:
 
 
 def several(given: object, read: Callable[[Any], float], expected: str) -> tuple[float, ...]:
-    """One value or a list of them, each read by `read`; `expected` is said of an empty list, and of what is no list."""
+    """One value or a list of values, each read by `read`. **Arguments:** `expected`: expected content, for messages."""
     values = given if isinstance(given, list) else [given]
     if not values:
         raise refusal(expected, "an empty list")
@@ -265,7 +266,7 @@ def _item(value: object, index: int, count: int, read: Callable[[Any], float], e
 
 
 def several_note(bound: str, unit: str = "1") -> BeforeValidator:
-    """Reads one number, or a list of them; arguments as in `number_note`."""
+    """Validator of a number or a list of numbers; arguments as for `number_note`."""
     if unit == "1":
         said = "" if bound == "finite" else f" {bound}"
         expected, read = f"a number{said}, or a list of them", lambda one: number(one, bound)
@@ -293,7 +294,7 @@ def number(given: Any, bound: str = "finite") -> float:
 
 
 LARGEST_COUNT = 1_000_000
-"""Largest count in a scene: more would only fill the memory."""
+"""Largest count in a scene; a larger count would only exhaust the memory."""
 
 
 def _count_up_to(least: int | None, most: int | None) -> Callable[[Any], int]:
@@ -308,17 +309,17 @@ def _count_up_to(least: int | None, most: int | None) -> Callable[[Any], int]:
 
 
 def count_note(least: int | None = None, most: int | None = None) -> BeforeValidator:
-    """Reads a whole number from `least`, or 1, to `most`, or `LARGEST_COUNT`."""
+    """Validator of a whole number from `least` (default 1) to `most` (default `LARGEST_COUNT`)."""
     return BeforeValidator(_count_up_to(least, most))
 
 
 def number_note(bound: str, unit: str = "1", difference: bool = False) -> BeforeValidator:
-    """Reads one number.
+    """Validator of a number.
 
     **Arguments:**
     - `bound`: one of `numerics.ranges.RANGES`.
-    - `unit`: as classes of the library have it; "1" for a number without a unit.
-    - `difference`: whether a number in K is a difference of temperatures.
+    - `unit`: SI unit as in the classes of the library; "1" for a number without a unit.
+    - `difference`: True if a number in K is a temperature difference.
     """
     if unit == "1":
         return BeforeValidator(lambda given: number(given, bound))
@@ -326,7 +327,7 @@ def number_note(bound: str, unit: str = "1", difference: bool = False) -> Before
 
 
 def among_note(numbers: Iterable[float]) -> BeforeValidator:
-    """Reads one of some numbers."""
+    """Validator of a number that must be one of `numbers`."""
     known = tuple(numbers)
 
     def read(value: object) -> float:
@@ -340,13 +341,13 @@ def among_note(numbers: Iterable[float]) -> BeforeValidator:
 
 
 def _text(value: object) -> str:
-    """A text that may look like a number: 6205 is a designation, with quotes and without."""
+    """A text, which may look like a number: the designation 6205 may have quotes or not."""
     if isinstance(value, bool) or not isinstance(value, str | int) or not str(value).strip():
         raise refusal("text, e.g. '6205-2RSH'", describe(value))
     return str(value).strip()
 
 
-# fields that no class has
+# types of fields that no class has
 Text = Annotated[str, BeforeValidator(_text)]
 Count = Annotated[int, count_note()]
 Switch = Annotated[bool, BeforeValidator(_switch)]

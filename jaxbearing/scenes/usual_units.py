@@ -1,7 +1,7 @@
-"""Units that most scenes are written in, as pint gives them.
+"""The most common units of scenes, with the factors of pint.
 
-To import pint and to have it read its definitions takes a third of a warm solve. A scene that has only these units does
-not need it; every other unit is pint's, and so is every refusal. A test compares each entry with pint, bit by bit.
+Importing pint and reading its definitions takes a third of the time of a warm solve; scenes with only these units do
+not need it. pint reads all other units and refuses invalid ones. A test compares each entry with pint, bit by bit.
 """
 
 USUAL: dict[str, dict[str, tuple[float, float]]] = {
@@ -78,4 +78,4 @@ USUAL: dict[str, dict[str, tuple[float, float]]] = {
     "N*s/m": {"N*s/m": (1.0, 0.0), "N s/m": (1.0, 0.0), "kN*s/m": (1000.0, 0.0)},
     "s/m": {"s/m": (1.0, 0.0)},
 }
-"""Units by the SI unit of their dimension: text of the unit -> factor to SI, and the unit's own zero in SI."""
+"""SI unit of a dimension -> text of a unit -> factor to SI, and zero point of the unit in SI."""

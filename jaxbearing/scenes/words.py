@@ -1,9 +1,9 @@
-"""Values of scene files in words, for messages."""
+"""Describes values of scene files in words, for messages."""
 
 import math
 
 _LONGEST = 60
-"""Longest text of a value in a message, in letters."""
+"""Longest text of a value in a message, in characters."""
 
 
 def describe(value: object) -> str:
@@ -27,7 +27,7 @@ def short(value: object) -> str:
 
 
 def shortened(text: str) -> str:
-    """A text that may be long, for a message."""
+    """A text, shortened for a message if it is long."""
     return text if len(text) <= _LONGEST else text[:_LONGEST] + "..."
 
 

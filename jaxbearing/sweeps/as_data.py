@@ -1,9 +1,10 @@
-"""Scenes and plans as data: a text of JSON, and arrays. Reading them makes parts of this package and runs nothing.
+"""Scenes and plans as data: a JSON text and arrays. Reading the data creates objects of this package and runs no code
+from the file.
 
-A part is its class, named as `jaxbearing.bearings.ball.scene:BallBearing`, and its fields. Only classes of this
-package are known by name: those that are imported already, and those of the packages that scenes are made of, whose
-modules only define things. Constructors are not called, nothing else is imported for a file, and arrays are read
-without pickles.
+An object is written as the name of its class, such as `jaxbearing.bearings.ball.scene:BallBearing`, and its fields.
+Only classes of this package can be named: those already imported, and those of the packages of scenes, whose modules
+contain only definitions. Constructors are not called, nothing else is imported for a file, and arrays are read without
+pickles.
 """
 
 import dataclasses
@@ -21,16 +22,16 @@ import numpy as np
 
 _PACKAGE = __name__.partition(".")[0]
 _OF_SCENES = ("bearings", "contacts", "ehl", "gaps", "lubricants", "machines", "materials", "shafts", "time_laws")
-"""Packages and modules whose classes make up scenes: they are imported when they are needed."""
+"""Packages and modules with the classes of scenes; they are imported when needed."""
 _NAME = re.compile(r"\w+(?:\.\w+)*", re.ASCII)
 
 
 class ForeignPartError(TypeError):
-    """Something that is no part of this package, such as a law of the user's own: it cannot be written as data."""
+    """Error for an object of a class outside this package, such as a user's own law: it cannot be written as data."""
 
 
 def encoded(part: object) -> tuple[str, dict[str, np.ndarray]]:
-    """A part as a text and named arrays, which `decoded` reads.
+    """An object as a JSON text and named arrays, from which `decoded` restores it.
 
     **Raises:** `ForeignPartError`.
     """
@@ -39,7 +40,7 @@ def encoded(part: object) -> tuple[str, dict[str, np.ndarray]]:
 
 
 def decoded(text: str, arrays: Mapping[str, np.ndarray]) -> Any:
-    """The way back. **Raises:** `ValueError` for what no part of this package was written as."""
+    """The object that `encoded` wrote. **Raises:** `ValueError` for other data."""
     try:
         return _decode(json.loads(text), arrays)
     except (KeyError, TypeError, AttributeError, RecursionError) as error:
@@ -106,7 +107,8 @@ def _fields(kind: type) -> tuple[str, ...]:
 
 
 def _kind(name: str) -> type | None:
-    """The class of the package with this name, if it is one that holds nothing but its fields."""
+    """The class of this package with this name; `None` unless it is a named tuple, frozen dataclass or module of
+    Equinox, whose fields are its whole content."""
     module, _, path = name.partition(":")
     if module.partition(".")[0] != _PACKAGE or not path:
         return None

@@ -1,4 +1,4 @@
-"""A list of cases from a CSV file: one row a case, one column a field, its unit in the header."""
+"""A list of cases from a CSV file: one row for each case, one column for each field, its unit in the header."""
 
 from pathlib import Path
 
@@ -16,8 +16,8 @@ _EXPECTED = "a CSV file with columns such as 'operation.inner_speed [rpm]'"
 def list_of(file: Path, source: SceneSource) -> tuple[dict[str, Field], Cases]:
     """Cases of a CSV file whose columns are headed as `operation.inner_speed [rpm]`.
 
-    Comma, semicolon or tab between the columns; decimal commas need one of the latter two. Blank lines and lines that
-    begin with `#` are skipped.
+    Columns are separated by commas, semicolons or tabs; decimal commas need one of the latter two. Blank lines and
+    lines that begin with `#` are skipped.
 
     **Raises:** `SceneError` that names file, line and column.
     """
@@ -54,7 +54,7 @@ def _field(name: str, unit: str | None, source: SceneSource, table: CsvTable) ->
 def in_si(field: Field, unit: str | None, values: np.ndarray, table: CsvTable) -> np.ndarray:
     """The values of a column in SI, each within the bounds of its field. **Raises:** `SceneError`."""
     if field.dimension is not None:
-        # the first value is read as that of a scene file, which says what is wrong with the unit
+        # the first value is read like one of a scene file, whose error explains a wrong unit
         field.read(f"{float(values[0])!r} {unit or ''}", table.at(table.rows[0].number))
         units = registry()
         with np.errstate(over="ignore"):

@@ -1,4 +1,4 @@
-"""The cases of a sweep: a grid, a list, or random samples of fields; SI numbers."""
+"""The cases of a sweep: values of fields, in SI, on a grid, in a list or as random samples."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -16,9 +16,10 @@ class Cases:
     """Values of fields, case by case.
 
     **Arguments:**
-    - `kind`: how they were chosen.
+    - `kind`: how the cases were chosen.
     - `paths`: dotted paths of the fields.
-    - `values`: of each field: along its axis for a grid, whose last field varies fastest; otherwise one a case.
+    - `values`: array for each field. For a grid: values along the field's axis; the last field varies fastest.
+      Otherwise: one value for each case.
 
     **Raises:** `ValueError` for no field, no case, too many, or values that are not finite numbers.
     """
@@ -60,13 +61,13 @@ class Cases:
         return {path: values[at] for path, values, at in zip(self.paths, self.values, places, strict=True)}
 
     def corners(self) -> list[dict[str, float]]:
-        """Four cases, with every field at its first, at its last, at its smallest and at its largest value."""
+        """Four cases: all fields at their first, their last, their smallest, and their largest values."""
         ends = ([v[0] for v in self.values], [v[-1] for v in self.values])
         ends += ([v.min() for v in self.values], [v.max() for v in self.values])
         return [dict(zip(self.paths, map(float, values), strict=True)) for values in ends]
 
     def spread(self, count: int) -> Iterator[dict[str, float]]:
-        """Up to so many cases, from the first to the last."""
+        """Up to `count` cases, evenly selected from the first to the last."""
         for place in np.unique(np.linspace(0, len(self) - 1, count).astype(int)):
             yield {path: float(values[0]) for path, values in self.part(place, place + 1).items()}
 
@@ -77,13 +78,19 @@ def _columns(over: Mapping[str, object]) -> tuple[tuple[str, ...], tuple[np.ndar
 
 
 def _mapping(name: str, given: object) -> None:
-    """**Raises:** `ValueError` for what is no mapping from paths of fields."""
+    """Checks that an argument maps paths of fields to values.
+
+    **Raises:** `ValueError` if it does not.
+    """
     if not isinstance(given, Mapping) or not all(isinstance(path, str) for path in given):
         raise ValueError(f"{name} must map dotted paths of fields to values, got {given!r}")
 
 
 def _numbers(path: str, values: object) -> np.ndarray:
-    """**Raises:** `ValueError` for what are no real numbers."""
+    """The values of a field as an array of floats.
+
+    **Raises:** `ValueError` for values that are not real numbers.
+    """
     try:
         found = np.atleast_1d(np.asarray(values))
     except (TypeError, ValueError):  # lists of lists of different lengths, and the like
@@ -94,20 +101,21 @@ def _numbers(path: str, values: object) -> np.ndarray:
 
 
 def grid(over: Mapping[str, object]) -> Cases:
-    """Every combination of the values of each field. **Arguments:** `over`: dotted path -> SI values."""
+    """Cases with every combination of the values of all fields. **Arguments:** `over`: SI values by dotted path."""
     return Cases("grid", *_columns(over))
 
 
 def listed(over: Mapping[str, object]) -> Cases:
-    """Case by case. **Arguments:** `over`: dotted path -> SI values, as many for each."""
+    """Cases from lists of values. **Arguments:** `over`: SI values by dotted path, one value of each field for each
+    case."""
     return Cases("list", *_columns(over))
 
 
 def random(bounds: Mapping[str, Sequence[Any]], count: int, seed: int = 0) -> Cases:
-    """Independent and evenly distributed between bounds.
+    """Random cases; the fields are independent and uniformly distributed between bounds.
 
-    **Arguments:** `bounds`: dotted path -> lowest and highest value in SI, and "log" as a third where the logarithm is
-    to be evenly distributed.
+    **Arguments:** `bounds`: by dotted path, lowest and highest value in SI, followed by "log" if the logarithm is to be
+    uniformly distributed.
     """
     _mapping("bounds", bounds)
     _positive(count)
@@ -141,8 +149,8 @@ def _within(kind: Kind, bounds: Mapping[str, Sequence[object]], unit: np.ndarray
 
 
 def between(low: float, high: float, part: np.ndarray, log: bool, path: str) -> np.ndarray:
-    """Values at parts 0 to 1 of the way from `low` to `high`, with `log` of that between their logarithms; the ends
-    are met exactly. **Raises:** `ValueError` where these do not exist."""
+    """Values between `low` (`part` 0) and `high` (`part` 1), interpolated linearly or, with `log`, between logarithms;
+    the ends are met exactly. **Raises:** `ValueError` if a logarithm does not exist."""
     if not log:
         return low * (1.0 - part) + high * part
     if not (low > 0.0 and high > 0.0):

@@ -1,4 +1,4 @@
-"""Chunks of a sweep: computed one by one, each in a file that appears whole or not at all."""
+"""Chunks of a sweep: computed one by one, each in a file that is written completely or not at all."""
 
 import functools
 import io
@@ -19,11 +19,11 @@ from .labels import FAILURE, columns, converged, failures, template
 from .plan import Plan, read_plan
 
 KEY, GOOD = "sweep_key", "converged_cases"
-"""Names in the file of a chunk beside its variables."""
+"""Names of further entries in the file of a chunk: hash of the sweep, and number of converged cases."""
 
 
 class DamagedChunkError(OSError):
-    """A chunk's file that cannot be used."""
+    """Error for a chunk's file that cannot be used."""
 
 
 def chunk_path(folder: Path, index: int) -> Path:
@@ -37,20 +37,20 @@ def run_chunk(
     devices: int | None = None,
     progress: Callable[[int], None] = lambda lanes: None,
 ) -> tuple[int, int]:
-    """Solve the cases of one chunk and write its file: all that a worker of any kind has to call.
+    """Solve the cases of one chunk and write its file; a worker needs no other call.
 
     The program is compiled at the first chunk of a process and kept.
 
     **Arguments:**
-    - `folder`: of the sweep's chunks, which holds its plan.
+    - `folder`: folder of the sweep's chunks, which contains its plan.
     - `key`: hash of the plan.
-    - `devices`: local ones to use; all if not given.
+    - `devices`: number of local devices to use; all if not given.
     - `progress`: called with the number of cases that were solved.
 
-    **Returns:** how many cases converged and how many there are.
+    **Returns:** number of converged cases and number of all cases of the chunk.
 
-    **Raises:** `OSError`; `ValueError` where this process has another version than the one that made the plan, and
-    for a plan that cannot be read.
+    **Raises:** `OSError`; `ValueError` if this process has another version than the one that made the plan, and for a
+    plan that cannot be read.
     """
     return compute_chunk(Path(folder), index, _plan_in(str(folder), key), devices, progress)
 
@@ -62,7 +62,7 @@ def compute_chunk(
     devices: int | None = None,
     progress: Callable[[int], None] = lambda lanes: None,
 ) -> tuple[int, int]:
-    """Like `run_chunk`, for a plan that is at hand."""
+    """Does the same as `run_chunk`, with a plan that is given instead of read."""
     program, labels = _program(plan, devices)
     start, stop = plan.range_of(index)
     inputs, reasons = plan.recipe.inputs(plan.cases.part(start, stop))
@@ -85,13 +85,16 @@ def _plan_in(folder: str, key: str) -> Plan:
 
 
 def require_key(plan: Plan, key: str) -> None:
-    """**Raises:** `ValueError` where a plan has another hash in this process than where the sweep began."""
+    """Checks that a plan has the same hash in this process as where the sweep began.
+
+    **Raises:** `ValueError` if it does not.
+    """
     if plan.key != key:
         raise ValueError("this process has another version of jaxbearing or JAX than the one that began the sweep")
 
 
 _compiled: dict[tuple[str, int | None], tuple[LaneProgram, xr.Dataset]] = {}
-"""The program of this process, of one sweep."""
+"""Compiled program and labels of the sweep at work in this process, at most one."""
 
 
 def _program(plan: Plan, devices: int | None) -> tuple[LaneProgram, xr.Dataset]:
@@ -103,7 +106,7 @@ def _program(plan: Plan, devices: int | None) -> tuple[LaneProgram, xr.Dataset]:
 
 
 def labels_of(plan: Plan) -> xr.Dataset:
-    """The data set of one case, without results: that of the sweep at work in this process, or made anew."""
+    """The data set of one case, without results: from the sweep at work in this process, or newly made."""
     for (key, _), (_, labels) in _compiled.items():
         if key == plan.key:
             return labels
@@ -111,7 +114,7 @@ def labels_of(plan: Plan) -> xr.Dataset:
 
 
 def _said(plan: Plan, reasons: list[str], good: np.ndarray, start: int) -> list[str]:
-    """Reasons of failed cases whose scene would have been refused: values that no equation can show."""
+    """Reasons of failure, completed for failed cases whose values are refused when their scene is built."""
     said = list(reasons)
     for lane in np.flatnonzero(~good).tolist():
         if not said[lane]:
@@ -124,7 +127,7 @@ def _said(plan: Plan, reasons: list[str], good: np.ndarray, start: int) -> list[
 
 
 def read_chunk(folder: Path, index: int, key: str, names: list[str] | None = None) -> dict[str, Any]:
-    """Variables of a chunk, all if not named. The checksums of what is read are compared.
+    """Variables of a chunk, those in `names` or all. Checksums of the data are verified.
 
     **Raises:** `FileNotFoundError`; `DamagedChunkError` for a file that is cut off, changed or of another sweep.
     """

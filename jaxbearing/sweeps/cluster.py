@@ -1,6 +1,6 @@
 """Chunks computed by the workers of a Dask cluster; a chunk whose worker dies is given to another one.
 
-Workers see the folder of the chunks under the same path, and write the same files as one process does.
+Workers must see the folder of the chunks under the same path; they write the same files as a single process.
 """
 
 import contextlib
@@ -17,15 +17,16 @@ if TYPE_CHECKING:
     from dask.distributed import Client
 
 CONNECT = 15
-"""Time that a scheduler has to answer, s."""
+"""Time within which a scheduler must answer, s."""
 LOST_WORKERS = 10
-"""Workers that may die of one chunk before it is given up."""
+"""Number of workers that may die at one chunk before the chunk is given up."""
 
 
 def on_workers(count: int | None = None, scheduler: str | None = None) -> Runner:
-    """A runner for `engine.run`: on so many processes of this machine, or on a running cluster.
+    """A runner for `engine.run` with several processes on this machine, or on a running cluster.
 
-    **Arguments:** `count`: local processes, each with one device; `scheduler`: address, "tcp://host:8786".
+    **Arguments:** `count`: number of local processes, each with one device; `scheduler`: address of a cluster's
+    scheduler, such as "tcp://host:8786".
 
     **Raises:** `ImportError` without the extra `cluster`.
     """
@@ -37,7 +38,7 @@ def on_workers(count: int | None = None, scheduler: str | None = None) -> Runner
         from dask.distributed import KilledWorker, as_completed
 
         with _client(count, scheduler) as client:
-            # over the cluster's own wire: of the folder's plan a worker would have no law of the user's own
+            # sent over the cluster: the plan in the folder cannot contain a user's own law
             sent = client.scatter(plan, broadcast=True)
             # `pure=False`: a chunk that was damaged must be computed, whatever the scheduler remembers
             tasks = as_completed(
@@ -49,7 +50,7 @@ def on_workers(count: int | None = None, scheduler: str | None = None) -> Runner
                     good, cases = done.result()
                 except KilledWorker:
                     raise ChildProcessError(f"{LOST_WORKERS} workers died one after the other of one chunk") from None
-                # or else its result would be lost with its worker, and computed again
+                # otherwise the result would be lost if its worker died, and be computed again
                 done.release()
                 progress(cases)
                 yield good, cases
@@ -58,7 +59,7 @@ def on_workers(count: int | None = None, scheduler: str | None = None) -> Runner
 
 
 def _run_remotely(folder: str, index: int, plan: Plan, key: str) -> tuple[int, int]:
-    """Runs in a worker, where JAX keeps its compiled programs in the folder of the sweep."""
+    """Computes a chunk in a worker, with the compilation cache of the plan if the worker has none."""
     import jax
 
     require_key(plan, key)
@@ -67,7 +68,7 @@ def _run_remotely(folder: str, index: int, plan: Plan, key: str) -> tuple[int, i
         jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
         jax.config.update("jax_persistent_cache_min_entry_size_bytes", -1)
     with contextlib.suppress(OSError):
-        # of a worker that died after it had written it
+        # the chunk of a worker that died after writing it
         found = read_chunk(Path(folder), index, key)
         return int(found[GOOD]), len(found[FAILURE])
     return compute_chunk(Path(folder), index, plan)

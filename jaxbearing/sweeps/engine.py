@@ -1,4 +1,4 @@
-"""Runs the chunks of a sweep that are not there yet, in this process or in others, and gathers them."""
+"""Computes the missing chunks of a sweep, in this process or in others, and gathers all chunks."""
 
 import contextlib
 import os
@@ -15,16 +15,17 @@ from .gather import STORES, store
 from .plan import PLAN, Plan, read_key, write_plan
 
 Runner = Callable[[Path, Plan, list[int], Callable[[int], None]], Iterator[tuple[int, int]]]
-"""Computes chunks: folder, plan, numbers of the chunks, progress -> converged cases and cases of each."""
+"""Function that computes chunks: from folder, plan, numbers of the chunks and progress function to an iterator over the
+numbers of converged cases and of all cases of each chunk."""
 
 
 class SweepError(ValueError):
-    """A sweep that cannot be begun where it was asked for: something else is there."""
+    """Error for a sweep that cannot be started, e.g. because another file has its name."""
 
 
 class StoppedError(OSError):
-    """A sweep that could not write a chunk or the whole. **Attributes:** `cases`; how many of them were `computed`, now
-    or earlier, and `converged`; what of that is `kept`, in words."""
+    """Error for a sweep that could not write a chunk or the store. **Attributes:** `cases`: number of all cases;
+    `computed`: those computed, now or earlier; `converged`: those converged; `kept`: text on what is kept."""
 
     def __init__(self, cause: OSError, cases: int, computed: int, converged: int, kept: str):
         super().__init__(cause.errno, cause.strerror or str(cause), cause.filename)
@@ -33,7 +34,7 @@ class StoppedError(OSError):
 
 @dataclass
 class _Tally:
-    """Cases of the chunks that are there; `kept`: from an earlier run."""
+    """Numbers of computed and converged cases so far; `kept`: cases of chunks from an earlier run."""
 
     computed: int = 0
     converged: int = 0
@@ -42,7 +43,7 @@ class _Tally:
 
 @dataclass(frozen=True)
 class Outcome:
-    """End of a sweep. `kept`: cases that were there from an earlier run."""
+    """Result of a sweep: numbers of cases, of converged ones, and of those `kept` from an earlier run."""
 
     cases: int
     converged: int
@@ -64,12 +65,15 @@ class Watcher:
 
 
 def chunk_folder(target: Path) -> Path:
-    """Folder of a sweep's chunks until the whole is written."""
+    """Folder of a sweep's chunks until the store is written."""
     return target.with_name(f"{target.name}.chunks")
 
 
 def check_target(target: Path) -> None:
-    """**Raises:** `SweepError` for a name that no store can have."""
+    """Checks the suffix of the store's name.
+
+    **Raises:** `SweepError` for a suffix that is not in `STORES`.
+    """
     if target.suffix.lower() not in STORES:
         raise SweepError(f"found '{target}'; expected a file name that ends in {' or '.join(STORES)}")
 
@@ -77,13 +81,13 @@ def check_target(target: Path) -> None:
 def run(
     plan: Plan, target: Path, *, runner: Runner | None = None, overwrite: bool = False, watcher: Watcher | None = None
 ) -> Outcome:
-    """Compute what is not there yet and write the store.
+    """Compute the missing chunks and write the store.
 
-    A run that ends at any moment, however, goes on where it was when it is started again: chunks that are there are
-    not computed again, and the store appears whole. Afterwards the chunks are removed.
+    A run that was interrupted at any moment and in any way continues when it is started again: existing chunks are not
+    computed again, and the store is written completely or not at all. Afterwards the chunks are removed.
 
-    **Raises:** `SweepError` where another sweep or another file is in the way (`overwrite` removes them), or another
-    process is at this one; `StoppedError` for what cannot be written: the chunks stay.
+    **Raises:** `SweepError` if another sweep or another file is in the way (`overwrite` removes it), or if another
+    process is computing this sweep; `StoppedError` if a file cannot be written; the chunks are kept.
     """
     check_target(target)
     watcher = watcher or Watcher()
@@ -93,7 +97,7 @@ def run(
     folder = chunk_folder(target)
     fresh = not os.path.lexists(folder)
     with _locked(folder):
-        # another process may have finished it while this one was at the door
+        # another process may have finished the sweep before this one got the lock
         there = _there_already(plan, target, overwrite, watcher)
         if there is not None:
             return there
@@ -106,7 +110,7 @@ def run(
             store(plan, folder, target)
         except OSError as error:
             kept = kept_words(plan, target)
-            # what another run or another program left there is not this run's to remove
+            # files of another run or another program are not removed
             if ours and not tally.computed:
                 shutil.rmtree(folder, ignore_errors=True)
             raise StoppedError(error, len(plan.cases), tally.computed, tally.converged, kept) from error
@@ -115,7 +119,7 @@ def run(
 
 
 def kept_words(plan: Plan, target: Path) -> str:
-    """Says how many cases of a sweep that has been stopped need not be computed again."""
+    """Text that says how many cases of a stopped sweep need not be computed again."""
     folder = chunk_folder(target)
     ranges = [plan.range_of(index) for index in range(plan.chunks) if chunk_path(folder, index).exists()]
     kept = sum(stop - start for start, stop in ranges)
@@ -125,7 +129,8 @@ def kept_words(plan: Plan, target: Path) -> str:
 
 
 def _there_already(plan: Plan, target: Path, overwrite: bool, watcher: Watcher) -> Outcome | None:
-    """End of the sweep, if its store exists. **Raises:** `SweepError` where something else is."""
+    """Result of the sweep if its store already exists, else `None`. **Raises:** `SweepError` if something else is at
+    its place."""
     if target.exists() and not (target.is_file() or target.is_dir()):
         raise SweepError(f"found '{target}', no ordinary file; expected a new name")
     found = _finished(target)
@@ -143,7 +148,10 @@ def _there_already(plan: Plan, target: Path, overwrite: bool, watcher: Watcher) 
 
 
 def _claim(plan: Plan, folder: Path, target: Path, overwrite: bool) -> None:
-    """The folder becomes this plan's, or is so already."""
+    """Takes the folder for this plan: writes the plan to it, unless it is already there.
+
+    **Raises:** `SweepError` if the folder has chunks of another sweep and `overwrite` is False.
+    """
     there = [path for path in folder.iterdir() if path.name != _LOCK]
     try:
         known = read_key(folder) if (folder / PLAN).exists() else None
@@ -186,7 +194,7 @@ def _compute(plan: Plan, folder: Path, runner: Runner, watcher: Watcher, tally: 
 
 
 def in_process(devices: int | None = None) -> Runner:
-    """Chunk by chunk, on the local devices."""
+    """A runner that computes chunk after chunk in this process, on the local devices."""
 
     def runner(
         folder: Path, plan: Plan, missing: list[int], progress: Callable[[int], None]
@@ -198,11 +206,11 @@ def in_process(devices: int | None = None) -> Runner:
 
 
 def _finished(target: Path) -> tuple[str, int] | None:
-    """Key and number of converged cases of the sweep that is stored there; `None` where there is none."""
+    """Key and number of converged cases of the sweep stored at `target`; `None` if no sweep is there."""
     if not target.exists():
         return None
     try:
-        # of a foreign store xarray warns that it has no consolidated metadata
+        # xarray warns if a foreign store has no consolidated metadata
         with (
             warnings.catch_warnings(action="ignore"),
             opened(target) as dataset,
@@ -210,7 +218,7 @@ def _finished(target: Path) -> tuple[str, int] | None:
             key = dataset.attrs.get(KEY)
             return None if key is None else (str(key), int((dataset["failure"] == "").sum()))
     except Exception:
-        # whatever it is, it is no sweep
+        # a file that cannot be read is not a sweep
         return None
 
 
@@ -219,14 +227,14 @@ _LOCK = "lock"
 
 @contextlib.contextmanager
 def _locked(folder: Path) -> Iterator[None]:
-    """One process at a time; the system lets go of the lock when it ends, however it ends."""
+    """Lock that lets one process at a time use the folder; the system releases it when the process ends in any way."""
     with _lock_file(folder):
         yield
 
 
 def _lock_file(folder: Path) -> IO[str]:
-    """Open and locked. The process that finishes a sweep removes the folder with the lock, perhaps just now: then both
-    are made anew."""
+    """The lock file, open and locked. A process that finishes the sweep removes the folder and the lock file, perhaps
+    at this moment; then both are made again."""
     import fcntl
 
     path = folder / _LOCK

@@ -1,4 +1,4 @@
-"""Fields of a scene file that can be swept: their units, and values of them as a person writes them."""
+"""Fields of a scene file that can be swept: their units, and reading and writing of their values as text."""
 
 import re
 from collections.abc import Mapping
@@ -31,14 +31,14 @@ _RANGE = "NAME=START:STOP or NAME=START:STOP:log, e.g. operation.inner_speed='20
 
 @dataclass(frozen=True)
 class Field:
-    """One number of a scene file. `dimension`: `None` for a number without a unit."""
+    """One number of a scene file: `path`; `dimension`, `None` without a unit; `kind`, the type that reads it."""
 
     path: str
     dimension: Dimension | None
     kind: Any
 
     def text(self, value: float) -> str:
-        """A value in SI as it would be typed."""
+        """A value in SI as text of a scene file."""
         return repr(float(value)) if self.dimension is None else quantity_text(float(value), self.dimension)
 
     def read(self, text: str, where: str) -> float:
@@ -54,7 +54,7 @@ class Field:
 
 @dataclass(frozen=True)
 class SceneSource:
-    """A scene file or built-in scene with its changes: what a case is read from."""
+    """A scene file or built-in scene, and changes to it, from which the scene of a case is read."""
 
     label: str
     tables: dict[str, Any]
@@ -62,7 +62,10 @@ class SceneSource:
 
     @classmethod
     def of(cls, source: str | Path, overrides: Mapping[str, str] | None = None) -> "SceneSource":
-        """**Raises:** `SceneError` for a scene that cannot be read."""
+        """The source with this name or path.
+
+        **Raises:** `SceneError` for a scene that cannot be read.
+        """
         label, tables = read_base(source)
         return cls(label, tables, dict(overrides or {}))
 
@@ -73,7 +76,7 @@ class SceneSource:
     def field(self, path: str, where: str) -> Field:
         """The field at a dotted path.
 
-        **Raises:** `SceneError` for what is not there, and for what is not one number.
+        **Raises:** `SceneError` for a field that does not exist, and for one that is not a single number.
         """
         names = path.split(".")
         if not all(names) or not is_known(self.model, names):
@@ -86,13 +89,17 @@ class SceneSource:
         return Field(path, dimension_of(kind), kind)
 
     def warn_of_means(self, cases: Cases, fields: Mapping[str, Field]) -> None:
-        """Warns of distributions of which all cases have the mean, and of what stands for a preset in the first."""
+        """Warns of distributions that are replaced by their means in all cases, and of the laws and estimates that a
+        preset stands for in the first case."""
         swept = {path: fields[path].text(float(values[0])) for path, values in cases.part(0, 1).items()}
         warn_of_means(self.tables, self.label, {**self.overrides, **swept})
         warn_of_preset(self.tables, self.label, {**self.overrides, **swept})
 
     def recipe(self, cases: Cases, fields: Mapping[str, Field]) -> Direct | Read:
-        """**Raises:** `SceneError`, or `ValueError` for a field that shapes the equations."""
+        """The recipe that makes the scenes of the cases.
+
+        **Raises:** `SceneError`, or `ValueError` for a field that changes the structure of the equations.
+        """
         return from_reader(_Reader(self, dict(fields)), cases)
 
 
@@ -115,7 +122,8 @@ class _Reader:
 
 
 def parse_over(texts: list[str], source: SceneSource, counted: bool) -> tuple[dict[str, Field], dict[str, object]]:
-    """Fields and ranges of `--over` texts: path -> (start, stop, count, log), or without the count for samples.
+    """Fields and ranges of `--over` texts, both by path; a range is (start, stop, count, log), where `count` is `None`
+    unless `counted`.
 
     **Raises:** `SceneError`.
     """
@@ -148,7 +156,10 @@ def _count(text: str, path: str) -> int:
 
 
 def grid_of(ranges: Mapping[str, Any]) -> Cases:
-    """**Raises:** `ValueError` for too many cases."""
+    """The grid of these ranges.
+
+    **Raises:** `ValueError` for too many cases.
+    """
     values = {}
     for path, (start, stop, count, log) in ranges.items():
         values[path] = between(start, stop, np.linspace(0.0, 1.0, count), log, path)
@@ -156,7 +167,10 @@ def grid_of(ranges: Mapping[str, Any]) -> Cases:
 
 
 def samples_of(ranges: Mapping[str, Any], kind: str, count: int, seed: int) -> Cases:
-    """**Raises:** `ValueError` for a count that is not possible."""
+    """Random cases within these ranges.
+
+    **Raises:** `ValueError` for an impossible count.
+    """
     bounds = {path: (start, stop, *(["log"] if log else [])) for path, (start, stop, _, log) in ranges.items()}
     return (latin_hypercube if kind == "latin_hypercube" else random)(bounds, count, seed)
 
@@ -167,7 +181,7 @@ def described_fields(fields: Mapping[str, Field], scene: AbstractScene) -> dict[
 
 
 def label_of(scene: AbstractScene, path: str) -> dict[str, str]:
-    """Unit and description of a field, as attributes of a coordinate: those of the class that has it."""
+    """Unit and description of a field, from the class that declares it, as attributes of a coordinate."""
     names = path.split(".")
     words, owner = names[-1].replace("_", " "), owner_of(scene, names)
     said = {} if owner is None else owner[0].__dataclass_fields__[owner[1]].metadata

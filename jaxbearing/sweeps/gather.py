@@ -1,4 +1,4 @@
-"""From the chunks of a sweep to one labelled store, variable by variable: memory holds one of them at a time."""
+"""Gathers the chunks of a sweep in one labelled store, variable by variable, with one of them in memory at a time."""
 
 import contextlib
 import math
@@ -23,11 +23,12 @@ STORES = (".nc", ".zarr")
 def store(
     plan: Plan, folder: Path, target: Path, progress: Callable[[int, int], None] = lambda done, total: None
 ) -> None:
-    """Write the whole sweep, as NetCDF or Zarr by the suffix, into the folder of the chunks, and move it to its place.
+    """Write the whole sweep, as NetCDF or Zarr by the suffix, into the folder of the chunks, and move it to `target`.
 
-    A grid has one dimension a field, named like its coordinate (`operation_inner_speed`); other sweeps have `case`.
+    A grid has one dimension for each field, named like its coordinate (`operation_inner_speed`); other sweeps have the
+    dimension `case`.
 
-    **Raises:** `OSError`: nothing is at the place then, or what was there before; `DamagedChunkError`.
+    **Raises:** `OSError`, which leaves `target` as it was or removed, but never incomplete; `DamagedChunkError`.
     """
     labels = _labels(plan)
     _require_space(plan, labels, folder)
@@ -52,8 +53,9 @@ def _labels(plan: Plan) -> xr.Dataset:
 
 
 def _pieces(plan: Plan, folder: Path, labels: xr.Dataset) -> Iterator[tuple[xr.Dataset, int]]:
-    """Data sets that together are the whole, each small: coordinates and what all cases share, then each variable.
-    All have the same attributes: Zarr keeps those of the last."""
+    """Yields small data sets that together make the whole one, each with their total number: first coordinates and
+    values common to all cases, then each variable. All have the same attributes, because Zarr keeps those of the last.
+    """
     axes = _axes(plan)
     dims = tuple(axes) if plan.cases.kind == "grid" else (CASE,)
     names = [name for name in per_case(labels) if name not in axes]
@@ -84,19 +86,20 @@ def _pieces(plan: Plan, folder: Path, labels: xr.Dataset) -> Iterator[tuple[xr.D
 
 
 def _lacking(plan: Plan, folder: Path, shared: xr.Dataset) -> list[str]:
-    """Values that all cases share and only solved cases know, such as the azimuths; NaN if a whole chunk failed."""
+    """Names of variables common to all cases whose values only a solve gives, such as the azimuths; the values are NaN
+    in a chunk without a solved case."""
     kept = read_chunk(folder, 0, plan.key)
     return [str(name) for name in shared.variables if str(name) in kept]
 
 
 def _one_value(values: np.ndarray) -> np.ndarray | None:
-    """The value of all cases that have one; `None` where they differ."""
+    """The common value of all cases with a finite value; `None` if they differ or none is finite."""
     finite = values[np.isfinite(values)]
     return finite[0] if finite.size and np.all(finite == finite[0]) else None
 
 
 def _tidy(dataset: xr.Dataset) -> xr.Dataset:
-    """Texts of any length."""
+    """The data set with its texts as objects, so that they may have any length."""
     for name, variable in dataset.variables.items():
         if variable.dtype.kind == "U":
             dataset[name] = variable.copy(data=variable.values.astype(object))
@@ -108,7 +111,7 @@ def _name_of(path: str) -> str:
 
 
 def _axes(plan: Plan) -> dict[str, xr.Variable]:
-    """The swept fields as coordinates: the axes of a grid, or along the cases."""
+    """The swept fields as coordinates: along the axes of a grid, or along the cases."""
     grid = plan.cases.kind == "grid"
     names = [_name_of(path) for path in plan.cases.paths]
     axes = {

@@ -1,4 +1,4 @@
-"""Stored results of a sweep: the variables of their data set, as arrays over the cases."""
+"""Stored results of a sweep: the variables of its data set, as arrays over the cases."""
 
 import functools
 from collections.abc import Sequence
@@ -15,20 +15,21 @@ from ..report.variables import checks, common
 CASE = "case"
 FAILURE = "failure"
 _EACH = ("element", "node")
-"""Dimensions, or ends of their names, of results that a sweep may leave out."""
+"""Endings of the names of dimensions whose results a sweep may leave out."""
 MANY = "*"
-"""Stands in a path for the names of the parts whose results a variable has side by side."""
+"""Placeholder in a path for the names of several parts, whose results are side by side in one variable."""
 
 
 def template(structure: AbstractSolution, elements: bool, paths: Sequence[str] = ()) -> xr.Dataset:
     """The data set of one case, with names, units and dimensions but no results.
 
-    **Arguments:** `structure`: a solution with shapes for arrays; `elements`: see `Plan`; `paths`: swept fields.
+    **Arguments:** `structure`: a solution with shapes in place of arrays; `elements`: see `Plan`; `paths`: swept
+    fields.
 
-    **Raises:** `ValueError` for a swept field that has the name of a result in the data set.
+    **Raises:** `ValueError` for a swept field whose name in the data set is that of a result.
     """
     one = jax.tree.map(lambda leaf: np.zeros((1, *leaf.shape), leaf.dtype), structure)
-    # a share of nothing, among the results that follow from others, is no news here
+    # derived results such as shares divide by the zeros that stand for results here
     with np.errstate(all="ignore"):
         dataset = solution_to_dataset(one, (CASE,))
     for path in paths:
@@ -36,7 +37,7 @@ def template(structure: AbstractSolution, elements: bool, paths: Sequence[str] =
         if result is not None and result.attrs["path"] != path:
             raise ValueError(f"{path} would have the name of the result {result.attrs['path']} in the data set")
     if "azimuth" in dataset and "geometry.first_element_angle" in paths:
-        # elsewhere in each case
+        # it differs from case to case
         dataset = dataset.assign_coords(azimuth=dataset["azimuth"].expand_dims({CASE: 1}))
     if not elements:
         dataset = dataset.drop_dims(sorted(str(name) for name in dataset.dims if str(name).endswith(_EACH)))
@@ -49,7 +50,8 @@ def per_case(dataset: xr.Dataset) -> list[str]:
 
 
 def columns(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.ndarray]:
-    """Variables of a batch of solutions: those of each case, and those that all cases share but a template lacks."""
+    """Variables of a batch of solutions: those with a value for each case, and those common to all cases that the
+    template does not have."""
     if any(MANY in variable.attrs.get("path", "") for variable in labels.variables.values()):
         return _by_name(solution, labels)
     found = {}
@@ -68,7 +70,7 @@ def columns(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.ndar
 
 
 def _by_name(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.ndarray]:
-    """The same as `columns`, of a solution whose variables are put together from many parts."""
+    """The result of `columns` for a solution whose variables are assembled from many parts."""
     lanes, found = len(converged(solution)), {}
     with np.errstate(all="ignore"):
         dataset = solution_to_dataset(solution, (CASE,))

@@ -1,4 +1,4 @@
-"""Plan of a sweep: its cases, its chunks, and the hash by which its files know each other."""
+"""Plan of a sweep: its cases, its chunks, and the hash that identifies its files."""
 
 import functools
 import hashlib
@@ -24,29 +24,30 @@ from .stored_recipe import recipe_of_data
 
 PLAN = "plan.data"
 FORMAT = 2
-"""Version of the format of that file."""
+"""Version of the format of a plan's file."""
 CHUNK, LANES = 1000, 125
-"""Cases of a chunk, and those of them that a device solves in one call: eight devices can share one."""
+"""Number of cases of a chunk, and number that a device solves in one call, so that eight devices can share a chunk."""
 VMAP_LANES = 1000
 QUICK_CASES = LANES
-"""A sweep of no more cases is compiled quickly, if one of them is solved in milliseconds: its program runs 2 to 6 times
-slower, seconds in all, and is compiled in a quarter of the time, tens of seconds."""
+"""Largest number of cases for which a program is compiled quickly, if a case is solved in milliseconds. The program
+then runs 2 to 6 times slower, which costs seconds, but compiles in a quarter of the time, which saves tens of
+seconds."""
 HEAVY_CHUNK, HEAVY_LANES = 32, 4
-"""Cases of a chunk, and lanes at a time, of scenes whose solve takes a large part of a second."""
+"""Number of cases of a chunk, and of lanes solved in one call, for scenes with a solve of a large part of a second."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A plan holds all that decides the numbers of a sweep.
+    """Everything that determines the results of a sweep.
 
     **Arguments:**
-    - `recipe`, `cases`: the scenes.
+    - `recipe`, `cases`: they define the scenes.
     - `options`: of the solver.
-    - `chunk`: cases in a file; `lanes`: cases in a call on one device.
-    - `elements`: whether results of each rolling element (of each point of a profile) are kept, or only numbers.
-    - `platform`: "cpu", "gpu"; `method`: how a device goes through its lanes; `quick`: whether the program is compiled
+    - `chunk`: number of cases in a file; `lanes`: number of cases in a call on one device.
+    - `elements`: whether results for each rolling element (or point of a profile) are kept, besides single numbers.
+    - `platform`: "cpu", "gpu"; `method`: how a device processes its lanes; `quick`: whether the program is compiled
       quickly.
-    - `label`: the scene as it was named, for messages and titles.
+    - `label`: name of the scene as the user gave it, for messages and titles.
     - `metadata`: unit and description of each swept field.
     - `cache`: folder of JAX's compilation cache, for workers of the sweep; not part of the hash, nor of the file.
     """
@@ -70,7 +71,7 @@ class Plan:
         return -(-len(self.cases) // self.chunk)
 
     def range_of(self, index: int) -> tuple[int, int]:
-        """First case of a chunk and the one after its last."""
+        """Index of the first case of a chunk, and of the case after its last."""
         return index * self.chunk, min((index + 1) * self.chunk, len(self.cases))
 
     @functools.cached_property
@@ -99,7 +100,7 @@ class Plan:
         return {name: value for name, value in vars(self).items() if name != "key"}
 
     def program(self, devices: int | None = None) -> LaneProgram:
-        """Solver of the lanes; compiled at its first call."""
+        """Program that solves the lanes; it is compiled at its first call."""
         return LaneProgram(
             self.recipe.make,
             self.recipe.base,
@@ -113,14 +114,14 @@ class Plan:
 
 
 def _structure(tree: object) -> str:
-    """Description of all in a scene but its numbers; it contains no addresses in memory."""
+    """Description of a scene without its numbers and without memory addresses."""
     shapes = [np.shape(leaf) for leaf in jax.tree.leaves(tree)]
     return re.sub(r" at 0x[0-9a-f]+", "", f"{jax.tree.structure(tree)} {shapes}")
 
 
 @functools.cache
 def _source() -> str:
-    """Hash of the package's source: in a clone that is being worked on the version says too little."""
+    """Hash of the package's source, because in a clone under development the version number is not enough."""
     digest = hashlib.sha256()
     folder = Path(__file__).parents[1]
     for path in sorted(folder.rglob("*.py")):
@@ -134,7 +135,7 @@ def compilation_cache() -> str | None:
 
 
 def write_plan(plan: Plan, folder: Path) -> None:
-    """The plan as data for other processes. **Raises:** `OSError`."""
+    """Writes the plan as data for other processes. **Raises:** `OSError`."""
     said: dict[str, Any] = {"format": FORMAT, "key": plan.key, "version": __version__, "plan": None, "lacking": None}
     arrays: dict[str, np.ndarray] = {}
     try:
@@ -152,11 +153,11 @@ def read_key(folder: str | os.PathLike[str]) -> str:
 
 
 def read_plan(folder: str | os.PathLike[str]) -> tuple[str, Plan]:
-    """The plan of a sweep, which other processes read, and the hash that it had where it was made: `plan.key` is that
-    of this process, which may have another version. The file is data: reading it runs nothing that is in it.
+    """The hash of a sweep in the process that wrote its plan, and the plan. `plan.key` is the hash in this process,
+    which may have another version. The file contains only data, and reading it runs no code from it.
 
-    **Raises:** `OSError`; `ValueError` for a damaged file, that of another version, or the plan of a scene that has
-    parts of the user's own, which data cannot hold.
+    **Raises:** `OSError`; `ValueError` for a damaged file, a file of another version, or the plan of a scene with
+    classes of the user's own, which cannot be written as data.
     """
     said, arrays = _read(folder)
     path = Path(folder) / PLAN
@@ -189,7 +190,8 @@ def _read(folder: str | os.PathLike[str]) -> tuple[dict[str, Any], dict[str, np.
 
 
 _PLAIN = ("chunk", "lanes", "elements", "platform", "method", "quick", "label", "metadata", "options")
-"""Fields of a plan that are written as they are. The compilation cache is not among them: JAX runs what lies there."""
+"""Fields of a plan that are written unchanged. The compilation cache is not one of them, because JAX runs the programs
+in that folder."""
 
 
 def _as_fields(plan: Plan) -> dict[str, Any]:
@@ -200,7 +202,7 @@ def _as_fields(plan: Plan) -> dict[str, Any]:
 def _of_fields(fields: dict[str, Any]) -> Plan:
     """The plan from its data.
 
-    **Raises:** `ValueError`, `KeyError` or `TypeError` for data that are no plan.
+    **Raises:** `ValueError`, `KeyError` or `TypeError` for data that are not a plan.
     """
     cases = Cases(**fields["cases"])
     chunk, lanes = fields["chunk"], fields["lanes"]

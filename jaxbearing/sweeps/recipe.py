@@ -1,4 +1,4 @@
-"""From the values of a case to its scene: set in the scene, or read like a scene file."""
+"""Construction of the scene of a case from its values, which are set in a scene or read like a scene file."""
 
 import dataclasses
 import itertools
@@ -14,13 +14,14 @@ from ..numerics.precision import as_float
 from .cases import Cases
 
 TRIED = 64
-"""Cases that are tried, beside the corners, for one that has a scene."""
+"""Number of cases, besides the corners, that are tried in search of one whose scene can be built."""
 Inputs = tuple[Any, list[str]]
-"""Inputs of a lane's program, lanes in front, and the reason why a case has no scene ("": it has one)."""
+"""Inputs of the program, with the lane as the first axis, and for each case the reason why its scene cannot be built
+("" if it can)."""
 
 
 class Recipe(Protocol):
-    """A recipe that makes scenes of the cases of a sweep. It can be sent to workers."""
+    """A recipe makes the scenes of the cases of a sweep, and can be sent to workers."""
 
     @property
     def base(self) -> Any:
@@ -34,15 +35,15 @@ class Recipe(Protocol):
 
     @staticmethod
     def make(base: Any, inputs: Any) -> AbstractScene:
-        """Scene of one lane; pure."""
+        """Scene of one lane; a pure function."""
         ...
 
     def inputs(self, values: dict[str, np.ndarray]) -> Inputs:
-        """Arguments of `make`, of many cases."""
+        """The `inputs` of `make` for many cases."""
         ...
 
     def example(self, paths: tuple[str, ...]) -> object:
-        """Arguments of `make`, of a case that has a scene. **Arguments:** `paths`: of the fields."""
+        """The `inputs` of `make` for one case whose scene can be built. **Arguments:** `paths`: of the fields."""
         ...
 
     def scene(self, values: dict[str, float]) -> AbstractScene:
@@ -56,10 +57,10 @@ class Recipe(Protocol):
 
 @dataclasses.dataclass(frozen=True)
 class Direct:
-    """Values that are numbers of the scene: a case is a copy of the scene with other numbers.
+    """Recipe for values that are numbers of the scene: a case is a copy of the scene with other numbers.
 
-    `checked`: whether each case is built once outside the program, where dimensions that do not fit together are
-    refused; twice the time of the quickest solves. An operating point cannot fail there, but for its own bounds.
+    `checked`: whether each case is also built outside the program, where incompatible dimensions are refused; this
+    takes twice the time of the quickest solves. It is not needed for operating points, whose bounds are enough.
     """
 
     base: AbstractScene
@@ -97,18 +98,18 @@ class Direct:
 
 
 class Reader(Protocol):
-    """Makes scenes of the values of fields, in SI."""
+    """Function that makes a scene from values of fields, in SI."""
 
     def __call__(self, values: dict[str, float], /) -> AbstractScene: ...
 
     def as_data(self) -> dict[str, Any]:
-        """The values as texts for the reader."""
+        """The data from which the reader can be made again."""
         ...
 
 
 @dataclasses.dataclass(frozen=True)
 class Read:
-    """Values that the scene does not hold as they are: each case is read like a scene file (5 to 10 ms)."""
+    """Recipe for values that are not numbers of the scene itself: each case is read like a scene file (5 to 10 ms)."""
 
     read: Reader
     example_scene: AbstractScene
@@ -145,10 +146,10 @@ class Read:
 
 
 def in_scene(scene: AbstractScene, cases: Cases) -> Direct:
-    """The recipe of a scene that was built: paths are those of its attributes.
+    """The recipe of a scene object; paths of fields are those of its attributes.
 
-    **Raises:** `ValueError` for a field that is not a number of the scene, or for values that it refuses;
-    `AttributeError` for one that is not there.
+    **Raises:** `ValueError` for a field that is not a number of the scene, and for values that it refuses;
+    `AttributeError` for a field that does not exist.
     """
     for path in cases.paths:
         _require_number(scene, path)
@@ -164,9 +165,9 @@ def in_scene(scene: AbstractScene, cases: Cases) -> Direct:
 
 
 def _possible(make: Callable[[dict[str, float]], AbstractScene], cases: Cases) -> AbstractScene:
-    """Scene of a case that has one: values may fit together in some cases only.
+    """Scene of the first case found whose values fit together.
 
-    **Raises:** `ValueError` of the first case where neither a corner nor one of `TRIED` cases has a scene.
+    **Raises:** `ValueError` of the first case, if the scene of no corner and of none of `TRIED` cases can be built.
     """
     refused: list[ValueError] = []
     for values in itertools.chain(cases.corners(), cases.spread(TRIED)):
@@ -178,15 +179,15 @@ def _possible(make: Callable[[dict[str, float]], AbstractScene], cases: Cases) -
 
 
 def _require_number(scene: AbstractScene, path: str) -> None:
-    """Checks that a field is no part of the structure.
+    """Checks that a field is a single number and not part of the structure.
 
-    **Raises:** `ValueError` if it is.
+    **Raises:** `ValueError` if it is not a number; `AttributeError` if it does not exist.
     """
     above, _, last = path.rpartition(".")
     part: object = scene.part_at(above) if above else scene
     fields = {field.name: field for field in dataclasses.fields(part)} if isinstance(part, eqx.Module) else {}
     if last not in fields:
-        # says what is there
+        # raises an error that says what is there
         scene.replace({path: 0.0})
         return
     value = getattr(part, last)
@@ -205,11 +206,12 @@ def structural(path: str, what: str = "a field that shapes the equations") -> st
 
 
 def from_reader(read: Reader, cases: Cases) -> Direct | Read:
-    """The recipe of a scene file: `Direct` where its values are numbers of the scene as they are.
+    """The recipe of a scene file: `Direct` if the values are numbers of the scene itself, else `Read`.
 
-    **Arguments:** `read`: from values of the fields in SI to a scene.
+    **Arguments:** `read`: function from values of the fields, in SI, to a scene.
 
-    **Raises:** `ValueError` for a field that changes the structure of the scene, and where no corner is a scene.
+    **Raises:** `ValueError` for a field that changes the structure of the scene, and if the scene of no case that is
+    tried can be built.
     """
     corners = cases.corners()
     first = _possible(read, cases)
@@ -227,7 +229,7 @@ def from_reader(read: Reader, cases: Cases) -> Direct | Read:
 
 
 def _quietly(read: Callable[[dict[str, float]], AbstractScene], values: dict[str, float]) -> list[AbstractScene]:
-    """The scene of these values, where there is one."""
+    """A list with the scene of these values, empty if it cannot be built."""
     try:
         return [jax.tree.map(as_float, read(values))]
     except ValueError:

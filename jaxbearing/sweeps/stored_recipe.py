@@ -1,4 +1,4 @@
-"""The recipe of a sweep from the data that its plan keeps."""
+"""The recipe of a sweep from the data in its plan's file."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -12,10 +12,10 @@ _WHERE = "plan of a sweep"
 
 
 def recipe_of_data(data: Mapping[str, Any], cases: Cases) -> Recipe:
-    """The recipe that `Recipe.as_data` wrote.
+    """The recipe from the data of `Recipe.as_data`.
 
-    **Raises:** `ValueError` for something else, `KeyError` for data that lack a part, `SceneError` for texts that are
-    no scene.
+    **Raises:** `ValueError` for other data, `KeyError` for incomplete data, `SceneError` for texts that are not a
+    scene.
     """
     if data["kind"] == "direct":
         base, checked = data["base"], data["checked"]

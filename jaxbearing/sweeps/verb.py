@@ -1,4 +1,4 @@
-"""The plan and the runner of a sweep from the arguments of a user."""
+"""Plan and runner of a sweep from the arguments of a user."""
 
 from collections.abc import Mapping
 
@@ -18,14 +18,15 @@ from .recipe import Recipe, in_scene
 
 
 def _sizes(recipe: Recipe, chunk: int | None) -> tuple[bool, int, int]:
-    """Says whether a case is solved in milliseconds, how many a chunk has, and how many at most a call on a CPU."""
+    """Sizes of the work: whether a case is solved in milliseconds, number of cases of a chunk, and largest number of
+    cases of a call on a CPU."""
     light = isinstance(recipe.example_scene, AbstractBearing | ShaftSystem)
     size = (CHUNK if light else HEAVY_CHUNK) if chunk is None else chunk
     return light, size, LANES if light else HEAVY_LANES
 
 
 def calls_at_once(recipe: Recipe, cases: Cases, chunk: int | None = None) -> int:
-    """Says how many devices of a CPU can share the work."""
+    """Number of CPU devices that can share a chunk."""
     _, size, most = _sizes(recipe, chunk)
     return -(-min(len(cases), size) // most)
 
@@ -40,7 +41,7 @@ def make_plan(
     elements: bool = True,
     chunk: int | None = None,
 ) -> Plan:
-    """Cut the cases into chunks. **Raises:** `ValueError` for a chunk without cases."""
+    """Plan of a sweep with its cases divided into chunks. **Raises:** `ValueError` for a chunk size below 1."""
     if chunk is not None and chunk < 1:
         raise ValueError(f"chunk: found {chunk}, expected 1 or more cases")
     method = default_method()
@@ -79,9 +80,9 @@ def plan_in_scene(
 
 
 def runner_of(devices: int | None, workers: int | None, scheduler: str | None) -> Runner:
-    """The runner that computes the chunks: here, on several devices, or on workers.
+    """The runner that computes the chunks: in this process, on one or several devices, or on workers.
 
-    **Raises:** `ValueError` for counts that are not possible.
+    **Raises:** `ValueError` for impossible counts.
     """
     for name, count in (("devices", devices), ("workers", workers)):
         if count is not None and count < 1:

@@ -21,7 +21,8 @@ _POLAR_GRID = "#DDDDDD"
 
 @dataclass(frozen=True)
 class Chart:
-    """A plotly figure with its name, title, caption and height in pixels."""
+    """A plotly figure with its name, title, caption and height in pixels. Screen readers read the title and the
+    caption."""
 
     name: str
     title: str

@@ -112,8 +112,8 @@ def _bar(fraction: float, width: int, style: str, console: Console) -> Text:
 def pieces(
     first: dict[str, list[str]], columns: dict[str, list[str]], room: int, together: int = 1
 ) -> Iterator[dict[str, list[str]]]:
-    """Splits columns into tables no wider than `room`. Each table begins with the columns `first`; groups of `together`
-    columns are never split."""
+    """Splits columns into tables that fit `room` as far as possible. Each table begins with the columns `first`; groups
+    of `together` columns stay together."""
     piece = dict(first)
     items = list(columns.items())
     for i in range(0, len(items), together):

@@ -1,13 +1,13 @@
 """A bearing's solution as a labelled xarray data set.
 
-Every field that carries a label in the result classes becomes one variable, with the dimensions that its annotation
-says: a new result appears here without a change. Names are the paths of the Python result with `_` for the dot
-(`power_loss_total`, `ring_radial`), also kept in the attribute `path`; results of the rolling elements go without the
-prefix `elements_` (`load_inner`).
+Every labelled field of the result classes becomes one variable, with the dimensions given in its annotation: new
+results appear here automatically. Names are the paths of the Python results with `_` for the dot (`power_loss_total`,
+`ring_radial`), without the prefix `elements_` for results of the rolling elements (`load_inner`); the attribute `path`
+keeps the path.
 
-The stiffness has all five degrees of freedom of the ring in each kind of bearing. Its entries have four units, of
-which a variable can name one only: they stand in the coordinate `stiffness_units`. Degrees of freedom that the model
-does not have are 0 there, and `freedom_modelled` says which they are.
+The stiffness has all five degrees of freedom of the ring for every kind of bearing. Its entries have four different
+units, listed in the coordinate `stiffness_units`. Entries of degrees of freedom that are not modelled are 0;
+`freedom_modelled` marks them.
 """
 
 from collections.abc import Sequence
@@ -24,24 +24,25 @@ from .operation import unused_operation
 
 _ELEMENT = "element"
 _FREEDOMS = ("freedom", "freedom_displaced")
-"""Rows and columns of the stiffness: the load along the first by a displacement along the second."""
+"""Dimensions of the stiffness: derivative of the load along the first with respect to the displacement along the
+second."""
 
 
 def to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Dataset:
     """See `report.dataset.solution_to_dataset`.
 
-    The operating point and the azimuths are coordinates. `status` has its meanings in the attributes `flag_values`
-    and `flag_meanings`; `out_of_range` says which checks of the laws' ranges were left. The attributes of the data
-    set hold the same warnings and notes in words, the losses that are not modelled, and the version. What the scene
-    does not model, or does not use, is left out.
+    The operating point and the azimuths are coordinates. The attributes `flag_values` and `flag_meanings` of `status`
+    explain its values; `out_of_range` marks the laws whose range of validity was left. The attributes of the data set
+    hold the warnings and notes as text, the losses that are not modelled, and the version. Results that the scene does
+    not model, and inputs that it does not use, are left out.
 
     **Arguments:**
     - `solution`: one solution, or a batch of them from `jax.vmap` or `jax.lax.map`; the failed lanes of a batch are
       NaN and say why in `status`.
-    - `dims`: names of the batch's leading dimensions, `("case",)`. To have the load of a sweep as its axis:
+    - `dims`: names of the batch's leading dimensions, `("case",)`. To use the load of a sweep as axis:
       `solution_to_dataset(batch, ("case",)).swap_dims(case="operation_radial_load")`.
 
-    **Raises:** `ValueError` for a single solution that did not converge, and where `dims` does not fit the batch.
+    **Raises:** `ValueError` if a single solution did not converge, or if `dims` does not match the batch.
     """
     dims = tuple(dims)
     batch = np.shape(solution.status)
@@ -66,12 +67,12 @@ def to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Dataset:
 
 
 def _with_coordinates(dataset: xr.Dataset, solution: Solution, dims: tuple[str, ...]) -> xr.Dataset:
-    """Operating point, azimuths and names as coordinates."""
+    """Adds operating point, azimuths and names as coordinates."""
     azimuth = dataset["azimuth"]
     if dims:
         try:
             values = common(azimuth.values, 1, "azimuth")
-        except ValueError:  # a batch over the place of the first element
+        except ValueError:  # a batch over the azimuth of the first element
             pass
         else:
             azimuth = xr.DataArray(values, dims=(_ELEMENT,), attrs=azimuth.attrs)
@@ -93,7 +94,7 @@ def _with_coordinates(dataset: xr.Dataset, solution: Solution, dims: tuple[str, 
 
 
 def _of_stiffness(solution: Solution) -> dict[str, xr.Variable]:
-    """Units of the entries of the stiffness, and which degrees of freedom the model has."""
+    """Coordinates with the units of force and stiffness and the degrees of freedom that are modelled."""
     units = [[udunits(unit) for unit in row] for row in stiffness_units()]
     modelled = np.asarray([name in solution.freedoms_of_stiffness for name in RING_FREEDOMS], dtype=np.int8)
     words = {

@@ -1,4 +1,4 @@
-"""Facts about a solution besides losses and loads, in words, for the screen and the page."""
+"""Facts about a solution besides losses and loads, as text for the screen and the page."""
 
 import dataclasses
 from collections.abc import Callable, Iterator
@@ -17,14 +17,14 @@ from .thermal_facts import thermal_facts
 
 
 def not_modelled(solution: Solution) -> str:
-    """The parts that the scene does not model, in words: losses, and a gyroscopic couple that counts."""
+    """The parts that the scene does not model, as text: losses, and the gyroscopic couple if it matters."""
     names = ", ".join(name.replace("_", " ") for name in solution.not_modelled)
     losses = f"all power losses ({names})" if solution.power_loss.total is None else names
     return "; ".join(text for text in (losses, left_out_couple(solution)) if text)
 
 
 def left_out_couple(solution: Solution) -> str:
-    """The gyroscopic couple of balls that a scene leaves out, in words; "" where friction carries it easily."""
+    """The gyroscopic couple of the balls that the scene neglects, as text; "" if friction carries it easily."""
     elements = on_heavier_flanks(solution.elements)
     limit = getattr(elements, "gyroscopic_limit", None)
     if limit is None:
@@ -38,8 +38,8 @@ def left_out_couple(solution: Solution) -> str:
 
 
 def overload(solution: Solution) -> str:
-    """The contacts that yield, and a static load beyond the rating, in words; "" of a bearing that carries its load. Of
-    several states, stacked, those of the worst ones."""
+    """The raceways whose pressure is above the yield limit, and a static load above the static rating, as text; "" for
+    a bearing that carries its load. For several stacked states the worst values are used."""
     limit = BALL_PRESSURE if solution.element_name == "ball" else ROLLER_PRESSURE
     elements, life = on_heavier_flanks(solution.elements), solution.life
     said = []
@@ -53,7 +53,7 @@ def overload(solution: Solution) -> str:
 
 
 def facts(solution: Solution) -> Iterator[tuple[str, str]]:
-    """Name and text of what an engineer wants to know besides losses and loads."""
+    """Name and text of each fact that an engineer wants to know besides losses and loads."""
     yields = overload(solution)
     if yields:
         yield OVERLOAD, f"{solution.element_name}s and races yield: {yields}. Every result is that of elastic bodies"
@@ -93,14 +93,15 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
 
 
 def bending(ring: AbstractRingDeflection) -> str:
-    """The least and the largest deflection of a ring in words."""
+    """The smallest and the largest deflection of a ring, as text."""
     deflection = np.asarray(ring.deflection)
     least, most = (with_unit(float(value), "m") for value in (np.min(deflection), np.max(deflection)))
     return f"bends outwards by {least} to {most}"
 
 
 def _mixed_facts(solution: Solution) -> Iterator[tuple[str, str]]:
-    """Part of the losses that is boundary friction, film ratio and load share of the roughest contact."""
+    """Boundary friction as part of the losses; smallest film ratio and largest asperity load share of each contact
+    side."""
     power = solution.boundary_power
     if power is None:
         return
@@ -121,7 +122,7 @@ def _mixed_facts(solution: Solution) -> Iterator[tuple[str, str]]:
 
 
 def _frequencies(solution: Solution) -> Iterator[tuple[str, str]]:
-    """Frequencies at which damages are heard, of the motion and of the textbook."""
+    """Defect frequencies, from the computed motion and from the textbook formulas."""
     if solution.textbook_frequencies is None:
         return
     names = {
@@ -136,7 +137,7 @@ def _frequencies(solution: Solution) -> Iterator[tuple[str, str]]:
 
 
 def _supply(solution: Solution) -> Iterator[tuple[str, str]]:
-    """The supply in words, and what it does to the most loaded contacts."""
+    """The oil supply, and its effect on film and rolling friction of the most loaded contacts."""
     supply = solution.supply
     if supply is None:
         return
@@ -150,7 +151,8 @@ def _supply(solution: Solution) -> Iterator[tuple[str, str]]:
 
 
 def _ball_facts(solution: Solution) -> Iterator[tuple[str, str]]:
-    """Contact angles, attitude and spin of the most loaded ball."""
+    """Contact angles, attitude angle and spin of the most loaded ball, contacts of the loaded balls, and raceway
+    losses."""
     elements = on_heavier_flanks(solution.elements)
     if getattr(elements, "attitude_angle", None) is None:
         return
@@ -179,7 +181,7 @@ def _ball_facts(solution: Solution) -> Iterator[tuple[str, str]]:
 
 
 def _tapered_facts(solution: Solution) -> Iterator[tuple[str, str]]:
-    """Load and pressure of the roller ends on the rib, and the rollers' tilt."""
+    """Load, pressure, film, sliding and traction of the most loaded contact of a roller end with the rib."""
     elements = solution.elements
     if getattr(elements, "load_flange", None) is None:
         return
@@ -208,9 +210,10 @@ _KINDS = {
 
 
 LEFT_OUT = 0.01
-"""Gyroscopic couple over what friction can carry, of all balls, from which on it is named where it is left out."""
+"""Ratio of the gyroscopic couple to the couple that friction can carry, summed over all balls, above which a neglected
+couple is reported."""
 OVERLOAD = "Overload"
-"""Name of the fact that contacts yield."""
+"""Name of the fact which says that contacts yield."""
 NO_LIFE = "none, because it yields; the formulas, which do not hold here, give"
 _LOADS = {
     "axial": "axial load",
@@ -229,7 +232,7 @@ def _ring(solution: Solution) -> Iterator[str]:
 
 
 def _held(solution: Solution) -> Iterator[str]:
-    """The loads that degrees of freedom which are held need, but for those that are 0."""
+    """The loads that hold the fixed degrees of freedom, except those that are 0."""
     for name, unit, value in zip(RING_FREEDOMS, force_units(), np.asarray(solution.force), strict=True):
         if name in solution.held_freedom and value != 0.0:
             about = _point_of_moments(solution) if name.startswith("tilt") else ""
@@ -237,7 +240,7 @@ def _held(solution: Solution) -> Iterator[str]:
 
 
 def _point_of_moments(solution: Solution) -> str:
-    """The point of the axis that the loads of a tapered bearing act at, which is none of its middle."""
+    """The point on the axis of a tapered bearing about which moments are taken, as text; "" for other bearings."""
     position = getattr(solution.operation, "load_position", None)
     if position is None:
         return ""
@@ -248,7 +251,7 @@ def _point_of_moments(solution: Solution) -> str:
 
 
 def _stiffness(solution: Solution) -> Iterator[str]:
-    """The diagonal: of each freedom that the model has, the others held."""
+    """The diagonal entries of the stiffness: for each modelled degree of freedom, with the others fixed."""
     matrix, units = np.asarray(solution.stiffness), stiffness_units()
     for i, name in enumerate(RING_FREEDOMS):
         if name in solution.freedoms_of_stiffness:
@@ -259,7 +262,7 @@ def _stiffness(solution: Solution) -> Iterator[str]:
 
 
 def extremes(elements: Any, name: str, pick: Callable[[np.ndarray], np.intp]) -> Iterator[str]:
-    """The value that `pick` finds on each race, and where."""
+    """The value that `pick` selects on each race, and its azimuth, as text."""
     elements = on_heavier_flanks(elements)
     for field in dataclasses.fields(elements):
         values = getattr(elements, field.name)

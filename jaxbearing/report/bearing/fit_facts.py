@@ -1,4 +1,4 @@
-"""Facts about the seats of a mounted bearing, in words."""
+"""Facts about the seats of a mounted bearing, as text."""
 
 from collections.abc import Iterator, Mapping
 
@@ -12,9 +12,11 @@ _SEATS = {"inner": "inner ring on the shaft", "outer": "outer ring in the housin
 
 
 def fit_facts(fit: FitResult, outer_speed: float) -> Iterator[tuple[str, str]]:
-    """Name and text: the play from the drawing to the running bearing, and each seat.
+    """Name and text of each fact: the clearance (or axial position of first contact) from drawing to operation, and the
+    seats.
 
-    **Arguments:** `outer_speed`: of the outer ring and its housing, rad/s; of a housing at rest no speed is said."""
+    **Arguments:** `outer_speed`: speed of the outer ring and its housing, rad/s; 0 leaves out the speed at which the
+    outer ring becomes loose."""
     um = lambda value, sign="": f"{1e6 * float(np.asarray(value)):{sign}.1f}"
     parts = {"fits": fit.by_fits, "temperatures": fit.by_temperatures, "speed": fit.by_speed}
     said = ", ".join(f"{name} {um(value, '+')}" for name, value in parts.items())

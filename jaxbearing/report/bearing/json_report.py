@@ -1,5 +1,5 @@
-"""A bearing's solution as plain numbers and texts. The keys are the field names of the result classes: a new result
-appears here without a change."""
+"""A bearing's solution as plain numbers and texts. The keys are the field names of the result classes: new results
+appear here automatically."""
 
 from typing import Any
 
@@ -24,14 +24,15 @@ _INSIDE = (
     "failure_causes",
 )
 _NAMES = ("stiffness_freedom", "held_freedom", "element_name")
-"""Fields that are not written as they are, but in words or in another order, or not at all."""
+"""Names that are not written as results of their own."""
 
 
 def to_dict(solution: Solution) -> dict[str, Any]:
     """See `report.json_report.solution_to_dict`.
 
-    Parts that the scene does not model are left out, except `cage`, which is `None` then. Where the solve failed,
-    `converged` is false and all results are `None`. So are the oil's temperature and flow where nothing uses them.
+    Parts that the scene does not model are `None`; inside a part, results that are not modelled are left out. If the
+    solve failed, `converged` is false and all results are `None`. The oil temperature and flow are `None` if nothing
+    uses them.
     """
     converged = bool(solution.converged)
     results: dict[str, Any] = {
@@ -44,7 +45,7 @@ def to_dict(solution: Solution) -> dict[str, Any]:
         if name not in (*_INSIDE, *_NAMES) and not name.startswith("global_"):
             results[name] = plain(getattr(solution, name))
     results["operation"] |= dict.fromkeys(unused_operation(solution))
-    # fixed keys, also where the scene models no friction: `None` then, which is not a loss of 0
+    # the key is always there: without friction in the scene it is `None`, which is not a loss of 0
     results["power_loss"].setdefault("total", None)
     modelled = [name in solution.freedoms_of_stiffness for name in RING_FREEDOMS]
     results["force"] = finite(np.where(modelled, np.asarray(solution.force), np.nan).tolist())
@@ -55,7 +56,7 @@ def to_dict(solution: Solution) -> dict[str, Any]:
 
 
 def modelled_only(stiffness: np.ndarray, freedoms: tuple[str, ...]) -> list[Any]:
-    """The stiffness of all five degrees of freedom, of any number of bearings, `None` for those that the model does
-    not have."""
+    """The stiffness of all five degrees of freedom, for any number of bearings; `None` for degrees of freedom that are
+    not modelled."""
     modelled = np.asarray([name in freedoms for name in RING_FREEDOMS])
     return finite(np.where(modelled[:, None] & modelled, stiffness, np.nan).tolist())

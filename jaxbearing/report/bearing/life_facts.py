@@ -1,4 +1,4 @@
-"""Facts about the life of a bearing, in words: lives, ratings and loads, static safety, least load, lubrication."""
+"""Facts about the life of a bearing, as text: lives, ratings and loads, static safety, minimum load, lubrication."""
 
 import math
 from collections.abc import Iterator
@@ -17,21 +17,21 @@ AT_NINETY = {
     "L10m": ("L10mh", "ISO 281 modified L10m"),
     "L10": ("L10h", "ISO 281 L10"),
 }
-"""Life at 90 % reliability in revolutions -> the same in hours, words."""
+"""Name of a life at 90 % reliability in revolutions -> name of the same life in hours, and its words."""
 _MODIFIED = {"Lnmr": ("Lnmr_hours", "modified life Lnmr")}
 AT_RELIABILITY = {
     "Lnr": ("Lnr_hours", "basic reference life Lnr"),
     "Lnm": ("Lnmh", "ISO 281 modified Lnm"),
     "Ln": ("Lnh", "ISO 281 Ln"),
 }
-"""Life at the reliability of the rating, as `AT_NINETY`; at 90 % these are the same lives."""
+"""Lives at the reliability of the rating, in the form of `AT_NINETY`; at 90 % they are the same lives."""
 _FIRST = ("Lnmr", "Lnr", "L10r", "L10")
-"""Lives at the top of a page."""
+"""Lives shown at the top of a page."""
 SAID = (
     *(f"life.{name}" for revolutions, (hours, _) in AT_RELIABILITY.items() for name in (revolutions, hours)),
     *("life.L10m", "life.L10mh", "life.static_safety", "life.minimum_load"),
 )
-"""Results that follow from others and stand in these facts."""
+"""Derived results that these facts already contain."""
 
 
 def percent(reliability: float) -> str:
@@ -39,8 +39,9 @@ def percent(reliability: float) -> str:
 
 
 def known_lives(life: AtReliability) -> dict[float, dict[str, tuple[str, str]]]:
-    """The lives that a bearing, a system or a spectrum has, by reliability, that of the rating first: life in
-    revolutions -> the same in hours, words. What the catalogues' formulas do not give is NaN, and is left out."""
+    """Known lives of a bearing, a system or a load spectrum. For each reliability, that of the rating first: name of
+    the life in revolutions -> name of the same life in hours, and its words. Lives that the catalogue formulas do not
+    give are NaN and are left out."""
     there = lambda name: (value := getattr(life, name)) is not None and not np.isnan(float(np.asarray(value)))
     kinds = {life.reliability: _MODIFIED | AT_RELIABILITY, 0.90: AT_NINETY}
     if life.reliability == 0.90:
@@ -49,21 +50,22 @@ def known_lives(life: AtReliability) -> dict[float, dict[str, tuple[str, str]]]:
 
 
 def repeated_lives(life: AtReliability | None) -> set[str]:
-    """Names of the lives at the reliability of the rating that at 90 % stand under another name."""
+    """Names of the lives at the reliability of the rating that repeat those at 90 %; empty for other reliabilities."""
     if life is None or life.reliability != 0.90:
         return set()
     return {name for revolutions, (hours, _) in AT_RELIABILITY.items() for name in (revolutions, hours)}
 
 
 def lives_in_words(life: AtReliability) -> Iterator[str]:
-    """A text for each reliability that lives are known at, hours before revolutions."""
+    """One text for each reliability at which lives are known, with hours before revolutions."""
     for share, names in known_lives(life).items():
         said = [f"{words} {_lasting(life, hours, name)}" for name, (hours, words) in names.items()]
         yield f"at {percent(share)} reliability: {'; '.join(said)}"
 
 
 def _lasting(life: AtReliability | CatalogueLife, hours: str, name: str) -> str:
-    """A life in hours and revolutions; what stands lasts no number of hours, and what carries nothing for ever."""
+    """A life in hours and revolutions as text: without hours for a bearing at rest, "unlimited" if the life is
+    infinite."""
     time, turns = (float(np.asarray(getattr(life, one))) for one in (hours, name))
     if not math.isfinite(turns):
         return "unlimited"
@@ -72,7 +74,7 @@ def _lasting(life: AtReliability | CatalogueLife, hours: str, name: str) -> str:
 
 
 def life_headlines(life: AtReliability) -> Iterator[tuple[str, str]]:
-    """Name and text of the lives at the top of a page, in hours, each with its reliability."""
+    """Name and text of the lives shown at the top of a page, in hours, each with its reliability."""
     for share, names in known_lives(life).items():
         for name, hours in ((name, names[name][0]) for name in _FIRST if name in names):
             time = float(np.asarray(getattr(life, hours)))
@@ -83,18 +85,18 @@ def life_headlines(life: AtReliability) -> Iterator[tuple[str, str]]:
 
 
 def catalogue_fact(life: CatalogueLife) -> tuple[str, str]:
-    """Name and text of the life of loads that have no equilibrium."""
+    """Name and text of the catalogue life, for loads without an equilibrium."""
     load, capacity = (f"{digits(1e-3 * float(one))} kN" for one in (life.catalogue_load, life.dynamic_capacity))
     lasting = _lasting(life, "L10h", "L10")
     return "Catalogue life", f"needs no equilibrium: ISO 281 L10 {lasting} at 90 % reliability, P {load}, C {capacity}"
 
 
 def life_facts(solution: Solution) -> Iterator[tuple[str, str]]:
-    """Name and text of each fact about the life of a solution that has one."""
+    """Name and text of each fact about the life of a solution whose life is computed."""
     life = solution.life
     assert life is not None
     of = lambda name: float(np.asarray(getattr(life, name)))
-    # what the catalogues' formulas do not give is NaN
+    # values that the catalogue formulas do not give are NaN
     there = lambda name: getattr(life, name) is not None and not np.isnan(of(name))
     kilonewton = lambda name: f"{digits(1e-3 * of(name))} kN"
     for text in lives_in_words(life):
@@ -113,7 +115,7 @@ def life_facts(solution: Solution) -> Iterator[tuple[str, str]]:
     said = [] if life.viscosity_ratio is None else [f"kappa {digits(of('viscosity_ratio'), 3)}"]
     if life.film_ratio_inner is not None:
         ratios = [np.asarray(getattr(life, f"film_ratio_{side}")) for side in ("inner", "outer")]
-        thinnest = float(np.nanmin(ratios))  # NaN: a roller that touches nothing
+        thinnest = float(np.nanmin(ratios))  # NaN: a rolling element without contact
         said.append(f"smallest lambda ratio {digits(thinnest, 3)}")
     if life.Lnmr is not None:
         said.append(f"a_ISO {digits(of('modification_factor'), 3)} with e_C {digits(of('contamination_factor'), 3)}")
@@ -124,7 +126,8 @@ def life_facts(solution: Solution) -> Iterator[tuple[str, str]]:
 
 
 def _least_load(solution: Solution, least: float) -> str:
-    """A maker's rule of thumb beside the load, and the slip of the cage where it is modelled."""
+    """A maker's rule of thumb for the minimum load, compared with the equivalent load, and the cage slip if it is
+    modelled."""
     life = solution.life
     assert life is not None
     load = float(np.asarray(life.equivalent_load))

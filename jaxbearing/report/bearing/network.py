@@ -10,7 +10,7 @@ from ..diagrams import LETTER, TEXT, Arrow, Box, Diagram, Place
 from ..display import ZERO_CELSIUS, with_unit
 
 HEAT, OIL = CURVES[1], CURVES[0]
-"""Colours of the heat between the nodes, and of the oil that flows."""
+"""Colours of the heat flows between nodes and of the oil flow."""
 PLACES: dict[str, Place] = {
     "shaft": (0.0, 0.0),
     "inner_ring": (160.0, 0.0),
@@ -20,27 +20,27 @@ PLACES: dict[str, Place] = {
     "housing": (640.0, 0.0),
     "oil": (320.0, 125.0),
 }
-"""Centre of each node: the row from shaft to housing, the oil above it."""
+"""Centre of the box of each node, points: a row from shaft to housing, with the oil above it."""
 MIDDLE = PLACES["elements"][0]
 WIDE, HIGH = 90.0, 44.0
-"""Size of a node's box."""
+"""Width and height of the box of a node, points."""
 AMBIENT = -115.0
-"""Height of the ambient below the row."""
+"""Vertical position of the ambient relative to the row of nodes, points."""
 BESIDE = 26.0
-"""Distance of the middle of an upright arrow's text from its line."""
+"""Horizontal distance between a vertical arrow and the middle of its text, points."""
 THICKEST, THINNEST = 9.0, 0.75
-"""Widths of the arrow with most heat, and of those too small to be in proportion."""
+"""Width of the arrow with the largest heat, and smallest width of an arrow, points."""
 WITHOUT_LOSSES = ("shaft", "housing")
 ROUND_OFF = 1e-9
-"""Part of the largest heat below which the loss of a node is the round-off of its balance, and has no arrow."""
+"""Fraction of the largest heat below which the loss of a node is only round-off, and gets no arrow."""
 _UPRIGHT = 32.0
-"""Distance from the middle of a box to the upright arrows at either side of it."""
+"""Horizontal distance from the middle of a box to the vertical arrows on either side, points."""
 
 
 def network_diagram(thermal: ThermalResult) -> Diagram:
     """Draws the nodes with their temperatures and, as arrows, the losses and all heat flows.
 
-    **Arguments:** `thermal`: of one solution that converged.
+    **Arguments:** `thermal`: thermal result of one converged solution.
     """
     watts = {pair: float(flow) for pair, flow in thermal.paths().items()}
     losses = {node: float(heat) for node, heat in thermal.losses().items() if node not in WITHOUT_LOSSES}
@@ -82,7 +82,7 @@ def _caption(thermal: ThermalResult, total: float) -> str:
 
 
 def _carries(heat: float) -> str:
-    """Words for so much heat, W, that oil takes away or brings."""
+    """Text that says how much heat, W, the oil takes away or, below 0, brings."""
     return f"{'takes' if heat >= 0.0 else 'brings'} {_watts(abs(heat))}"
 
 
@@ -93,7 +93,7 @@ def _nodes(thermal: ThermalResult) -> Iterator[Box]:
 
 
 def _ambient(thermal: ThermalResult, watts: dict[tuple[str, str], float]) -> Box:
-    """A bar below all nodes from which heat flows to the ambient."""
+    """Bar of the ambient, below all nodes from which heat flows to it."""
     above = [PLACES[first][0] for first, second in watts if second == "ambient"] or [MIDDLE]
     width = max(above) - min(above) + WIDE + 60.0
     centre = 0.5 * (max(above) + min(above)), AMBIENT
@@ -101,12 +101,12 @@ def _ambient(thermal: ThermalResult, watts: dict[tuple[str, str], float]) -> Box
 
 
 def _between(pair: tuple[str, str], heat: float, scale: float) -> Arrow:
-    """Heat along a path, from the warmer to the colder end."""
+    """Arrow of the heat along a path, from the warmer to the colder end."""
     first, second = pair
     x, y = PLACES[first]
     text, width = _watts(abs(heat)), _width(heat, scale)
     if second == "ambient":
-        # the loss of a ring comes from below too
+        # the arrow for the loss of a ring comes from below too
         x += 0.0 if first == "bearing" else _UPRIGHT
         start, end, at = (x, y - HIGH / 2.0), (x, AMBIENT + 12.0), (x + BESIDE, 0.5 * (AMBIENT - 5.0))
     elif second == "neighbours":
@@ -126,8 +126,8 @@ def _between(pair: tuple[str, str], heat: float, scale: float) -> Arrow:
 
 
 def _beside(start: Place, end: Place, text: str, width: float) -> Place:
-    """Centre of a text beside the middle of a slanting arrow: above one from a housing, below the others, where nothing
-    else is drawn."""
+    """Centre of the text beside the middle of a slanting arrow: above arrows from shaft and housing, below the others,
+    so that nothing else is covered."""
     x, y = end[0] - start[0], end[1] - start[1]
     length = math.hypot(x, y)
     across, along = abs(y) / length, abs(x) / length
@@ -139,7 +139,7 @@ def _beside(start: Place, end: Place, text: str, width: float) -> Place:
 
 
 def _oil_side(x: float) -> Place:
-    """The point where an arrow from the row meets the oil's box: farther out for nodes that are farther away."""
+    """The point where the arrow from a node at `x` meets the box of the oil: farther out for more distant nodes."""
     oil_x, oil_y = PLACES["oil"]
     away = (x - oil_x) / (PLACES["outer_ring"][0] - oil_x)
     if abs(away) > 1.0:
@@ -148,7 +148,8 @@ def _oil_side(x: float) -> Place:
 
 
 def _loss(node: str, heat: float, scale: float) -> Arrow:
-    """The losses that heat a node, from above the oil and a whole bearing, from below the others."""
+    """Arrow of the losses that heat a node: from above for the oil and a single-node bearing, from below for the
+    others."""
     x, y = PLACES[node]
     side = 1.0 if node in ("oil", "bearing") else -1.0
     x -= 0.0 if side > 0.0 else _UPRIGHT * 0.7
@@ -158,7 +159,8 @@ def _loss(node: str, heat: float, scale: float) -> Arrow:
 
 
 def _oil(thermal: ThermalResult, heat: float, scale: float) -> tuple[list[Box], list[Arrow]]:
-    """Oil that enters at the left and leaves at the right of the node that holds it, with the heat that it takes."""
+    """Boxes and arrows of the oil, which enters on the left of the node that contains it and leaves on the right, with
+    the heat that it takes."""
     x, y = PLACES["oil" if "oil" in thermal.nodes else thermal.nodes[0]]
     y += 10.0
     away, edge, beside = 170.0, WIDE / 2.0, 32.0

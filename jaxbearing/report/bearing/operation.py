@@ -1,4 +1,4 @@
-"""The operating point of a solution in words, without what the scene does not use."""
+"""The operating point of a solution as text, without the inputs that the scene does not use."""
 
 import dataclasses
 import math
@@ -15,7 +15,7 @@ from ..display import ZERO_CELSIUS, display_unit, displayed
 
 
 def unused_operation(solution: Solution) -> set[str]:
-    """Names in the operating point that no modelled part depends on: a scene need not give them."""
+    """Names of inputs of the operating point on which no modelled part depends; a scene need not give them."""
     unused = set()
     if solution.elements.film_inner is None:
         unused.add("oil_temperature")
@@ -26,13 +26,14 @@ def unused_operation(solution: Solution) -> set[str]:
 
 
 def load_angle(operation: AbstractOperation) -> float | None:
-    """Azimuth along which the given load across the axis points, rad; `None` where none is given."""
+    """Azimuth of the given radial load (radial and lateral components together), rad; `None` if there is none."""
     radial, lateral = (0.0 if load is None else float(load) for load in map(operation.load, ("radial", "lateral")))
     return math.atan2(lateral, radial) if radial or lateral else None
 
 
 def operating_point(solution: Solution) -> str:
-    """The operating point in words: "inner ring speed 10500 rpm, radial load 25 kN". A fixed outer ring is not said."""
+    """The operating point in words: "inner ring speed 10500 rpm, radial load 25 kN". The speed of a stationary outer
+    ring is left out."""
     hidden, operation = unused_operation(solution), solution.operation
     said = []
     for part, field, given in _numbers(operation):
@@ -49,7 +50,7 @@ def operating_point(solution: Solution) -> str:
 
 
 def _numbers(part: Checked) -> Iterator[tuple[Checked, dataclasses.Field[Any], Scalar]]:
-    """Fields of an operating point that hold a number, those of its parts too: the part, the field, the number."""
+    """All numbers of an operating point, including those of its parts: the part, the field and the number."""
     for field in dataclasses.fields(part):
         given = getattr(part, field.name)
         if isinstance(given, Checked):
@@ -59,13 +60,13 @@ def _numbers(part: Checked) -> Iterator[tuple[Checked, dataclasses.Field[Any], S
 
 
 def field_text(operation: AbstractOperation, name: str, significant: int = 6) -> str:
-    """A number of the operating point, which is given, with its unit."""
+    """A given number of the operating point with its unit, as text."""
     unit = type(operation).__dataclass_fields__[name].metadata["unit"]
     return _with_unit(float(np.asarray(getattr(operation, name))), unit, significant)
 
 
 def _with_unit(value: float, unit: str, significant: int = 6) -> str:
-    """Applied loads are shown in kN, and the temperatures of an operating point are not differences."""
+    """A number with its unit, as text; forces in kN, and K converted to degC as an absolute temperature."""
     if unit == "K":
         return f"{value - ZERO_CELSIUS:.{significant}g} degC"
     if unit == "N":

@@ -63,7 +63,7 @@ def page_content(scene: AbstractBearing, solution: Solution) -> Content:
 
 
 def _stiffness(solution: Solution) -> tuple[list[str], list[list[str]]]:
-    """Headings, and rows with the units of the screen; "-" for what the model does not have."""
+    """Headings, and rows with the units of the screen; "-" for degrees of freedom that are not modelled."""
     modelled = [name in solution.freedoms_of_stiffness for name in RING_FREEDOMS]
     units = stiffness_units()
     rows = [

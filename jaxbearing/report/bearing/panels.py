@@ -1,5 +1,5 @@
-"""Charts of a bearing's steady solve: power loss by location and, round the bearing, loads, films, pressures and
-sliding speeds; what the scene does not model has none."""
+"""Charts of a bearing's steady solve: power loss by location and, over the azimuth, loads, films, pressures, sliding
+speeds and contact angles. Results that the scene does not model have no chart."""
 
 import dataclasses
 from collections.abc import Sequence
@@ -24,28 +24,31 @@ SIDES = (
     ("flange", RIB, "triangle-up", "rib"),
 )
 LOG_FROM = 20.0
-"""Largest over smallest value from which on an axis is logarithmic: the films of the loaded zone must be readable."""
+"""Ratio of largest to smallest value above which an axis is logarithmic, so that the films of the loaded zone are
+readable."""
 ROUND = {
     "film": ("Central film", "log", "At the middle of each contact."),
     "pressure": ("Hertz (peak) pressure", "zero", "Peak of the Hertz pressure of each contact."),
     "sliding": ("Sliding speed", "", "Difference of the surface speeds of ring and rolling element."),
     "contact_angle": ("Contact angle", "", "Between the normal force and the plane across the axis."),
 }
-"""Results of raceways or rib: title, vertical axis ("zero": it begins at 0, "log": it may be logarithmic), caption."""
+"""Result at the raceways or the rib -> title, kind of vertical axis ("zero": begins at 0, "log": may be logarithmic)
+and caption."""
 
 
 def bearing_panels(solution: Solution, rigid: Solution | None = None) -> list[Panel]:
-    """The charts of a solution, of what its scene models: losses, loads, and results over the azimuth.
+    """The charts of a solution, as far as its scene models them: losses, loads, results over the azimuth, flexible
+    rings.
 
-    **Arguments:** `rigid`: the solution with a rigid outer ring, to compare with.
+    **Arguments:** `rigid`: the solution of the same scene with rigid rings, for comparison.
     """
     losses = loss_panel(solution)
     return [*([losses] if losses is not None else []), *contact_panels(solution), *ring_panels(solution, rigid)]
 
 
 def contact_panels(solution: Solution) -> list[Panel]:
-    """Loads and results over the azimuth. What is the same at every rolling element stands as numbers in one panel:
-    in the place of the loads if they are among it, otherwise at the end."""
+    """Loads and results over the azimuth. Results that are the same at every rolling element are numbers in one panel,
+    which comes first if the loads are among them, otherwise last."""
     panels = [load_panel(solution), *round_panels(solution)]
     same = [panel for panel in panels if constant(panel)]
     changing = [panel for panel in panels if not constant(panel)]
@@ -60,18 +63,18 @@ def _numbers(panels: Sequence[Polar | Curves], element: str) -> Numbers:
 
 
 def _of(panel: Polar | Curves, label: str) -> str:
-    """Number and unit of a constant curve; "" where the panel has none of this name."""
+    """Value and unit of a constant curve; "" if the panel has no curve of this name."""
     found = [float(np.mean(one.y)) for one in panel.series if one.name == label]
     return f"{digits(found[0])} {panel.unit}" if found else ""
 
 
 def bearing_diagrams(solution: Solution) -> list[Diagram]:
-    """The thermal network of a scene that has one."""
+    """The diagram of the thermal network, if the scene has one."""
     return [] if solution.thermal is None else [network_diagram(solution.thermal)]
 
 
 def power_losses(solution: Solution) -> dict[str, float]:
-    """Dissipation by location, W, largest first, without the total; empty where nothing is dissipated."""
+    """Power loss by location, W, largest first, without the total; empty if the scene models no losses."""
     loss = solution.power_loss
     named = {field.name: getattr(loss, field.name) for field in dataclasses.fields(loss) if field.name != "total"}
     watts = {name: float(value) for name, value in named.items() if value is not None}
@@ -79,7 +82,7 @@ def power_losses(solution: Solution) -> dict[str, float]:
 
 
 def loss_panel(solution: Solution) -> Bars | None:
-    """Power loss by location; `None` where the scene models none."""
+    """Power loss by location; `None` if the scene models no losses."""
     losses = power_losses(solution)
     if not losses:
         return None
@@ -100,7 +103,7 @@ def loss_panel(solution: Solution) -> Bars | None:
 
 
 def load_panel(solution: Solution) -> Polar:
-    """Loads round the bearing."""
+    """Loads of the rolling elements over the azimuth."""
     values = _by_side(solution, "load")
     unit, factor = axis_unit("N", max(float(np.max(load)) for load in values.values()))
     azimuth, name = np.asarray(solution.elements.azimuth), solution.element_name
@@ -116,12 +119,12 @@ def load_panel(solution: Solution) -> Polar:
 
 
 def round_panels(solution: Solution) -> list[Curves]:
-    """Films, pressures and sliding speeds."""
+    """Films, pressures, sliding speeds and contact angles over the azimuth, as far as they are modelled."""
     return [panel for panel in (round_panel(solution, name) for name in ROUND) if panel is not None]
 
 
 def round_panel(solution: Solution, name: str) -> Curves | None:
-    """One of `ROUND` over the azimuth; `None` where the scene does not model it."""
+    """A result of `ROUND` over the azimuth; `None` if the scene does not model it."""
     values = _by_side(solution, name)
     if not values:
         return None
@@ -130,7 +133,7 @@ def round_panel(solution: Solution, name: str) -> Curves | None:
     smallest, largest = float(finite.min()), float(finite.max())
     labels = {field.name: field.metadata for field in dataclasses.fields(solution.elements)}
     unit, factor = axis_unit(labels[f"{name}_{next(iter(values))}"]["unit"], max(abs(largest), abs(smallest)))
-    # a curve that hardly changes must not lie on the edge
+    # these limits keep an almost constant curve off the edge
     across = Axis(limits=(0.0, 1.1 * factor * largest or 1.0)) if kind == "zero" else Axis()
     if kind == "log" and smallest > 0.0 and largest > LOG_FROM * smallest:
         ends = 0.8 * factor * smallest, 1.25 * factor * largest
@@ -154,7 +157,7 @@ def _series(x: np.ndarray, values: dict[str, np.ndarray]) -> list[Series]:
 
 
 def _by_side(solution: Solution, name: str) -> dict[str, np.ndarray]:
-    """Values of raceways, their second flanks and rib, as far as the scene models them and some contact has results."""
+    """Values at the raceways, their second flanks and the rib, as far as they are modelled and not NaN everywhere."""
     found = {side: getattr(solution.elements, f"{name}_{side}", None) for side, *_ in SIDES}
     arrays = {side: np.asarray(value) for side, value in found.items() if value is not None}
     return {side: array for side, array in arrays.items() if np.any(np.isfinite(array))}

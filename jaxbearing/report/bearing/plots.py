@@ -1,4 +1,4 @@
-"""One page of plots of a bearing's steady solve; what the scene does not model is not on it."""
+"""One page of plots of a bearing's steady solve; results that are not modelled are left out."""
 
 from typing import TYPE_CHECKING
 
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 _DIAGRAM = 5.2
 """Height of a diagram on the page, inches."""
 _LOW, _WITH_BARS = 3.6, 5.0
-"""Height of a page that has a table of numbers, alone or beside bars, inches."""
+"""Height of a page with a table of numbers instead of curves, alone and beside bars, inches."""
 _FOOT, _LINE = 0.62, 0.157
-"""Height of the foot of a page and of each line of notes in it, inches."""
+"""Height of the foot of a page without notes, and of each line of notes, inches."""
 
 
 def plot(solution: Solution, title: str) -> "matplotlib.figure.Figure":
     """See `report.plots.plot_solution`: a page with the power loss by location and, round the bearing, loads, films,
-    pressures and sliding speeds. A thermal network stands below, and makes the page longer."""
+    pressures and sliding speeds. The diagram of a thermal network stands below them and makes the page longer."""
     from ..backends.matplotlib.page import Page
 
     diagrams = bearing_diagrams(solution)
@@ -46,7 +46,7 @@ def plot(solution: Solution, title: str) -> "matplotlib.figure.Figure":
 
 
 def _height(solution: Solution) -> float:
-    """Height of all but the diagrams, inches: that of paper A4, less where a table takes the place of the curves."""
+    """Height of the page without the diagrams, inches: that of A4 paper, or less if a table replaces the curves."""
     from ..backends.matplotlib.page import HEIGHT
 
     if len(contact_panels(solution)) > 1:
@@ -55,7 +55,8 @@ def _height(solution: Solution) -> float:
 
 
 def _charts(figure: "matplotlib.figure.Figure", solution: Solution, title: str, noted: bool = True) -> None:
-    """All but the diagrams, on a page or a part of one. `noted`: with notes at its foot."""
+    """Draws all charts, without the diagrams, on a page or a part of a page. **Arguments:** `noted`: whether the notes
+    are written at its foot."""
     losses, (first, *others) = loss_panel(solution), contact_panels(solution)
     head(figure, title, pretty(operating_point(solution)))
     inches = figure.dpi / figure.bbox.height
@@ -89,7 +90,7 @@ def _charts(figure: "matplotlib.figure.Figure", solution: Solution, title: str, 
 
 
 def _legend(figure: "matplotlib.figure.Figure") -> "tuple[list[matplotlib.artist.Artist], list[str]]":
-    """One entry for each of the raceways and the rib that is drawn anywhere."""
+    """Handles and names of the legend: one entry for each raceway or rib that appears in any chart."""
     drawn: dict[str, matplotlib.artist.Artist] = {}
     for axes in figure.axes:
         handles, names = axes.get_legend_handles_labels()

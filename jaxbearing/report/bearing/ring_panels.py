@@ -1,5 +1,5 @@
-"""Charts of flexible rings: their deformed shapes, exaggerated, their deflections over the azimuth, and the loads
-beside those in rigid rings."""
+"""Charts of flexible rings: deformed shape (exaggerated), deflection over the azimuth, and loads compared with those in
+rigid rings."""
 
 import dataclasses
 import math
@@ -17,13 +17,13 @@ from .azimuth import signed_degrees
 from .operation import load_angle
 
 DRAWN = 0.2
-"""Largest deflection in the drawing over the radius of the ring."""
+"""Largest deflection as drawn, as a fraction of the ring radius."""
 
 
 def ring_panels(solution: Solution, rigid: Solution | None = None) -> list[Polar | Curves]:
     """The charts; none if both rings are rigid.
 
-    **Arguments:** `rigid`: `rigid_counterpart`; `None`: the loads are not compared.
+    **Arguments:** `rigid`: result of `rigid_counterpart`; with `None` the loads are not compared.
     """
     rings = bent_rings(solution)
     shapes = [panel for ring in rings for panel in shape_panels(solution, ring)]
@@ -31,17 +31,17 @@ def ring_panels(solution: Solution, rigid: Solution | None = None) -> list[Polar
 
 
 def bent_rings(solution: Solution) -> list[AbstractRingDeflection]:
-    """Shapes of the flexible rings, that of the outer ring first."""
+    """Deflections of the flexible rings, outer ring first."""
     return [ring for ring in (solution.outer_ring, solution.inner_ring) if ring is not None]
 
 
 def side_of(ring: AbstractRingDeflection) -> str:
-    """The ring in one word."""
+    """Name of the ring: "inner" or "outer"."""
     return "inner" if isinstance(ring, InnerRingDeflection) else "outer"
 
 
 def rigid_counterpart(scene: AbstractBearing, solution: Solution) -> Solution | None:
-    """Solution of the same scene with rigid rings; `None` where they are rigid or that solve fails."""
+    """Solution of the same scene with rigid rings; `None` if the rings already are rigid or the solve fails."""
     if not bent_rings(solution):
         return None
     found = solve(dataclasses.replace(scene, outer_ring=None, inner_ring=None), throw=False)
@@ -49,7 +49,8 @@ def rigid_counterpart(scene: AbstractBearing, solution: Solution) -> Solution | 
 
 
 def load_polygon(solution: Solution, rigid: Solution) -> Polar:
-    """Loads on the race of the flexible ring, and with rigid rings; on the outer race if both rings bend."""
+    """Loads on the race of the flexible ring and those with rigid rings; if both rings are flexible, on the outer
+    race."""
     rings = bent_rings(solution)
     side = side_of(rings[0])
     bent, stiff = (np.asarray(getattr(one.elements, f"load_{side}")) for one in (solution, rigid))
@@ -72,17 +73,17 @@ def load_polygon(solution: Solution, rigid: Solution) -> Polar:
 
 
 def colour_of(ring: AbstractRingDeflection) -> str:
-    """Colour of results of the ring."""
+    """Colour for results of the ring."""
     return INNER if isinstance(ring, InnerRingDeflection) else OUTER
 
 
 def shape_panels(
     solution: Solution, ring: AbstractRingDeflection, name: str = "", of: str = "", zero: str = "the load line"
 ) -> list[Polar | Curves]:
-    """The deformed ring, and its deflection over the azimuth.
+    """Charts of the deformed ring and of its deflection over the azimuth.
 
-    **Arguments:** `name`: of the bearing, in the names of the charts; `of`: the bearing, behind the titles; `zero`:
-    where azimuth 0 is, in words.
+    **Arguments:** `name`: name of the bearing in the names of the charts; `of`: addition to the titles that names the
+    bearing; `zero`: text for the location of azimuth 0.
     """
     side, colour = side_of(ring), colour_of(ring)
     name = f"{side}_ring_{name}" if name else f"{side}_ring"
@@ -103,7 +104,7 @@ def shape_panels(
         arrow=load_angle(solution.operation),
     )
     unit, scale = axis_unit("m", largest)
-    # both ends of the azimuth are one point: the second one is left out
+    # first and last azimuth are the same point: the last is left out
     degrees = signed_degrees(azimuth[:-1])
     order = np.argsort(degrees)
     curve = Curves(
@@ -118,9 +119,9 @@ def shape_panels(
 
 
 def exaggeration(largest: float, radius: float) -> float:
-    """Factor of the drawing, with one digit: 1, 2 or 5 times a power of ten.
+    """Factor by which deflections are drawn larger: 1, 2 or 5 times a power of ten.
 
-    **Arguments:** largest deflection and radius, m.
+    **Arguments:** largest deflection and radius of the ring, m.
     """
     if not largest > 0.0:
         return 1.0

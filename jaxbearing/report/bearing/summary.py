@@ -1,5 +1,5 @@
-"""The summary of a bearing's steady solve on the screen: what an engineer wants to know first. Made for 100 columns;
-narrower terminals lose the bars, then get the table of loads in pieces."""
+"""The summary of a bearing's steady solve on the screen: what an engineer wants to know first. Made for 100 columns; on
+narrower terminals the bars are left out, then the table of loads is split."""
 
 import dataclasses
 import math
@@ -31,10 +31,10 @@ from .life_facts import SAID
 from .operation import operating_point
 
 LOADED = 0.02
-"""A roller whose inner load is above this part of the largest one counts as loaded: films carry a few newtons
+"""Fraction of the largest inner load above which a rolling element counts as loaded: films carry a few newtons
 everywhere."""
 OPEN_BALANCE = 1e-6
-"""Relative difference of drive power and losses from which on it is said."""
+"""Relative difference of drive power and losses above which it is reported."""
 _LOSS_BAR, _LOAD_BAR = 40, 18
 _COLUMNS = {
     "load_inner": "Q inner",
@@ -52,17 +52,17 @@ FIRST = (
     *(OVERLOAD, "Life", "Static safety", "Lubrication", "Load", "Rating", "Least load"),
     *("Temperatures", "Thermal margin", "Clearance", "First contact"),
 )
-"""Names of the facts that stand first, in this order, as far as the scene models them."""
+"""Names of the facts that are shown first, in this order, as far as the scene models them."""
 IN_FULL = (
     *("Rolling by race", "Ball's spin", "Spin to roll", "Raceways", "Heat", "Seats", "Oil supply"),
     *("Frequencies", "Textbook's"),
 )
-"""Names of the facts that only the full summary has."""
+"""Names of the facts that only the full summary shows."""
 
 
 def print_summary(solution: Solution, scene_label: str, console: Console, full: bool = False) -> None:
     """See `report.summary.print_summary`. Life, safety, lubrication, temperatures and power come first, then the
-    warnings, then the parts."""
+    warnings, then the details."""
     if not bool(solution.converged):
         print_failure(scene_label, Status(int(solution.status)).text, solution.failure(), console)
         print_line("Operating point", operating_point(solution), console)
@@ -86,7 +86,7 @@ def print_summary(solution: Solution, scene_label: str, console: Console, full: 
 
 
 def _by_name(found: Iterable[tuple[str, str]]) -> dict[str, list[str]]:
-    """The texts of each fact; an empty name continues the fact before."""
+    """Name of each fact -> its texts; an empty name continues the previous fact."""
     said: dict[str, list[str]] = {}
     last = ""
     for name, text in found:
@@ -101,7 +101,7 @@ def _print_fact(name: str, texts: list[str], console: Console) -> None:
 
 
 def _print_first(solution: Solution, said: dict[str, list[str]], console: Console) -> None:
-    """Life and safety, as far as modelled, power loss and torque."""
+    """Prints life and safety, as far as modelled, power loss, torque and drive power."""
     print_rule("Results", console)
     for name, texts in said.items():
         _print_fact(name, texts, console)
@@ -125,7 +125,7 @@ def _print_first(solution: Solution, said: dict[str, list[str]], console: Consol
 
 
 def _losses(solution: Solution) -> dict[str, float]:
-    """The power losses by location, W, the largest first; empty where the scene models none."""
+    """The power losses by location, W, largest first; empty if the scene models none."""
     loss = solution.power_loss
     if loss.total is None or solution.drive_power is None:
         return {}
@@ -135,7 +135,7 @@ def _losses(solution: Solution) -> dict[str, float]:
 
 
 def _print_losses(solution: Solution, console: Console) -> None:
-    """The power loss by location."""
+    """Prints the power loss by location."""
     entries = _losses(solution)
     if not entries:
         return
@@ -154,7 +154,8 @@ def _print_losses(solution: Solution, console: Console) -> None:
 
 
 def _watts(values: list[float]) -> list[str]:
-    """Powers of one column: tenths of a watt, or more decimals where the largest has less than four digits then."""
+    """Powers of one column as texts: to a tenth of a watt, or with more decimals if the largest has fewer than four
+    digits."""
     largest = max(abs(value) for value in values)
     if not 1e-4 <= largest < math.inf:
         return [digits(value) for value in values]
@@ -163,7 +164,7 @@ def _watts(values: list[float]) -> list[str]:
 
 
 def _print_loads(solution: Solution, console: Console, full: bool) -> None:
-    """The largest loads and the loaded zone; in full a row for each loaded element."""
+    """Prints the largest loads and the loaded zone; with `full`, a row for each loaded element."""
     elements = solution.elements
     load = np.asarray(on_heavier_flanks(elements).load_inner)
     largest = float(np.max(load))
@@ -186,7 +187,7 @@ def _print_loads(solution: Solution, console: Console, full: bool) -> None:
 
 
 def _print_load_table(solution: Solution, loaded: np.ndarray, shown: list[tuple[str, str]], console: Console) -> None:
-    """Loads, pressures and films of these elements."""
+    """Prints loads, pressures and films of the loaded elements, whose indices are given."""
     elements = solution.elements
     load, azimuth = np.asarray(on_heavier_flanks(elements).load_inner), signed_degrees(elements.azimuth)
     rows = np.array(sorted(loaded, key=lambda j: azimuth[j]), dtype=int)
@@ -213,7 +214,7 @@ def _loaded_zone(azimuth: np.ndarray, loaded: np.ndarray, element: str) -> str:
     count = f"{int(np.sum(loaded))} of {loaded.size} {element}s above {100.0 * LOADED:.0f} % of the largest load"
     if np.all(loaded) or not np.any(loaded):
         return count
-    # the zone goes from behind the widest gap to before it
+    # the zone extends from the end of the widest gap to its beginning
     around = np.sort(azimuth[loaded])
     gaps = np.diff(around, append=around[0] + 360.0)
     begin = around[(np.argmax(gaps) + 1) % around.size]

@@ -1,4 +1,4 @@
-"""Words about the temperatures of a bearing, for the screen."""
+"""Facts about the temperatures of a bearing, as text."""
 
 from collections.abc import Iterator
 
@@ -9,7 +9,8 @@ from ..display import ZERO_CELSIUS, digits, with_unit
 
 
 def thermal_facts(thermal: ThermalResult) -> Iterator[tuple[str, str]]:
-    """Name and text: temperatures of the nodes, where the heat goes, and how near a fold is."""
+    """Name and text of each fact: temperatures of the nodes, heat flows, and the margin to the fold beyond which no
+    steady state exists."""
     said = [f"{name.replace('_', ' ')} {_degrees(getattr(thermal.temperatures, name))}" for name in thermal.nodes]
     yield "Temperatures", f"{', '.join(said)} degC"
     solves = int(thermal.solves)

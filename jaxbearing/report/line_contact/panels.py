@@ -9,19 +9,19 @@ from ..panels import Axis, Curves, Mark, Series
 from .operation import inlet_side
 
 SHOWN = 2.0
-"""Half widths to each side that are drawn."""
+"""Range drawn on each side of the centre, in Hertz half widths."""
 _PLACE = Axis("place over the Hertz half width", (-SHOWN, SHOWN))
 
 
 def line_contact_panels(solution: LineContactSolution) -> list[Curves]:
-    """Pressure, and film."""
+    """Charts of pressure and film thickness."""
     x = np.asarray(solution.profile.x) / float(solution.hertz.half_width)
     said = f"Oil enters {inlet_side(solution)}."
     return [_pressure(solution, x, said), _film(solution, x, said)]
 
 
 def hertz_series(pressure: float) -> Series:
-    """The dry contact, of this peak pressure, over the half width."""
+    """Hertz pressure of the dry contact with this peak pressure, over position divided by the half width."""
     inside = np.linspace(-1.0, 1.0, 201)
     return Series("Hertz", inside, pressure * np.sqrt(1.0 - inside**2), FAINT, dash="dash", faint=True)
 

@@ -30,7 +30,7 @@ def plot(solution: LineContactSolution, title: str) -> "matplotlib.figure.Figure
         axes.set_xlim(-SHOWN, min(SHOWN, farthest))
         axes.set_xlabel("")
     pressure.legend(fontsize=9, frameon=False)
-    # the curve is what the title says
+    # the title already names the curve
     handles, names = film.get_legend_handles_labels()
     film.legend(handles[1:], names[1:], fontsize=9, frameon=False, loc="upper center")
     where = f"place along rolling over the Hertz half width; oil enters {inlet_side(solution)}"

@@ -1,4 +1,4 @@
-"""A line contact on the screen."""
+"""Summary of a line contact on the screen."""
 
 from rich.console import Console
 
@@ -11,7 +11,7 @@ from .operation import operating_text
 
 
 def print_summary(solution: LineContactSolution, scene_label: str, console: Console, full: bool = False) -> None:
-    """See `report.summary.print_summary`. In full only the list of assumptions is longer."""
+    """See `report.summary.print_summary`. `full` only lengthens the list of assumptions."""
     if not bool(solution.converged):
         print_failure(scene_label, Status(int(solution.status)).text, solution.failure(), console)
         return

@@ -1,4 +1,4 @@
-"""The bending line of a shaft between its nodes, and which of its results are the largest."""
+"""Bending line of a shaft between its nodes, and internal forces and moments in its cross sections."""
 
 from itertools import pairwise
 from typing import NamedTuple
@@ -9,13 +9,13 @@ from ...shafts.shaft import Shaft
 from ...shafts.solution import ShaftSolution
 
 PLANES = (("Y", 1, 3), ("Z", 2, 4))
-"""Planes through the axis: name of the direction across, places of the displacement and of the tilt in it."""
+"""Planes through the axis: name of the transverse direction, indices of displacement and tilt in the plane."""
 POINTS = 40
-"""Points of the bending line between two nodes."""
+"""Number of intervals into which the bending line between two nodes is divided."""
 
 
 class BendingLine(NamedTuple):
-    """Displacements along the shaft, positions and displacements in m, `across` of shape (2, point) along Y and Z."""
+    """Displacements of the shaft axis, m, over the position, m; `across`: along Y and Z, shape (2, point)."""
 
     position: np.ndarray
     axial: np.ndarray
@@ -23,20 +23,19 @@ class BendingLine(NamedTuple):
 
     @property
     def size(self) -> np.ndarray:
-        """Displacement across the axis."""
+        """Magnitude of the transverse displacement, m."""
         return np.hypot(*self.across)
 
     def largest(self) -> tuple[float, float]:
-        """Largest displacement across the axis, m, and where it is, m."""
+        """Largest transverse displacement, m, and its position, m."""
         place = int(np.argmax(self.size))
         return float(self.size[place]), float(self.position[place])
 
 
 def bending_line(solution: ShaftSolution) -> BendingLine:
-    """The shaft between its nodes, whose cross sections turn as the beam of the model does; what the own weight adds
-    between two nodes is left out.
+    """Bending line by the shape functions of the model's beam with shear, from the displacements of the nodes.
 
-    **Arguments:** `scene`: the shaft; `None`: shear makes no kink.
+    The additional deflection by the shaft's own weight between two nodes is left out.
     """
     nodes = solution.shaft
     x, u = np.asarray(nodes.position, dtype=float), np.asarray(nodes.displacement, dtype=float)
@@ -51,13 +50,13 @@ def bending_line(solution: ShaftSolution) -> BendingLine:
         left, right = u[i], u[i + 1]
         places.append(x[i] + xi * length)
         axial.append(left[0] + xi * (right[0] - left[0]))
-        # slopes of the axis that bending alone makes are the tilts with the other sign
+        # slopes of the cross sections are the tilts with opposite sign
         across.append([_beam(left[w], -left[t], right[w], -right[t], length, shear[i], xi) for _, w, t in PLANES])
     return BendingLine(np.concatenate(places), np.concatenate(axial), np.concatenate(across, axis=1))
 
 
 def _beam(w1: float, s1: float, w2: float, s2: float, length: float, shear: float, xi: np.ndarray) -> np.ndarray:
-    """Deflection of a beam with shear between two nodes, from their deflections and slopes of the cross sections."""
+    """Deflection of a beam with shear between two nodes, from deflection and cross-section slope at both nodes."""
     scale = 1.0 / (1.0 + shear)
     a = scale * (1.0 - 3.0 * xi**2 + 2.0 * xi**3 + shear * (1.0 - xi))
     b = scale * length * (xi - 2.0 * xi**2 + xi**3 + 0.5 * shear * (xi - xi**2))
@@ -67,7 +66,7 @@ def _beam(w1: float, s1: float, w2: float, s2: float, length: float, shear: floa
 
 
 def _shear_numbers(shaft: Shaft, x: np.ndarray) -> np.ndarray:
-    r"""$\varphi = 12EI/(G\kappa AL^2)$ of the part of the shaft between neighbouring nodes; 0 of a rigid shaft."""
+    r"""$\varphi = 12EI/(G\kappa AL^2)$ between neighbouring nodes; 0 for a rigid shaft."""
     sections = shaft.sections
     if not sections:
         return np.zeros(x.size - 1)
@@ -92,12 +91,14 @@ def cowper(poisson: float, ratio: float) -> float:
 
 
 class CutLoads(NamedTuple):
-    """The loads of the part of the shaft on the left of a cross section on that on its right; at loads there are two
-    points, left and right of it.
+    """Internal forces and moments: loads of the shaft to the left of a cross section on the shaft to its right.
 
-    - `axial`: tension, N.
+    A position with an external load has two points, one on each side of it.
+
+    - `position`: of the cross section, m.
+    - `axial`: axial force, N, positive in tension.
     - `shear`: along Y and Z, shape (2, point), N.
-    - `moment`: in the planes X-Y and X-Z, shape (2, point), N m; positive where the bending line is hollow towards +Y
+    - `moment`: in the planes X-Y and X-Z, shape (2, point), N m; positive where the bending line is concave towards +Y
       and +Z.
     """
 
@@ -108,7 +109,7 @@ class CutLoads(NamedTuple):
 
 
 def cut_loads(solution: ShaftSolution) -> CutLoads:
-    """Cut loads by statics, from what acts on the shaft, its weight and the forces of its bearings."""
+    """Internal forces and moments by statics, from the external loads, the weight and the forces of the bearings."""
     nodes = solution.shaft
     at = np.concatenate([np.asarray(nodes.position), [float(one.position) for one in solution.bearings.values()]])
     forces = [np.asarray(one.on_shaft) for one in solution.bearings.values()]
@@ -116,7 +117,7 @@ def cut_loads(solution: ShaftSolution) -> CutLoads:
     ends, weight = _weights(solution.operation)
     marks = np.unique(np.concatenate([at, ends]))
     x = np.concatenate([np.linspace(a, b, POINTS + 1) for a, b in pairwise(marks)])
-    # points of an interval are right of the loads at its left end, and left of those at its right end
+    # the points of an interval lie to the right of the load at its left end, and to the left of that at its right end
     interval = np.repeat(np.arange(marks.size - 1), POINTS + 1)
     acts = at[:, None] <= marks[interval][None, :]
     arm = np.where(acts, x[None, :] - at[:, None], 0.0)
@@ -130,7 +131,7 @@ def cut_loads(solution: ShaftSolution) -> CutLoads:
 
 
 def _weights(shaft: Shaft) -> tuple[np.ndarray, np.ndarray]:
-    """Ends of the sections, m, and their weights per length along Y and Z, N/m, shape (section, 2)."""
+    """Ends of the sections, m, and their weight per unit length along Y and Z, N/m, shape (section, 2)."""
     ends, weights = [0.0] if shaft.sections else [], []
     for one in shaft.sections:
         ends.append(ends[-1] + float(one.length))

@@ -1,8 +1,9 @@
-"""A shaft's solution as a labelled xarray data set.
+"""Solution of a shaft as a labelled xarray data set.
 
-Results of the bearings have the dimension `bearing`; those of a bearing's own family stand beside them, with the name
-of the bearing in front (`rear_load_inner` over `rear_element`). `node` runs along the shaft, `set` over the sets. A dot
-in the name of a bearing becomes `_`, unless two results would then have one name: see `fronts`.
+Results that all bearings have get the dimension `bearing`. Results of a bearing's own family are separate variables,
+prefixed with the name of the bearing (`rear_load_inner` over `rear_element`). The dimension `node` runs along the
+shaft, `set` over the sets. A dot in the name of a bearing becomes `_`, unless two results would then have the same
+name: see `fronts`.
 """
 
 from collections import Counter
@@ -28,15 +29,16 @@ _VECTORS = {
     "stiffness": ("freedom", "freedom_displaced"),
     "sliding_difference": ("freedom",),
 }
-"""Results of a bearing with several numbers -> their dimensions."""
+"""Results of a bearing that are vectors or matrices -> their dimensions."""
 _OWN = ("ring_", "force", "stiffness", "operation_", "life_", "freedom")
-"""Beginnings of names in the data set of a bearing's family that its place on the shaft gives another meaning."""
+"""Beginnings of variable names in the data set of a single bearing that are not taken over: on a shaft these results
+have another meaning."""
 
 
 def to_dataset(solution: ShaftSolution, dims: Sequence[str] = ()) -> xr.Dataset:
-    """See `report.dataset.solution_to_dataset`.
+    """Data set of a shaft's solution; see `report.dataset.solution_to_dataset`.
 
-    **Raises:** `ValueError` for a single solution that did not converge, and where `dims` does not fit the batch.
+    **Raises:** `ValueError` for a single solution that did not converge, and if `dims` does not fit the batch.
     """
     dims = tuple(dims)
     batch = np.shape(solution.status)
@@ -57,11 +59,11 @@ def to_dataset(solution: ShaftSolution, dims: Sequence[str] = ()) -> xr.Dataset:
 
 
 def fronts(solution: ShaftSolution, dims: tuple[str, ...] = ()) -> dict[str, str]:
-    """Beginning of the names of each bearing's own results: its name with `_` for the dot, and `_` behind: `front_1_`.
+    """Name of each bearing -> prefix of the names of its own results: `front_1_` for bearing `front.1`.
 
-    Two results would have the same name so if a bearing beside the set `front` were called `front_1`. The bearings
-    concerned then keep the dot and have one behind: `front.1.load_inner` and `front_1.load_inner`. The solution may be
-    traced: its numbers play no part.
+    Where two results would get the same name, as with a bearing `front_1` beside the set `front`, the prefix is the
+    unchanged name with a dot: `front.1.load_inner` and `front_1.load_inner`. The solution may be traced, because only
+    names and shapes are used.
     """
     families = {name: one.solution for name, one in solution.bearings.items() if one.solution is not None}
     flat = {name: f"{name.replace('.', '_')}_" for name in families}
@@ -116,7 +118,7 @@ def _of_nodes(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple[
 def _stacked(
     parts: Sequence[object], along: str, path: str, dims: tuple[str, ...]
 ) -> Iterator[tuple[str, xr.Variable]]:
-    """Results of all bearings, or sets, along a dimension of their own; NaN where one does not have them."""
+    """Results of all bearings or sets, stacked along the dimension `along`; NaN for a part without the result."""
     found: dict[str, tuple[dict[int, np.ndarray], Mapping[str, object]]] = {}
     for place, part in enumerate(parts):
         for name, value, metadata in labelled(part):
@@ -137,7 +139,7 @@ def _said(metadata: Mapping[str, Any], path: str) -> dict[str, str]:
 
 
 def _of_family(name: str, front: str, solution: Solution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
-    """The results of a bearing's family with its name in front."""
+    """Results of a bearing's own family, with the prefix `front` before their names and dimensions."""
     own = bearing_dataset(solution, dims)
     for inner, one in own.variables.items():
         if str(inner).startswith(_OWN) or str(inner) in dims or CHECK in one.dims or {"freedom"} & set(one.dims):

@@ -1,4 +1,4 @@
-"""Pictures of a shaft as SVG on a page, and on axes of matplotlib on paper."""
+"""Drawing of shaft pictures: as SVG for a page, or with matplotlib for paper."""
 
 from typing import TYPE_CHECKING
 
@@ -33,7 +33,7 @@ def svg(picture: Picture) -> str:
 
 
 def draw_picture(axes: "matplotlib.axes.Axes", picture: Picture) -> None:
-    """Draws a picture on axes of matplotlib, to one scale."""
+    """Draws a picture on matplotlib axes, with equal scales in both directions."""
     for item in picture.items:
         match item:
             case Area():
@@ -50,7 +50,7 @@ def draw_picture(axes: "matplotlib.axes.Axes", picture: Picture) -> None:
                 style = {"fontsize": 8, "color": item.colour, "ha": "center", "va": "center", "parse_math": False}
                 halo = {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 0.5}
                 axes.text(*item.place, item.text, bbox=halo, zorder=5, **style)
-    # arrows and texts have no part in the limits of axes
+    # matplotlib does not count annotations and texts for the limits of axes
     beside = [place for item in picture.items if isinstance(item, Pointer) for place in (item.start, item.end)]
     beside += [item.place for item in picture.items if isinstance(item, Words)]
     axes.update_datalim(beside)

@@ -1,4 +1,4 @@
-"""Results of a shaft in words and tables, for screens and pages."""
+"""Results of a shaft as texts and tables, for the screen and the report page."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -17,19 +17,19 @@ from ..display import ZERO_CELSIUS, digits, with_unit
 from .bending import bending_line
 
 NAMES = "bearing\n"
-"""Heading of the names of bearings."""
+"""Heading of the column with the names of the bearings."""
 _MANY_HOURS = 1e7
-"""Lives from so many hours on have an exponent."""
+"""Life in hours from which on it is written with an exponent."""
 _LEAST_MOVE = 1e-13
-"""Displacements, m, and tilts, rad, up to which they are shown as 0: round-off."""
+"""Smallest displacement, m, or tilt, rad, that is shown; smaller ones are round-off and shown as 0."""
 CARRIES = 1e-3
-"""Axial force over the largest one of a set up to which a bearing carries none."""
+"""Axial force relative to the largest one in its set, up to which a bearing counts as axially unloaded."""
 _LEAST = 1e-9
-"""Loads smaller than this part of the largest one are shown as 0: round-off."""
+"""Load relative to the largest one, below which it is round-off and shown as 0."""
 
 
 def number(value: object) -> float | None:
-    """A number of a result; `None` for what is not modelled or not finite."""
+    """A result as a plain number; `None` if it is not modelled or not finite."""
     if value is None:
         return None
     plain = float(np.asarray(value))
@@ -42,7 +42,7 @@ def text(value: object, significant: int = 4) -> str:
 
 
 def bearing_columns(solution: ShaftSolution) -> dict[str, list[str]]:
-    """The table of the bearings: heading, with the unit on a second line -> texts, one a bearing."""
+    """Columns of the table of bearings: heading, with the unit on a second line -> one text for each bearing."""
     bearings = list(solution.bearings.values())
     on_shaft = np.array([np.asarray(one.on_shaft) for one in bearings])
     forces, moments = np.abs(on_shaft[:, :3]), np.abs(on_shaft[:, 3:])
@@ -61,10 +61,12 @@ def bearing_columns(solution: ShaftSolution) -> dict[str, list[str]]:
 
 
 def life_columns(solution: ShaftSolution, wide: bool = True) -> dict[str, list[str]]:
-    """The table of lives, safety, lubrication, clearance, temperatures and losses: heading, with the unit on a second
-    line -> texts, one a bearing; "-" for what one does not have, nothing of what none has.
+    """Columns of the table of lives, safeties, lubrication, clearances, temperatures and losses.
 
-    **Arguments:** `wide`: with what a screen of 80 columns has no room for.
+    Each is a heading, with the unit on a second line -> one text for each bearing, "-" for a missing result. Columns
+    without any result are left out.
+
+    **Arguments:** `wide`: False leaves out columns for which a screen of 80 characters has no room.
     """
     bearings = list(solution.bearings.values())
     lives = [one.life for one in bearings]
@@ -92,7 +94,7 @@ def life_columns(solution: ShaftSolution, wide: bool = True) -> dict[str, list[s
 
 
 def _safeties(solution: ShaftSolution, name: str) -> list[str]:
-    """A static safety of each bearing, the least one of all states of a duty cycle."""
+    """Texts of a static safety of each bearing; under a duty cycle, the least one of all states."""
     bearings = (solution if solution.duty is None else solution.duty.states).bearings.values()
     values = [None if one.life is None else getattr(one.life, name) for one in bearings]
     return ["-" if value is None else text(np.min(np.asarray(value)), 3) for value in values]
@@ -103,20 +105,20 @@ def _of_life(life: Life | None, name: str, significant: int) -> str:
 
 
 def _hours(value: object) -> str:
-    """A life; "-" of a bearing without load."""
+    """Text of a life in hours; "-" if it is not finite, as for a bearing without load."""
     hours = number(value)
     return "-" if hours is None else _power_of_ten(hours) if hours >= _MANY_HOURS else digits(hours)
 
 
 def _clearance(one: BearingOnShaft) -> str:
-    """Diametral clearance of the running bearing, where its fits make it a result, um."""
+    """Text of the diametral operating clearance, um; "-" if the scene has no fits from which it follows."""
     fit = getattr(one.solution, "fit", None)
     clearance = None if fit is None else number(fit.clearance)
     return "-" if clearance is None else f"{1e6 * clearance:.1f}"
 
 
 def _temperatures(one: BearingOnShaft) -> str:
-    """Temperatures of the inner and of the outer ring."""
+    """Text of the temperatures of inner and outer ring, degC; "-" if they are not modelled."""
     thermal = getattr(one.solution, "thermal", None)
     if thermal is None:
         return "-"
@@ -125,7 +127,7 @@ def _temperatures(one: BearingOnShaft) -> str:
 
 
 def _azimuth(one: BearingOnShaft) -> str:
-    """Azimuth of the radial force in degrees; round-off makes -180 of 180."""
+    """Text of the azimuth of the radial force, deg; -180.0 is shown as 180.0, since only round-off tells them apart."""
     degrees = f"{np.degrees(float(one.azimuth)):.1f}"
     return "180.0" if degrees == "-180.0" else degrees
 
@@ -135,7 +137,7 @@ def _above(value: float, largest: float) -> float:
 
 
 def _width(largest: float, most: int = 1) -> str:
-    """Format of a column: as many decimals as its largest number needs for five digits, at most so many."""
+    """Format of a column: the decimals that give its largest number five digits, at most `most`; 6 below 1e-3."""
     decimals = min(max(4 - int(np.floor(np.log10(largest))), 0), most) if largest >= 1e-3 else 6
     return f".{decimals}f"
 
@@ -149,7 +151,7 @@ def _power_of_ten(value: float) -> str:
 
 
 def life_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
-    """Name and text of the life of the system, and of what the narrow table of `life_columns` leaves out."""
+    """Name and text of the life of the system, and of results that `life_columns` leaves out without `wide`."""
     yield from system_facts(solution)
     safeties = dict(zip(solution.bearings, _safeties(solution, "contact_static_safety"), strict=True))
     degrees = {name: _temperatures(one) for name, one in solution.bearings.items()}
@@ -161,7 +163,7 @@ def life_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
 
 
 def system_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
-    """Name and text of the life of the system, and of the reliabilities n where bearings are rated for several."""
+    """Name and text of the life of the system, and of the reliabilities n if they differ between bearings."""
     if solution.life is not None and not any(overloads(solution)):
         for lives in lives_in_words(solution.life):
             yield "System life", lives
@@ -172,7 +174,7 @@ def system_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
 
 
 def overloads(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
-    """The bearings that yield, in any state of a duty cycle, which have no life, nor has the system."""
+    """Heading and text of the bearings that yield, in any state of a duty cycle; they and the system have no life."""
     states, worst = (solution, "") if solution.duty is None else (solution.duty.states, " in its worst state")
     texts = [f"{name}{worst} {_yielding(one)}" for name, one in states.bearings.items() if _yielding(one)]
     if texts:
@@ -180,8 +182,8 @@ def overloads(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
 
 
 def duty_lives(duty: DutyResult) -> Iterator[tuple[str, str]]:
-    """Name and text of the lives under a duty cycle: of the bearings that yield in no state, and of the system if none
-    does."""
+    """Name and text of the lives under a duty cycle: of bearings that do not yield in any state, and of the system if
+    no bearing yields."""
     yielding = {name for name, one in duty.states.bearings.items() if _yielding(one)}
     lives: dict[str, AtReliability] = {name: life for name, life in duty.lives.items() if name not in yielding}
     if duty.system is not None and not yielding:
@@ -191,32 +193,32 @@ def duty_lives(duty: DutyResult) -> Iterator[tuple[str, str]]:
 
 
 def _yielding(one: BearingOnShaft) -> str:
-    """The contacts of a bearing that yield, in words."""
+    """Text of the contacts of a bearing that yield; "" if none does."""
     return "" if one.solution is None else overload(one.solution)
 
 
 def loss_of(one: BearingOnShaft) -> float | None:
-    """Power loss of a bearing, W; `None` where its scene models none."""
+    """Power loss of a bearing, W; `None` if it is not modelled."""
     loss = getattr(one.solution, "power_loss", None)
     return None if loss is None or loss.total is None else number(loss.total)
 
 
 def left_out(solution: ShaftSolution) -> str:
-    """Gyroscopic couples of balls that the scenes of the bearings leave out, in words; "" where friction carries them
-    easily. The losses that they leave out stand with each bearing."""
+    """Text of the gyroscopic couples of balls that the bearings' scenes leave out; "" where friction easily carries
+    them. Losses that are left out are named with each bearing."""
     couples = {name: left_out_couple(one.solution) for name, one in solution.bearings.items() if one.solution}
     return "; ".join(f"{name}: {text}" for name, text in couples.items() if text)
 
 
 def set_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
-    """Name of a set, and what is known of it in words."""
+    """Name of each set, and its results as text."""
     for name, one in solution.sets.items():
         own = [bearing for bearing in solution.bearings.values() if bearing.name.startswith(f"{name}.")]
         yield name, ", ".join(_set_parts(one, own))
 
 
 def _set_parts(one: SetResult, bearings: Sequence[BearingOnShaft]) -> Iterator[str]:
-    """**Arguments:** `bearings`: those of the set."""
+    """Results of a set as texts. **Arguments:** `bearings`: bearings of the set."""
     preload, closure = number(one.preload), number(one.closure)
     if preload is not None:
         yield f"preload {with_unit(preload, 'N')} mounted"
@@ -231,17 +233,17 @@ def _set_parts(one: SetResult, bearings: Sequence[BearingOnShaft]) -> Iterator[s
 
 
 def _carry(bearings: Sequence[BearingOnShaft]) -> str:
-    """Says which bearings of a set carry no axial force here."""
+    """Text that names the bearings of a set that carry no axial force under the present load."""
     forces = {one.name: abs(float(one.on_shaft[0])) for one in bearings}
     free = [name for name, force in forces.items() if force <= CARRIES * max(forces.values())]
     return f"here {', '.join(free)} is unloaded" if free else "here all bearings carry"
 
 
 def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
-    """Name and text of what is known of the shaft: its bending, the slopes in the bearings, the torques."""
+    """Name and text of the results of the shaft: deflection, tilts of the rings, torques, losses, temperatures."""
     line = bending_line(solution)
     size, place = line.largest()
-    # a shaft that moves as a whole has its largest displacement nowhere
+    # a shaft that moves parallel to itself has no place of largest displacement
     where = f" at {1e3 * place:.1f} mm" if np.ptp(line.size) > max(_LEAST_MOVE, _LEAST * size) else ""
     yield "Deflection", f"largest {with_unit(_moved(size), 'm')} across the axis{where}"
     tilts = [np.asarray([one.ring.tilt, one.ring.tilt_lateral], dtype=float) for one in solution.bearings.values()]
@@ -272,7 +274,7 @@ def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
 
 
 def _thermal_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
-    """Temperatures along shaft and housing, and the heat that flows there."""
+    """Name and text of the temperatures along shaft and housing, and of the heat flows."""
     found = solution.thermal
     assert found is not None
     for part in ("shaft", "housing"):
@@ -286,13 +288,15 @@ def _thermal_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
 
 
 def shaft_warnings(solution: ShaftSolution) -> list[str]:
-    """The warnings of the shaft; of several bearings with the same one there is one, with all of their names. Under a
-    duty cycle they say in which states they hold, if not in all."""
+    """Warnings of the shaft, where one that several bearings have appears once, with all their names.
+
+    Under a duty cycle a warning names the states in which it holds, if it does not hold in all.
+    """
     return _merged(solution, [with_states(solution, warning) for warning in solution.warnings])
 
 
 def shaft_notes(solution: ShaftSolution) -> list[str]:
-    """Broken rules and notes, merged as `shaft_warnings`: the warnings that are about no range of a law."""
+    """Broken rules and notes, merged as in `shaft_warnings`: all warnings except those on ranges of laws."""
     act, assumed, information = in_groups([*solution.broken_rules, *map(as_note, solution.notes)])
     return _merged(solution, [*act, *assumed, *information])
 
@@ -307,7 +311,7 @@ def _merged(solution: ShaftSolution, texts: Sequence[str]) -> list[str]:
 
 
 def with_states(solution: ShaftSolution, text: str) -> str:
-    """A warning with the states of a duty cycle in which it holds, if these are not all."""
+    """A warning, with the names of the states of a duty cycle in which it holds unless it holds in all."""
     duty = solution.duty
     if duty is None or text not in duty.states.range_checks:
         return text
@@ -317,12 +321,12 @@ def with_states(solution: ShaftSolution, text: str) -> str:
 
 
 def _moved(value: float) -> float:
-    """A displacement, or 0 for what is round-off."""
+    """The displacement, or 0 if it is only round-off."""
     return value if abs(value) > _LEAST_MOVE else 0.0
 
 
 def stiffness_rows(one: BearingOnShaft) -> tuple[list[str], list[list[str]]]:
-    """Names of the degrees of freedom, and rows of texts."""
+    """Names of the degrees of freedom, and the rows of a bearing's stiffness matrix as texts."""
     rows = [[digits(float(value), 5) for value in row] for row in np.asarray(one.stiffness)]
     return [name.replace("_", " ") for name in RING_FREEDOMS], rows
 

@@ -1,4 +1,4 @@
-"""A shaft's solution as plain numbers and texts."""
+"""Solution of a shaft as plain numbers and texts, for JSON."""
 
 from typing import Any
 
@@ -9,15 +9,18 @@ from ..bearing.json_report import to_dict as bearing_to_dict
 from .facts import plain_array, shaft_warnings
 
 _OF_SHAFT = ("operation", "ring", "force", "stiffness", "life", "iterations", "unknowns", "residual_norm")
-"""Results of a bearing's own solve that its place on the shaft gives another meaning."""
+"""Results of a single bearing that are not taken over: on a shaft they have another meaning."""
 
 
 def to_dict(solution: ShaftSolution) -> dict[str, Any]:
-    """See `report.json_report.solution_to_dict`.
+    """Dictionary of a shaft's solution; see `report.json_report.solution_to_dict`.
 
-    `bearings`: by name, displacement of the inner ring (`ring`), load that holds it (`force`) and `stiffness` in the
-    frame of the bearing, force on the shaft (`on_shaft`) in that of the shaft, and the results of its own family.
-    `shaft.nodes`: arrays over the nodes. Where the solve failed all results are `None`.
+    - `bearings`: name -> displacement of the inner ring (`ring`), the load that holds it (`force`) and `stiffness`, all
+      in the frame of the bearing; its force on the shaft (`on_shaft`) in the frame of the shaft; and the results of its
+      own family.
+    - `shaft.nodes`: arrays over the nodes.
+
+    If the solve failed, all results are `None`.
     """
     converged = bool(solution.converged)
     nodes = {name: plain_array(getattr(solution.shaft, name)) for name in ("position", "displacement", "load")}

@@ -1,10 +1,10 @@
-r"""Natural frequencies of the bending of a shaft on the tangent stiffness of its bearings.
+r"""Natural frequencies of bending of a shaft on the tangent stiffness of its bearings.
 
-The shaft is divided into the elements of its ROSS rotor (`ross`): beams after Timoshenko with Cowper's shear factor,
-their consistent mass and rotary inertia (Friswell et al., Dynamics of Rotating Machines, 2010). No damping, no
-gyroscopic effect: frequencies of the shaft that stands still, on bearings as stiff as at the speed of the table. The
-bearings act across the axis and against tilting; along the axis the shaft is held. The rotors of ROSS have no tilting
-stiffness of bearings: frequencies without it are those that ROSS finds.
+The elements are those of the ROSS rotor (`ross`): Timoshenko beams with Cowper's shear factor, consistent mass and
+rotary inertia (Friswell et al., Dynamics of Rotating Machines, 2010). Without damping and gyroscopic effect, these are
+the frequencies of a shaft at rest on bearings with the stiffness at a speed of the table. The bearings act across the
+axis and against tilting; the shaft is held axially. Rotors of ROSS have no tilting stiffness of bearings: without it
+the frequencies are those of ROSS.
 """
 
 import numpy as np
@@ -16,16 +16,16 @@ from .ross import rotor_nodes, section_between
 from .stiffness import ShaftStiffness
 
 _FREEDOMS = (1, 3, 2, 4)
-"""Places in a tangent of radial displacement, its tilt, lateral displacement and its tilt, in the order of a node."""
+"""Indices of the degrees of freedom of a node in a stiffness matrix: radial, tilt, lateral, lateral tilt."""
 _SIGNS = np.array([1.0, -1.0, 1.0, -1.0])
-"""A slope of the shaft is a tilt the other way round (`bearings.ring.shift_matrix`)."""
+"""Signs of a node's degrees of freedom: a slope is the tilt with opposite sign (`bearings.ring.shift_matrix`)."""
 
 
 def natural_frequencies(table: ShaftStiffness, scene: ShaftSystem, place: int = 0, tilting: bool = True) -> np.ndarray:
     """Natural frequencies, rad/s, in ascending order.
 
-    **Arguments:** `place`: of the speed in the table whose stiffness counts; `tilting`: False leaves out the bearings'
-    stiffness against tilting and its coupling with the other degrees of freedom, as ROSS does.
+    **Arguments:** `place`: index of the speed in the table whose stiffness is used; `tilting`: False leaves out the
+    tilting stiffness of the bearings and its coupling with the other degrees of freedom, as ROSS does.
 
     **Raises:** `ValueError` as `ross.require_rotor`.
     """
@@ -56,7 +56,7 @@ def natural_frequencies(table: ShaftStiffness, scene: ShaftSystem, place: int = 
 
 
 def _element(scene: ShaftSystem, left: float, right: float) -> tuple[np.ndarray, np.ndarray]:
-    """Stiffness and mass of a beam for displacement and slope of its ends, in one plane."""
+    """Stiffness and mass matrix of a beam in one plane, for displacement and slope at its left, then its right end."""
     section, material = section_between(scene, left, right)
     length = right - left
     young, poisson, density = (

@@ -1,4 +1,4 @@
-"""Content of the report page of a shaft: the whole, then each of its bearings."""
+"""Content of the report page of a shaft: the whole shaft, then each of its bearings."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -39,7 +39,7 @@ from .plots import operating_text
 
 
 def page_content(scene: ShaftSystem, solution: ShaftSolution) -> Content:
-    """See `report.html_report.html_report`."""
+    """Content of the page of a shaft; see `report.html_report.html_report`."""
     bearings = solution.bearings
     losses = {name: watts for name, one in bearings.items() if (watts := loss_of(one)) is not None}
     total = sum(losses.values())
@@ -67,7 +67,7 @@ def page_content(scene: ShaftSystem, solution: ShaftSolution) -> Content:
 
 
 def _rings(solution: ShaftSolution) -> Iterator[Polar | Curves]:
-    """Deformed rings of bearings."""
+    """Charts of the deformed flexible rings of the bearings."""
     for name, one in solution.bearings.items():
         if one.solution is not None:
             for ring in bent_rings(one.solution):
@@ -75,7 +75,7 @@ def _rings(solution: ShaftSolution) -> Iterator[Polar | Curves]:
 
 
 def _losses(losses: dict[str, float]) -> Bars:
-    """Power loss by bearing."""
+    """Bar chart of the power loss of each bearing."""
     total = sum(losses.values())
     unit, factor = axis_unit("W", max(abs(watts) for watts in losses.values()))
     return Bars(
@@ -108,7 +108,7 @@ def _headlines(solution: ShaftSolution, total: float | None) -> Iterator[tuple[s
 
 
 def _tables(solution: ShaftSolution) -> Iterator[Listing]:
-    """Forces of the bearings; their lives, safety, lubrication, clearance, temperatures and losses."""
+    """Tables of the bearings: forces; then lives, safeties, lubrication, clearances, temperatures and losses."""
     yield _table("Bearings", bearing_columns(solution), "Forces of the bearings on the shaft; azimuths from Y.")
     columns = life_columns(solution)
     if columns:
@@ -122,7 +122,7 @@ def _table(title: str, columns: dict[str, list[str]], *remarks: str) -> Listing:
 
 
 def _of_bearing(one: BearingOnShaft) -> Listing:
-    """The stiffness of a bearing, and what is known of it in words."""
+    """Table of the stiffness of a bearing, with its other results as remarks."""
     names, rows = stiffness_rows(one)
     said = [f"{name}: {text}" for name, text in bearing_facts(one.solution)] if one.solution is not None else []
     ring = ", ".join(_texts(one.ring))
@@ -137,7 +137,7 @@ def _texts(part: Any) -> Iterator[str]:
 
 
 def _results(solution: ShaftSolution) -> Iterator[Row]:
-    """All single numbers, by their paths in Python."""
+    """Rows of all scalar results of bearings, sets and shaft, under their paths in Python."""
     parts = {f"bearings['{name}'].": one for name, one in solution.bearings.items()}
     parts |= {f"sets['{name}'].": one for name, one in solution.sets.items()}
     parts |= {"torque.": solution.torque, "life.": solution.life, "thermal.": solution.thermal}

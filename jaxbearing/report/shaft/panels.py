@@ -1,4 +1,4 @@
-"""Charts of a shaft: its bending line, and the cut forces and bending moments along it."""
+"""Charts of a shaft: bending line, internal forces and bending moments along it."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ _ALONG = Axis("position along the shaft, mm")
 
 
 def shaft_panels(solution: ShaftSolution) -> list[Curves]:
-    """Bending line, bending moment and shear force; the latter two of shafts with sections."""
+    """Charts of the bending line and, for a shaft with sections, of bending moment and internal forces."""
     found = [deflection_panel(solution)]
     if solution.operation.sections:
         found += [moment_panel(solution), shear_panel(solution)]
@@ -38,7 +38,7 @@ def deflection_panel(solution: ShaftSolution) -> Curves:
 
 
 def moment_panel(solution: ShaftSolution) -> Curves:
-    """Bending moments."""
+    """Chart of the bending moments."""
     cut = cut_loads(solution)
     x = 1e3 * cut.position
     series = [Series(f"in the plane X-{name}", x, cut.moment[i], CURVES[i]) for i, (name, _, _) in enumerate(PLANES)]
@@ -48,7 +48,7 @@ def moment_panel(solution: ShaftSolution) -> Curves:
 
 
 def shear_panel(solution: ShaftSolution) -> Curves:
-    """Shear and axial forces."""
+    """Chart of the shear and axial forces."""
     cut = cut_loads(solution)
     x = 1e3 * cut.position
     series = [Series(f"shear along {name}", x, cut.shear[i], CURVES[i]) for i, (name, _, _) in enumerate(PLANES)]
@@ -58,5 +58,5 @@ def shear_panel(solution: ShaftSolution) -> Curves:
 
 
 def panel_of(solution: ShaftSolution, name: str) -> Curves:
-    """The chart of this name."""
+    """The chart of a shaft with the given name."""
     return next(one for one in shaft_panels(solution) if one.name == name)

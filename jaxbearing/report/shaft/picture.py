@@ -1,6 +1,7 @@
-"""The shaft to scale in a plane through its axis: shaft, bearings, gears, forces, bending line.
+"""Pictures of a shaft to scale in a plane through its axis, with bearings, gears, forces and bending line.
 
-A picture is a list of shapes in millimetres, x along the shaft and y across it, which each backend draws in its way.
+A picture is a list of shapes in millimetres, x along the shaft and y across it, which each backend draws in its own
+way.
 """
 
 import math
@@ -21,15 +22,15 @@ from .bending import PLANES, bending_line
 Point = tuple[float, float]
 
 SHAFT, GEAR = "#E8EBEF", "#F3E6C8"
-"""Surfaces of the shaft, and of gears, pulleys and masses."""
+"""Fill colours of the shaft, and of gears, pulleys and masses."""
 LINE, FORCE, REACTION = CURVES[0], CURVES[1], CURVES[2]
-"""Bending line, forces on the shaft, and forces of its bearings."""
+"""Colours of the bending line, of forces on the shaft, and of forces of its bearings."""
 _LONGEST = 0.3
-"""Longest arrow, and largest deflection drawn, in heights of the picture."""
+"""Length of the longest arrow, relative to the largest diameter drawn; the largest deflection is at most half of it."""
 _DISK = 0.12
-"""Width of a gear, a pulley or a mass in the picture, in lengths of the shaft: a scene does not have it."""
+"""Drawn width of a gear, pulley or mass relative to the length of the shaft; a scene does not give the width."""
 _LEAST = 0.01
-"""Arrows shorter than this part of the longest one are not drawn."""
+"""Length of an arrow relative to the longest one, up to which it is not drawn."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Pointer:
-    """An arrow; `value`: what it stands for, N."""
+    """An arrow for a force; `value`: the force, N."""
 
     start: Point
     end: Point
@@ -64,7 +65,7 @@ class Pointer:
 
 @dataclass(frozen=True)
 class Words:
-    """A text about a place."""
+    """A text at a given place."""
 
     place: Point
     text: str
@@ -77,7 +78,7 @@ Item = Area | Stroke | Pointer | Words
 
 @dataclass(frozen=True)
 class Picture:
-    """One view of a shaft. `title`: its plane in words; `caption`: scales of what is not to scale."""
+    """One view of a shaft. `title`: plane of the view; `caption`: scales of the arrows and the bending line."""
 
     title: str
     caption: str
@@ -86,7 +87,7 @@ class Picture:
 
 
 def pictures(scene: ShaftSystem, solution: ShaftSolution) -> list[Picture]:
-    """The plane X-Y, and X-Z where something acts in it."""
+    """The view in the plane X-Y, and that in X-Z if bearings carry forces along Z."""
     across = np.abs(np.array([np.asarray(one.on_shaft)[1:3] for one in solution.bearings.values()]))
     lateral = float(np.max(across[:, 1])) > 1e-6 * max(float(np.max(across)), 1e-300)
     return [_picture(scene, solution, plane) for plane in ((0, 1) if lateral else (0,))]
@@ -117,7 +118,7 @@ def _picture(scene: ShaftSystem, solution: ShaftSolution, plane: int) -> Picture
 
 
 def _ends(scene: ShaftSystem) -> tuple[float, float]:
-    """Ends of the shaft; of a rigid one a little beyond what stands on it."""
+    """Ends of the shaft, mm; a rigid shaft ends a little beyond its outermost bearing or force."""
     if scene.shaft.sections:
         return 0.0, 1e3 * float(scene.shaft.length)
     at = [1e3 * float(place.position) for place in scene.places] + [1e3 * float(one.position) for one in scene.forces]
@@ -126,7 +127,7 @@ def _ends(scene: ShaftSystem) -> tuple[float, float]:
 
 
 def _outer_radius(scene: ShaftSystem) -> float:
-    """Largest radius of what is drawn, mm."""
+    """Largest radius of sections, bearings and gears, mm."""
     radii = [500.0 * float(section.outer_diameter) for section in scene.shaft.sections]
     radii += [_outside(place.scene) for place in scene.places]
     radii += [1e3 * float(one.pitch_radius) for one in scene.forces if isinstance(one, Gear)]
@@ -156,7 +157,7 @@ def _shaft(scene: ShaftSystem, start: float, end: float) -> Iterator[Item]:
 
 
 def _inside(bearing: AbstractBearing | LinearBearing) -> float:
-    """Radius of the bore as it is drawn."""
+    """Drawn radius of the bore of a bearing, mm."""
     if not isinstance(bearing, AbstractBearing):
         return 8.0
     pitch = 500.0 * float(bearing.geometry.pitch_diameter)
@@ -164,7 +165,7 @@ def _inside(bearing: AbstractBearing | LinearBearing) -> float:
 
 
 def _bearing(place: Place, x: float) -> Iterator[Item]:
-    """Both halves of a bearing in section, mirrored where its axis points along -X."""
+    """Both halves of a bearing in section, mirrored if its axis points along -X."""
     if not isinstance(place.scene, AbstractBearing):
         yield from (Area([(x - 4.0, y), (x + 4.0, y), (x, y * 0.6)], RING) for y in (-15.0, 15.0))
         return
@@ -184,7 +185,7 @@ def _circle(diameter: float) -> list[Point]:
 
 
 def _disks(scene: ShaftSystem, length: float) -> Iterator[Item]:
-    """Gears, pulleys and masses behind the shaft."""
+    """Gears, pulleys and masses, drawn behind the shaft."""
     for one in sorted(scene.forces, key=lambda force: force.kind != "gear"):
         if one.kind == "point":
             continue
@@ -195,7 +196,7 @@ def _disks(scene: ShaftSystem, length: float) -> Iterator[Item]:
 
 
 def _loads(scene: ShaftSystem, solution: ShaftSolution, across: int) -> Iterator[tuple[float, str, str, float]]:
-    """Position in mm, name, colour and force across the axis, N, of forces and bearings."""
+    """Position, mm, name, colour and force, N, of each external force and bearing; `across`: index of the direction."""
     nodes = solution.shaft
     at, loads = np.asarray(nodes.position, dtype=float), np.asarray(nodes.load, dtype=float)
     for position, names in _named_positions(scene).items():
@@ -207,7 +208,7 @@ def _loads(scene: ShaftSystem, solution: ShaftSolution, across: int) -> Iterator
 
 
 def _named_positions(scene: ShaftSystem) -> dict[float, str]:
-    """Positions of forces -> names of those that act there."""
+    """Position, m, -> names of the forces that act there."""
     found: dict[float, list[str]] = {}
     for one in scene.forces:
         found.setdefault(round(float(one.position), 12), []).append(one.name)
@@ -217,9 +218,9 @@ def _named_positions(scene: ShaftSystem) -> dict[float, str]:
 def _arrows(
     loads: list[tuple[float, str, str, float]], largest: float, longest: float, radius: float, room: float
 ) -> Iterator[Item]:
-    """Arrows that end at the outside of the picture's parts, with name and force.
+    """Transverse arrows that end at the distance `radius` from the axis, with names and forces.
 
-    **Arguments:** `room`: distance of two texts beside each other; nearer ones stand below each other.
+    **Arguments:** `room`: least distance of two texts at the same height, mm; closer ones are staggered.
     """
     line = 0.28 * radius
     levels: dict[float, list[tuple[float, float]]] = {1.0: [], -1.0: []}
@@ -227,7 +228,7 @@ def _arrows(
         length = longest * abs(value) / largest if largest else 0.0
         sign = math.copysign(1.0, value)
         if length > _LEAST * longest:
-            # forces push from outside
+            # an arrow starts outside and points at the shaft
             yield Pointer((x, -sign * (radius + length)), (x, -sign * radius), colour, value)
         height = radius + length + 0.7 * line
         near = [level for place, level in levels[sign] if abs(place - x) < room]
@@ -239,7 +240,7 @@ def _arrows(
 
 
 def _axial_arrows(scene: ShaftSystem, solution: ShaftSolution, longest: float, radius: float) -> Iterator[Item]:
-    """Axial forces of the bearings and of what acts, in the axis and beside it."""
+    """Arrows of the axial forces, close to the axis: external forces above it, forces of the bearings below."""
     loads = [(x, colour, value, name) for x, name, colour, value in _loads(scene, solution, 0)]
     largest = max((abs(value) for _, _, value, _ in loads), default=0.0)
     for x, colour, value, _ in loads:
@@ -251,7 +252,7 @@ def _axial_arrows(scene: ShaftSystem, solution: ShaftSolution, longest: float, r
 
 
 def _bent(solution: ShaftSolution, plane: int, size: float) -> tuple[list[Item], float]:
-    """The bending line, and by how much it is enlarged; nothing where the shaft does not move."""
+    """Bending line and its magnification; an empty list and 0 if the shaft does not move in this plane."""
     line = bending_line(solution)
     values = line.across[plane]
     largest = float(np.max(np.abs(values)))

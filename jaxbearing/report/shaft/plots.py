@@ -1,4 +1,4 @@
-"""A page of plots of a shaft: the shaft to scale with its forces, bending line, moments and shear forces."""
+"""Page of plots of a shaft: drawing to scale with forces, bending line, moments and internal forces."""
 
 import textwrap
 from typing import TYPE_CHECKING
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     import matplotlib.figure
 
 _LINE = 190
-"""Letters of a line of the caption."""
+"""Number of characters in a line of the caption."""
 
 
 def plot(solution: ShaftSolution, title: str, scene: ShaftSystem | None = None) -> "matplotlib.figure.Figure":
-    """See `report.plots.plot_solution`. **Arguments:** `scene`: the shaft, with which it is drawn to scale."""
+    """Figure of a shaft; see `report.plots.plot_solution`. **Arguments:** `scene`: needed for the drawing to scale."""
     from ..backends.matplotlib.page import Page
 
     figure = Page()
@@ -48,7 +48,7 @@ def plot(solution: ShaftSolution, title: str, scene: ShaftSystem | None = None) 
 
 
 def operating_text(solution: ShaftSolution) -> str:
-    """Speed and life in words."""
+    """Shaft speed and life of the system as text."""
     speed = displayed(float(solution.operation.speed), "rad/s")
     said = [f"shaft speed {speed:.6g} {display_unit('rad/s')}"]
     if solution.life is not None and not any(overloads(solution)):

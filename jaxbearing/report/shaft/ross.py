@@ -1,12 +1,12 @@
 """A shaft on its bearings as a rotor of the rotordynamics package ROSS: `ross.Rotor.load(file)`.
 
-Axes, angle of the load line and what bearing elements leave out are those of `report.ross`: here `load_direction` is
-the angle from ROSS's x axis to Y. Shaft elements lie between ends of sections, bearings and masses, with Cowper's
-shear factor as in the package; masses are disks without moments of inertia, which a scene does not have. Each bearing
-is one element at its node, with the full 2x2 across the axis and the axial stiffness, at the equilibria of the table
-of speeds; elastic supports of its outer ring are in series.
+Axes and simplifications of the bearing elements are those of `report.ross`; here `load_direction` is the angle from
+ROSS's x axis to Y. The nodes are ends of sections, bearings and masses. Shaft elements have Cowper's shear factor, as
+in the package. Masses are disks without moments of inertia, which a scene does not give. Each bearing is one element at
+its node, with the full 2x2 stiffness across the axis and the axial stiffness at each speed of the table, in series with
+the elastic support of its outer ring.
 
-`ross_version` in the file is that of the ROSS it was read with; another one says that it is another one.
+`ross_version` in the file is the release with which reading was tested; other releases of ROSS report the difference.
 """
 
 import math
@@ -28,12 +28,12 @@ from ..ross import NEWEST, TESTED, WEIGHT_DIRECTION, Version, element_of, one_li
 from .stiffness import ShaftStiffness
 
 SAME = 1e-9
-"""Distance of two places that are one node, m."""
+"""Distance up to which two positions are the same node, m."""
 _COLOUR = "#525252"
 
 
 def require_rotor(scene: ShaftSystem) -> None:
-    """**Raises:** `ValueError` for a shaft that is no rotor of ROSS."""
+    """Checks that ROSS can model the shaft. **Raises:** `ValueError` for a rigid shaft and for a housing."""
     if not scene.shaft.sections:
         raise ValueError("found a rigid shaft, expected one with shaft.sections: ROSS has no rigid rotors")
     if scene.housing is not None:
@@ -47,7 +47,7 @@ def ross_rotor(
     load_direction: float = WEIGHT_DIRECTION,
     version: Version = NEWEST,
 ) -> dict[str, dict[str, object]]:
-    """Elements of the rotor by their class and tag, each with the arguments of its class.
+    """Elements of the rotor: class and tag -> arguments of the class.
 
     **Raises:** as `require_rotor`; `ValueError` as `report.ross.ross_bearing`.
     """
@@ -62,7 +62,7 @@ def ross_rotor(
         found[f"DiskElement_{tag}"] = disk
     flat = Counter(name.replace(".", "_") for name in table.bearings)
     for name, values in table.bearings.items():
-        # the name itself where two bearings, `front.1` and `front_1`, would have one tag
+        # the name keeps its dot where two bearings, such as `front.1` and `front_1`, would get the same tag
         tag = name if flat[name.replace(".", "_")] > 1 else name.replace(".", "_")
         node = _node(nodes, table.position[name])
         found[f"BearingElement_{tag}"] = element_of(table.speed, values, load_direction, node, tag, version)
@@ -70,7 +70,7 @@ def ross_rotor(
 
 
 def rotor_nodes(scene: ShaftSystem) -> np.ndarray:
-    """Places of the nodes: ends of sections, bearings and masses, m. **Raises:** as `require_rotor`."""
+    """Positions of the nodes, m: ends of sections, bearings and masses. **Raises:** as `require_rotor`."""
     require_rotor(scene)
     ends = _ends(scene)
     masses = [float(one.position) for one in scene.forces if one.kind == "mass"]
@@ -78,7 +78,7 @@ def rotor_nodes(scene: ShaftSystem) -> np.ndarray:
 
 
 def section_between(scene: ShaftSystem, left: float, right: float) -> tuple[Section, Material]:
-    """The section, and its material, to which the part of the shaft between two nodes belongs."""
+    """Section of the shaft between two neighbouring nodes, and its material."""
     ends = _ends(scene)
     place = min(int(np.searchsorted(ends, 0.5 * (left + right))) - 1, len(scene.shaft.sections) - 1)
     section = scene.shaft.sections[place]
@@ -90,7 +90,7 @@ def _ends(scene: ShaftSystem) -> np.ndarray:
 
 
 def _apart(places: np.ndarray) -> np.ndarray:
-    """Places of nodes in their order, each once."""
+    """Positions of nodes in ascending order, each once."""
     ordered = np.sort(places)
     return ordered[np.concatenate([[True], np.diff(ordered) > SAME])]
 
@@ -136,9 +136,9 @@ def write_ross_rotor(
     load_direction: float = WEIGHT_DIRECTION,
     version: Version = NEWEST,
 ) -> None:
-    """Write the rotor, whole or not at all; a file that is there is replaced.
+    """Writes the rotor to a file, whole or not at all; an existing file is replaced.
 
-    **Raises:** `ValueError` for a name that does not end in .toml, and as `ross_rotor`; `OSError` where it cannot be
+    **Raises:** `ValueError` for a name that does not end in .toml, and as `ross_rotor`; `OSError` if the file cannot be
     written.
     """
     if not os.fspath(file).lower().endswith(".toml"):

@@ -1,4 +1,4 @@
-"""Stiffness of the bearings and sets of a shaft over its speed."""
+"""Stiffness of the bearings and sets of a shaft over the shaft speed."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -33,21 +33,21 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 MODES = 4
-"""Natural frequencies that a table has."""
+"""Number of natural frequencies in a table."""
 
 
 class ShaftStiffness(NamedTuple):
     """Tangent stiffness at the equilibria of a shaft at several speeds, in the frame of the shaft.
 
     - `speed`: of the shaft, rad/s.
-    - `bearings`: name -> d (load on the inner ring) / d (its displacement) at the row, with the elastic support of the
-      outer ring in series; N/m, N/rad, N m/m and N m/rad; axes: speed, row, column.
-    - `sets`: name -> the same of a set at its middle, on a rigid piece of shaft.
-    - `position`: name -> of the row, or of the middle of a set, m.
-    - `freedom`: names of rows and columns.
-    - `natural_frequencies`: of the bending of a shaft with sections, rad/s, the first ones; axes: speed, mode. Without
-      damping and gyroscopic effect (`modes`).
-    - `warnings`: of all speeds.
+    - `bearings`: name -> d (load on the inner ring) / d (its displacement), with the elastic support of the outer ring
+      in series; N/m, N/rad, N m/m and N m/rad; axes: speed, row, column.
+    - `sets`: name -> the same for a whole set at its middle, with its bearings on a rigid piece of shaft.
+    - `position`: name -> position of a bearing, or of the middle of a set, m.
+    - `freedom`: names of the rows and columns of each matrix.
+    - `natural_frequencies`: lowest natural frequencies of bending, rad/s, without damping and gyroscopic effect
+      (`modes`); axes: speed, mode. `None` for a rigid shaft.
+    - `warnings`: warnings at any of the speeds.
     """
 
     speed: np.ndarray
@@ -60,9 +60,9 @@ class ShaftStiffness(NamedTuple):
 
 
 def shaft_at_speeds(scene: AbstractScene, speeds: "npt.ArrayLike") -> list[ShaftSystem]:
-    """The shaft at each speed, rad/s.
+    """The scene of the shaft at each speed, rad/s.
 
-    **Raises:** `TypeError` for something else than a shaft; `ValueError` for speeds that are not finite and increasing.
+    **Raises:** `TypeError` for a scene that is not a shaft; `ValueError` for speeds that are not finite and increasing.
     """
     if not isinstance(scene, ShaftSystem):
         raise TypeError(f"a {type(scene).__name__} is no shaft")
@@ -75,10 +75,10 @@ def shaft_at_speeds(scene: AbstractScene, speeds: "npt.ArrayLike") -> list[Shaft
 def shaft_stiffness_over_speed(
     scene: AbstractScene, speeds: "npt.ArrayLike", *, solver: Callable[[ShaftSystem], ShaftSolution] | None = None
 ) -> ShaftStiffness:
-    """Solves at each speed; forces are the scene's at all of them.
+    """Table of the stiffness over speed: solves the shaft at each speed, under the forces of the scene.
 
-    **Arguments:** `speeds`: rad/s, increasing; `solver`: from a scene to a solution, without raising; that of
-    `jit_solver` if not given.
+    **Arguments:** `speeds`: rad/s, increasing; `solver`: function from a scene to a solution that does not raise; that
+    of `jit_solver` if not given.
 
     **Raises:** as `shaft_at_speeds`; `SolveError` for the first speed that fails.
     """
@@ -112,9 +112,10 @@ def shaft_stiffness_over_speed(
 
 
 def tangents(system: ShaftSystem, solution: ShaftSolution) -> dict[str, np.ndarray]:
-    """Stiffness of each bearing with the support of its outer ring, in the frame of the shaft.
+    """Stiffness of each bearing in series with the support of its outer ring, in the frame of the shaft.
 
-    **Raises:** `ValueError` for a housing that holds all outer rings together: its bearings are no separate springs.
+    **Raises:** `ValueError` for a shaft with a housing: it couples the outer rings, so that bearings are not separate
+    springs.
     """
     if system.housing is not None:
         raise ValueError("a housing couples the outer rings: the bearings have no stiffness of their own")
@@ -128,8 +129,8 @@ def tangents(system: ShaftSystem, solution: ShaftSolution) -> dict[str, np.ndarr
 
 
 def _in_series(bearing: np.ndarray, support: Support | None) -> np.ndarray:
-    """A bearing whose outer ring is on an elastic support; degrees of freedom of the support that are rigid hold the
-    ring."""
+    """Stiffness of a bearing in series with the elastic support of its outer ring, whose degrees of freedom without a
+    stiffness are rigid."""
     if support is None:
         return bearing
     if support.matrix is not None:
@@ -145,7 +146,7 @@ def _in_series(bearing: np.ndarray, support: Support | None) -> np.ndarray:
 
 
 def set_tangent(system: ShaftSystem, solution: ShaftSolution, name: str) -> np.ndarray:
-    """Stiffness of a set at its middle; outer rings on springs move along the axis."""
+    """Stiffness of a set at its middle; outer rings that springs preload are free to move axially against these."""
     number = [one.name for one in system.sets].index(name)
     one = system.sets[number]
     own, names = tangents(system, solution), one.names
@@ -170,19 +171,19 @@ def set_tangent(system: ShaftSystem, solution: ShaftSolution, name: str) -> np.n
 
 
 def _pressed(one: MatchedSet) -> tuple[str, ...]:
-    """Names of the bearings whose outer rings springs press: those of the last group of the picture."""
+    """Names of the bearings whose outer rings are preloaded by springs: the last group in the picture of the set."""
     if one.preload is None or one.preload.spring_force is None:
         return ()
     return tuple(name for name, sign in zip(one.names, one.picture, strict=True) if sign == one.picture[-1])
 
 
 def shaft_stiffness_to_dict(table: ShaftStiffness) -> dict[str, Any]:
-    """The table as JSON has it: SI units and radians."""
+    """The table for JSON, in SI units and radians."""
     return {name: plain(value) for name, value in table._asdict().items()}
 
 
 def print_shaft_stiffness(table: ShaftStiffness, label: str, console: Console, full: bool = False) -> None:
-    """The diagonal of the stiffness of each set and bearing against speed; in full all columns."""
+    """Prints the diagonal stiffnesses of each set and bearing over speed. **Arguments:** `full`: print all columns."""
     state = f"{counted(len(table.speed), 'speed')} solved; entries off the diagonal: --json"
     headline(label, "CONVERGED", "bold green", state, console)
     units = stiffness_units()

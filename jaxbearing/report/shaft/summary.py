@@ -1,4 +1,4 @@
-"""The summary of a shaft on the screen: a row a bearing, then sets, life, the shaft, warnings."""
+"""Summary of a shaft on the screen: a row for each bearing, then life, sets, warnings and the shaft itself."""
 
 from rich.console import Console
 
@@ -29,8 +29,10 @@ from .facts import (
 
 
 def print_summary(solution: ShaftSolution, scene_label: str, console: Console, full: bool = False) -> None:
-    """See `report.summary.print_summary`. **Arguments:** `full`: with all columns of the table, and the summary
-    of every bearing below."""
+    """Prints the summary of a shaft; see `report.summary.print_summary`.
+
+    **Arguments:** `full`: print all columns of the tables, and the summary of each bearing below.
+    """
     if not bool(solution.converged):
         print_failure(scene_label, Status(int(solution.status)).text, solution.failure(), console)
         print_warnings(solution.warnings, console, full)

@@ -1,4 +1,4 @@
-"""The curves of a family, one after the other."""
+"""Traction curves of a solution, one after the other."""
 
 import itertools
 from collections.abc import Iterator
@@ -10,24 +10,24 @@ from ...machines import TwoDiskSolution
 
 
 class Curve(NamedTuple):
-    """Place of one curve in the arrays of a solution, and its operating point, SI."""
+    """Indices of one traction curve in the arrays of a solution, and its operating point in SI units."""
 
     place: tuple[int, ...]
-    """Indices of temperature, speed and load."""
+    """Indices along temperature, entrainment speed and load."""
     temperature: float
     entrainment_speed: float
     pressure: float
     load: float
     slowest: int
-    """Index of the smallest slide-to-roll ratio, by modulus."""
+    """Index of the slide-to-roll ratio of smallest modulus."""
 
     def of(self, values: object) -> np.ndarray:
-        """This curve's part of a result, over the slide-to-roll ratio."""
+        """The values of a result on this curve, over the slide-to-roll ratio."""
         return np.asarray(values)[self.place]
 
 
 def curves_of(solution: TwoDiskSolution) -> Iterator[Curve]:
-    """**Raises:** `ValueError` for a batch of families."""
+    """All traction curves of a solution. **Raises:** `ValueError` for a batch of solutions."""
     if np.ndim(solution.traction_coefficient) != 4:
         raise ValueError("expected one family of traction curves, got a batch of them: take one lane of it")
     operation = solution.operation

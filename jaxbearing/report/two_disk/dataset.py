@@ -13,11 +13,11 @@ from ..variables import CHECK, attributes, checks, common, flags, variable, with
 
 
 def to_dataset(solution: TwoDiskSolution, dims: Sequence[str] = ()) -> xr.Dataset:
-    """See `report.dataset.solution_to_dataset`.
+    """Data set of traction curves; see `report.dataset.solution_to_dataset`.
 
-    The dimensions are `temperature`, `entrainment_speed`, `pressure` or `load` (the one that the operation gives; the
-    other is a coordinate along it) and `slide_to_roll`, behind those of a batch, `dims`. `out_of_range` says which
-    checks of the laws' ranges were left.
+    The dimensions are those of a batch, `dims`, then `temperature`, `entrainment_speed`, `pressure` or `load` and
+    `slide_to_roll`. Of pressure and load, the one given in the operation is a dimension, and the other a coordinate
+    along it. `out_of_range` shows which range checks of the laws failed.
     """
     dims = tuple(dims)
     if np.ndim(solution.traction_coefficient) != 4 + len(dims):
@@ -32,9 +32,9 @@ def to_dataset(solution: TwoDiskSolution, dims: Sequence[str] = ()) -> xr.Datase
     for path, value, metadata in labelled(solution):
         name = path.removeprefix("operation.")
         if name in dataset:
-            # pressure or load: as asked, and as they are on both sides of Hertz's law
+            # pressure and load are both an input and a result, by Hertz's law
             continue
-        # an axis is that of all lanes
+        # all lanes of a batch must have the same axes
         values = common(np.asarray(value), 1, path) if path != name and dims else value
         dataset[name] = variable(values, metadata, path, dims, names)
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])

@@ -1,4 +1,4 @@
-"""Traction curves as plain numbers and texts."""
+"""Traction curves as plain numbers and texts, for JSON."""
 
 from typing import Any
 
@@ -11,14 +11,14 @@ from ..labels import labelled
 from .curves import curves_of
 
 _ONCE = ("status", "inner_residual", "deborah_number")
-"""Results of each point of which a curve, or the whole family, has one number."""
+"""Results at each point of which only one number is written, for each curve or for all curves."""
 
 
 def to_dict(solution: TwoDiskSolution) -> dict[str, Any]:
-    """See `report.json_report.solution_to_dict`.
+    """Dictionary of traction curves; see `report.json_report.solution_to_dict`.
 
-    `deborah_number` of a curve is that at its smallest slide. Points that failed are `None`; `converged` says whether
-    all points are there.
+    `deborah_number` of a curve is the value at the slide-to-roll ratio of smallest modulus. Points that failed are
+    `None`; `converged` is True if no point failed.
     """
     slide = plain(solution.operation.slide_to_roll)
     along = {name: value for name, value, found in labelled(solution) if "slide" in found["dims"] and "." not in name}

@@ -12,7 +12,7 @@ from .panels import curve_name, operating_point, two_disk_panels
 
 
 def page_content(scene: AbstractScene, solution: TwoDiskSolution) -> Content:
-    """See `report.html_report.html_report`."""
+    """Content of the page of traction curves; see `report.html_report.html_report`."""
     slide = np.asarray(solution.operation.slide_to_roll)
     return Content(
         kind="two-disk machine",

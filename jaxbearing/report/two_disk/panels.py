@@ -12,7 +12,7 @@ from .curves import Curve, curves_of
 
 
 def two_disk_panels(solution: TwoDiskSolution) -> list[Curves]:
-    """One for each pair of temperature and speed."""
+    """Charts of traction curves, one for each pair of temperature and speed."""
     curves = list(curves_of(solution))
     places = dict.fromkeys(one.place[:2] for one in curves)
     return [
@@ -22,7 +22,7 @@ def two_disk_panels(solution: TwoDiskSolution) -> list[Curves]:
 
 
 def traction_panel(solution: TwoDiskSolution, curves: Sequence[Curve], name: str = "traction") -> Curves:
-    """Curves at one temperature and speed."""
+    """Chart of the traction curves at one temperature and speed."""
     slide = np.asarray(solution.operation.slide_to_roll)
     order = np.argsort(slide, kind="stable")
     return Curves(
@@ -46,13 +46,13 @@ def traction_panel(solution: TwoDiskSolution, curves: Sequence[Curve], name: str
 
 
 def operating_point(curve: Curve) -> str:
-    """Temperature and speed, in words."""
+    """Temperature and speed of a curve as text."""
     unit, factor = axis_unit("m/s", curve.entrainment_speed)
     return f"{curve.temperature - ZERO_CELSIUS:.5g} °C, {factor * curve.entrainment_speed:.5g} {unit}"
 
 
 def curve_name(solution: TwoDiskSolution, curve: Curve) -> str:
-    """Quantity in which the curves of a panel differ: pressure, or load."""
+    """Name of a curve in its chart: its pressure, or its load and pressure if the operation gives loads."""
     unit, factor = axis_unit("Pa", curve.pressure)
     if solution.operation.pressure is not None:
         return f"{factor * curve.pressure:.4g} {unit}"

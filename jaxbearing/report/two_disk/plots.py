@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     import matplotlib.figure
 
 PANELS = 12
-"""Diagrams on the page; more are counted at its foot."""
+"""Largest number of diagrams on the page; a note at its foot says how many there are."""
 _MARKED = 40
-"""Points of a curve up to which each is marked."""
+"""Number of points of a curve up to which each point is marked."""
 
 
 def plot(solution: TwoDiskSolution, title: str) -> "matplotlib.figure.Figure":
-    """See `report.plots.plot_solution`."""
+    """Figure of traction curves; see `report.plots.plot_solution`."""
     curves = list(curves_of(solution))
     from ..backends.matplotlib.page import Page
 
@@ -64,7 +64,7 @@ def plot(solution: TwoDiskSolution, title: str) -> "matplotlib.figure.Figure":
 
 
 def _layout(places: list[tuple[int, ...]]) -> tuple[int, int]:
-    """Rows and columns: temperatures and speeds where both vary."""
+    """Numbers of rows and columns; rows are temperatures and columns speeds if both vary."""
     temperatures, speeds = (len(dict.fromkeys(place[i] for place in places)) for i in (0, 1))
     if temperatures > 1 and 1 < speeds <= 4 and temperatures * speeds == len(places):
         return temperatures, speeds
@@ -73,7 +73,7 @@ def _layout(places: list[tuple[int, ...]]) -> tuple[int, int]:
 
 
 def draw_curves(axes: "matplotlib.axes.Axes", panel: Curves) -> None:
-    """Draws a panel over the lines of no traction and no slide; points are marked where there are few."""
+    """Draws a panel with lines at zero traction and zero slide; points are marked up to `_MARKED`."""
     slide = np.asarray(panel.series[0].x)
     axes.axhline(0.0, color=INK, linewidth=0.6)
     if slide[0] < 0.0 < slide[-1]:

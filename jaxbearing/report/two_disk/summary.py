@@ -1,5 +1,5 @@
-"""The summary of traction curves on the screen: a row a curve, its friction at some slide-to-roll ratios. Narrower
-terminals show fewer of these, then get the table in pieces."""
+"""Summary of traction curves on the screen: a row for each curve, with its traction coefficient at some slide-to-roll
+ratios. Narrow terminals show fewer ratios; if that is not enough, the table is split."""
 
 import numpy as np
 from rich.console import Console
@@ -25,16 +25,16 @@ from ..tables import derived_facts
 from .curves import Curve, curves_of
 
 ROWS = 60
-"""Curves that are shown; more are counted."""
+"""Largest number of curves that are shown; the others are only counted."""
 _SLIDES = 6
-"""Slide-to-roll ratios that are shown at most."""
+"""Largest number of slide-to-roll ratios that are shown."""
 _FEWEST = 2
 _SMALLEST_SHOWN = 1e-3
-"""Slide-to-roll ratio from which on curves differ visibly."""
+"""Smallest slide-to-roll ratio that is shown; below it, curves hardly differ."""
 
 
 def print_summary(solution: TwoDiskSolution, scene_label: str, console: Console, full: bool = False) -> None:
-    """See `report.summary.print_summary`. **Arguments:** `full`: with all columns of the table and all assumptions."""
+    """Prints traction curves; see `report.summary.print_summary`. **Arguments:** `full`: all columns, assumptions."""
     if not bool(solution.converged):
         status = Status(int(np.max(np.asarray(solution.status)))).text
         print_failure(scene_label, status, solution.failure(), console)
@@ -104,8 +104,10 @@ def _friction(solution: TwoDiskSolution, curves: list[Curve], slides: list[int])
 
 
 def _slides(slide: np.ndarray, count: int) -> list[int]:
-    """Indices of so many slide-to-roll ratios or fewer, from 0.1 % to the largest in even steps of the logarithm; of
-    those to both sides the positive ones."""
+    """Indices of at most `count` slide-to-roll ratios, about evenly spaced in the logarithm from 0.1 % to the largest.
+
+    Negative ratios are taken only if there are no positive ones.
+    """
     candidates = np.flatnonzero(slide > 0.0)
     if candidates.size == 0:
         candidates = np.flatnonzero(slide < 0.0)

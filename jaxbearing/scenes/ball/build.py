@@ -1,5 +1,5 @@
-"""From a valid table of a ball bearing to the scene of the library. Only Python and numpy numbers enter the
-constructors: nothing runs on JAX."""
+"""Builds the scene of a ball bearing from its valid table. Only Python and numpy numbers enter the constructors:
+nothing runs on JAX."""
 
 from functools import cache
 
@@ -59,13 +59,13 @@ def _run(table: BallBearingTable) -> Simulation | WarmUpSimulation | None:
     if table.thermal is not None:
         return warm_up(table)
     given = [load for load in map(table.operation.model_dump().get, LOAD_FIELDS.values()) if load]
-    # one load that follows a course in time may be given by its values, several only by factors
+    # a single load can be given over time by its values, several loads only by factors
     return simulation(table.simulation, table.operation.inner_speed, given[0] if len(given) == 1 else 0.0)
 
 
 def _kinematics(table: KinematicsTable | None, slips: bool, arcs: bool) -> BallAttitude:
-    """Left out: in equilibrium with traction, without it outer race control, or with two groove arcs on a ring
-    (`arcs`) the least sliding under linear traction."""
+    """The attitude of the balls. Without a name in the table: equilibrium with traction; without traction outer race
+    control, or the least sliding under linear traction if a ring has two groove arcs (`arcs`)."""
     attitude = None if table is None else table.attitude
     if attitude is None:
         attitude = "equilibrium" if slips else "linear_slip" if arcs else "outer"
@@ -75,11 +75,11 @@ def _kinematics(table: KinematicsTable | None, slips: bool, arcs: bool) -> BallA
 
 
 def _gyroscopic(table: KinematicsTable, attitude: str) -> AbstractGyroscopic | ResolvedCouple | None:
-    """Model that carries the couple, for an attitude of the balls."""
+    """Model of the gyroscopic couple for an attitude of the balls."""
     sign = 1.0 if table.gyroscopic_sign is None else table.gyroscopic_sign
     match table.gyroscopic:
         case "shared":
-            # all of it at the outer race where that controls the ball (source eqs. (14)-(15))
+            # under outer race control the outer race carries the whole couple (source eqs. (14)-(15))
             inner = 0.0 if attitude == "outer" else 1.0
             if table.inner_share is not None:
                 inner = table.inner_share

@@ -53,10 +53,10 @@ class BallMaterialsTable(RingMaterialsTable):
 
 
 class BallContactTable(table_of(PointLaws)):
-    """Laws of the raceway contacts, by the names in `scenes.laws`, which says what each stands for.
+    """Laws of the raceway contacts by name; `scenes.laws` lists the names.
 
-    - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
-    - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
+    - `traction_accuracy`: relative error of the traction forces, for which the integration over the contact is resolved
+    - `rolling_resistance`: law of the raceways; `true`: the first of these laws; not given: none
     - `supply`: how much oil reaches the raceways; not given: they are fully flooded
     - `mixed`: mixed friction of rough raceways; not given: the films carry all of the loads
     """
@@ -98,7 +98,7 @@ OF_COUPLE = {
     "inner_share": ("shared",),
     "outer_share": ("shared",),
 }
-"""Field -> the laws of the gyroscopic couple that it is about."""
+"""Field -> laws of the gyroscopic couple that have this field."""
 
 
 class KinematicsTable(
@@ -107,9 +107,9 @@ class KinematicsTable(
         optional=("attitude", "inner_share", "outer_share", "gyroscopic_friction"),
     )
 ):
-    """`inner_share` and `outer_share`: one of them is enough, since they add up to 2.
+    """Kinematics of the balls. Only one of `inner_share` and `outer_share` is needed, since they add up to 2.
 
-    - `gyroscopic_sign`: of the force pair that carries the couple
+    - `gyroscopic_sign`: sign of the force pair that carries the gyroscopic couple
     """
 
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {"gyroscopic": tuple(OF_COUPLE)}

@@ -1,4 +1,4 @@
-"""From the tables that all bearings have to the parts of the library."""
+"""Builds the parts of a scene from the tables that all bearings have."""
 
 import dataclasses
 import re
@@ -27,9 +27,9 @@ Part = TypeVar("Part")
 
 
 def built(kind: type[Part], **parts: Callable[[], Any]) -> Part:
-    """The scene of these parts, each made by its function; all are tried before one is refused.
+    """The scene built from its parts, each made by its function. All parts are tried before an error is raised.
 
-    **Raises:** `ValueError` with everything that the classes refuse; `Unreadable` for a part of a table that is refused
+    **Raises:** `ValueError` with all errors of the classes; `Unreadable` if a part needs a field that is refused
     already.
     """
     error: ValueError | Unreadable = Unreadable(kind.__name__)
@@ -44,7 +44,7 @@ def built(kind: type[Part], **parts: Callable[[], Any]) -> Part:
 
 
 def _problems(kind: type[Any], parts: Mapping[str, Callable[[], Any]]) -> list[ValueError]:
-    """Errors that the rules of the parts and those between parts raise, as far as they can be decided."""
+    """Errors from the checks of the parts and between them, as far as these can be decided."""
     made: dict[str, Any] = {}
     with collecting() as problems:
         for name, make in parts.items():
@@ -59,7 +59,7 @@ def _problems(kind: type[Any], parts: Mapping[str, Callable[[], Any]]) -> list[V
 
 
 class _Blank:
-    """Stands for a part that could not be made: it counts as an object of its class, and has no attributes."""
+    """Placeholder for a part that could not be made: `isinstance` takes it for its class; it has no attributes."""
 
     def __init__(self, owner: type):
         self._owner = owner
@@ -70,14 +70,14 @@ class _Blank:
 
 
 def _blank(kind: type, name: str) -> object:
-    """Stands for the part in a field of a scene."""
+    """Placeholder for the part in a field of a scene."""
     hint = typing.get_type_hints(kind)[name]
     (owner, *_) = [one for one in (hint, *typing.get_args(hint)) if dataclasses.is_dataclass(one)]
     return _Blank(owner)  # pyright: ignore[reportArgumentType]
 
 
 def _without_refused(part: object, name: str, problems: list[ValueError]) -> None:
-    """Puts `STAND_IN` in the place of the fields of a part that its own rules refuse, by the paths of the messages."""
+    """Puts `STAND_IN` in place of the fields that the checks of a part refuse; `problems` name their paths."""
     for problem in problems:
         found = re.match(rf"{name}\.(\w+)\b(?!\.)", str(problem))
         if found and hasattr(part, found[1]):
@@ -85,15 +85,15 @@ def _without_refused(part: object, name: str, problems: list[ValueError]) -> Non
 
 
 def part(kind: type[Part], table: Table | None, exclude_none: bool = False) -> Part | None:
-    """The part whose attributes are the fields of the table, where there is one."""
+    """The part whose attributes are the fields of the table; `None` without a table."""
     return None if table is None else kind(**table.model_dump(exclude_none=exclude_none))
 
 
 def laws_of(kind: type[Part], model: type[Table], table: Table, **made: Any) -> Part:
     """The laws of the raceways.
 
-    **Arguments:** `model`: class of the table; `made`: fields that are made from what the table has, such as a law from
-    its name. The other fields of the class are taken as the table has them, or have their defaults where it lacks them.
+    **Arguments:** `model`: class of the table; `made`: fields that are built from the table, such as a law from
+    its name. The other fields of the class have the values of the table, or their defaults if the table lacks them.
     """
     names = {field.name for field in dataclasses.fields(kind)} & model.model_fields.keys()  # pyright: ignore[reportArgumentType]
     return kind(**made, **{name: getattr(table, name) for name in names - made.keys()})
@@ -109,7 +109,7 @@ def seats(table: Any) -> dict[str, Callable[[], Any]]:
 
 
 def shapes(table: Any) -> dict[str, Callable[[], Any]]:
-    """The parts of a bearing whose rings bend or are not round, as `built` takes them."""
+    """The parts that describe flexible rings and out-of-round raceways, as `built` takes them."""
     return {
         "outer_ring": lambda: part(FlexibleRing, table.outer_ring),
         "inner_ring": lambda: part(FlexibleInnerRing, table.inner_ring),
@@ -126,7 +126,7 @@ def _fits(table: FitsTable) -> Fits:
 
 
 def solids(table: Any, *names: str) -> dict[str, Material]:
-    """The materials of these fields, as far as given; with thermal properties where the parts have temperatures."""
+    """The given materials of these fields, with thermal properties if the parts have temperatures."""
     try:
         thermal = table.temperatures is not None or table.thermal is not None
     except Unreadable:
@@ -136,5 +136,5 @@ def solids(table: Any, *names: str) -> dict[str, Material]:
 
 
 def cage(kind: type[Cage], table: Any) -> Cage | None:
-    """The cage that a table describes, where there is one."""
+    """The cage that a table describes; `None` without a table."""
     return None if table is None else kind(**{**table.model_dump(), "turbulence": TURBULENCE[table.turbulence]()})

@@ -1,4 +1,4 @@
-"""The table [catalogue] of a bearing's scene file, which is no part of the scene: no result depends on it."""
+"""The table [catalogue] of a bearing's scene file. It is not a part of the scene: no result depends on it."""
 
 from pathlib import Path
 
@@ -10,10 +10,9 @@ from .schema import CatalogueTable
 
 
 def load_catalogue(source: str | Path, overrides: Overrides | None = None) -> Catalogue | None:
-    """The bearing as a catalogue names it, of a scene that `load_scene` takes with the same arguments; `None` without
-    the table.
+    """The catalogue data of a scene's bearing; `None` without a table [catalogue]. Arguments as for `load_scene`.
 
-    **Raises:** `SceneError` as `load_scene`, which names all that is wrong with the table.
+    **Raises:** `SceneError` as `load_scene`, which reports all errors of the table.
     """
     label, mapping = read_tables(source)
     texts = as_texts(overrides)

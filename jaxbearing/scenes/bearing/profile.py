@@ -1,4 +1,4 @@
-"""The table [profile] of a scene file: the rollers' generators, and the laminae into which they are cut."""
+"""The table [profile] of a scene file: the profile of the rollers and the number of laminae."""
 
 from collections.abc import Mapping
 from typing import ClassVar, Literal
@@ -9,15 +9,15 @@ from ..table import Problems, check, refusal_at
 from ..table_of import table_of
 
 _OF_LAW = {"drop": ("crowned", "logarithmic"), "straight_fraction": ("crowned",), "end_ratio": ("logarithmic",)}
-"""Field -> the shapes that it is about."""
+"""Field -> shapes that have this field."""
 
 
 class ProfileTable(
     table_of(*(RollerProfile, CrownedProfile, LogarithmicProfile), optional=("drop", "straight_fraction", "end_ratio"))
 ):
-    """`shape` and its numbers; see `contacts.profile`.
+    """Shape of the roller profile and its numbers; see `contacts.profile`.
 
-    - `shape`: of the roller along its length
+    - `shape`: shape of the roller along its length
     """
 
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {"shape": ("drop", "straight_fraction", "end_ratio")}
@@ -37,7 +37,7 @@ class ProfileTable(
 
 
 def roller_profile(table: ProfileTable | None) -> RollerProfile | None:
-    """The part that a table describes, where there is one."""
+    """The profile that a table describes; `None` without a table."""
     if table is None:
         return None
     given = table.model_dump(include={"drop", "straight_fraction", "end_ratio"}, exclude_none=True)

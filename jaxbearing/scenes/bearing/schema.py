@@ -1,4 +1,4 @@
-"""Common tables of the scene files of all bearings: cage, operating point, and what these need of the oil."""
+"""Tables that the scene files of all bearings have, and checks that the oil has the laws and flow that they need."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -25,7 +25,7 @@ TURBULENCE_OF_CAGES = {field.name: field for field in dataclasses.fields(Abstrac
 
 
 class CageBase(Table):
-    """- `turbulence`: flow regime of the lands."""
+    """- `turbulence`: flow regime of the cage lands."""
 
     turbulence: Annotated[str, TURBULENCE] = TURBULENCE.name_of(TURBULENCE_OF_CAGES)
 
@@ -45,17 +45,17 @@ class SupplyTable(table_of(Supply)):
 
 
 class DisplacementTable(table_of(HeldDisplacement)):
-    """Given displacements of the inner ring."""
+    """Prescribed displacements of the inner ring."""
 
 
 class OperationBase(Table):
-    """The operating point; which loads and displacements a kind of bearing needs its class says."""
+    """The operating point. The class of the bearing kind defines the loads and displacements that it needs."""
 
     displacement: DisplacementTable | None = None
 
 
 def operation_table(operation: type[AbstractOperation]) -> Any:
-    """The operating point of a kind of bearing. The oil is needed by lubricated bearings only."""
+    """The table of the operating point of a bearing kind. Only lubricated bearings need the fields of the oil."""
     return table_of(operation, optional=("oil_temperature", "oil_flow"), base=OperationBase)
 
 
@@ -71,28 +71,28 @@ class TemperaturesTable(table_of(PartTemperatures)):
 
 
 class ConductanceTable(table_of(Conductances)):
-    """Conductances that are given instead of computed."""
+    """Conductances that replace computed ones."""
 
 
 class CapacityTable(table_of(Capacities)):
-    """Heat capacities that are given instead of computed."""
+    """Heat capacities that replace computed ones."""
 
 
 class ConductanceFactorTable(table_of(ConductanceFactors)):
-    """Factors of groups of conductances."""
+    """Factors for groups of conductances."""
 
 
 class ShareTable(table_of(Shares)):
-    """Parts of the losses that heat the first of two bodies."""
+    """Fractions of the losses that heat the first of two bodies."""
 
 
 class ThermalTable(table_of(Thermal)):
     """The thermal network; see `thermal.settings.Thermal`.
 
-    - `conductance`: conductances that are given instead of computed
-    - `capacity`: heat capacities that are given instead of computed
-    - `factor`: factors of groups of conductances
-    - `share`: parts of the losses that heat the first of two bodies
+    - `conductance`: conductances that replace computed ones
+    - `capacity`: heat capacities that replace computed ones
+    - `factor`: factors for groups of conductances
+    - `share`: fractions of the losses that heat the first of two bodies
     """
 
     conductance: ConductanceTable | None = None
@@ -118,7 +118,7 @@ class OuterRoundnessTable(table_of(OuterRoundness)):
 
 
 class RatingTable(table_of(Rating)):
-    """Inputs of the life; see `bearings.rating.Rating`."""
+    """Inputs of the rating life; see `bearings.rating.Rating`."""
 
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {
         "cleanliness": ("contamination_factor",),
@@ -127,7 +127,7 @@ class RatingTable(table_of(Rating)):
 
 
 def heating_problems(contact: Any) -> Problems:
-    """Refusal of an inlet heating of rolling resistance without a law of it. **Arguments:** `contact`, the table."""
+    """Refuses `rolling_heating` without a law of rolling resistance. **Arguments:** `contact`: the table [contact]."""
     if contact.rolling_heating is not None and contact.rolling_resistance is None:
         yield refusal_at("rolling_resistance", "a law, without which rolling_heating has no meaning", "nothing")
 
@@ -135,7 +135,7 @@ def heating_problems(contact: Any) -> Problems:
 class CatalogueTable(table_of(Catalogue)):
     """The bearing as a catalogue names it, for `jaxbearing compare`; see `makers.Catalogue`. No result depends on it.
 
-    - `designation`: such as "6205-2RSH", "NU 210 ECP" or "32216", for what it says of series, bore and seals
+    - `designation`: such as "6205-2RSH", "NU 210 ECP" or "32216"; series, bore and seals are read from it
     - `series`: as the makers' tables name it, such as "62", "72B", "2" (of NU 2) or "320X"
     """
 
@@ -144,7 +144,7 @@ class CatalogueTable(table_of(Catalogue)):
 
 
 def require_oil_flow(drag: Table | None, operation: Any) -> Problems:
-    """Refusal of a scene with drag that does not say how much oil flows."""
+    """Refuses a scene with drag but without an oil flow."""
     if drag is not None and operation.oil_flow is None:
         yield refusal_at("operation.oil_flow", "a volume flow, which [drag] needs, e.g. '150 l/h'", "nothing")
 
@@ -156,11 +156,11 @@ def require_oil(
     density: str,
     laws: Mapping[str, Laws[Any]],
 ) -> Problems:
-    """Refusals of a scene that lacks what the laws of the raceway contacts need.
+    """Refuses a scene without the oil and the oil data that the laws of the raceway contacts need.
 
     **Arguments:**
     - `contact`: with the fields `thermal`, `traction` and `rolling_heating`.
-    - `density`: what needs the density of the oil, in words; "" where nothing does.
+    - `density`: name of the feature that needs the density of the oil, in words; "" if none does.
     - `laws`: fields of `contact` whose laws may need an oil whose viscosity rises with pressure -> their laws.
     """
     if operation.oil_temperature is None:
@@ -176,7 +176,7 @@ def require_oil(
 
 
 def law_in_words(contact: Table, name: str) -> str:
-    """A law of the table as it stands in the file; "" where it names none."""
+    """A law of the table as written in the file, e.g. "contact.thermal = 'gupta'"; "" without a law."""
     law = getattr(contact, name)
     return f"contact.{name} = '{law}'" if law else ""
 

@@ -1,6 +1,6 @@
-"""The table [simulation] of a scene file: what a transient run does beyond the operating point.
+"""The table [simulation] of a scene file: settings of a transient run.
 
-A bearing with [thermal] runs in its temperatures, one without in the motion of its rolling elements.
+With [thermal] the run computes temperatures, without it the motion of the rolling elements.
 """
 
 import dataclasses
@@ -27,15 +27,15 @@ _OF_BALLS = (*_NUMBERS_OF_BALLS, "meridian")
 
 
 class PerturbationTable(table_of(Sinusoidal)):
-    """A factor 1 + amplitude sin(2 pi frequency t); a bearing's speed and load do not reverse."""
+    """A factor 1 + amplitude sin(2 pi frequency t); a bearing's speed and load must not reverse."""
 
     amplitude: units.Fraction
 
 
 class InletRampTable(table_of(LinearRamp)):
-    """A factor that goes from `start` to `stop`, smoothly or straight; of the oil inlet it may be below 0.
+    """A factor that goes from `start` to `stop`, smoothly or linearly. The factor of the oil inlet may be negative.
 
-    - `shape`: 'linear' needs [thermal]: in a run of the rollers a kink of the speed would be a shock of its own
+    - `shape`: 'linear' needs [thermal]: in a run of the rolling elements a kink in the speed would act as a shock
     """
 
     stop: units.Number = 1.0
@@ -48,18 +48,18 @@ class InletRampTable(table_of(LinearRamp)):
 
 
 class RampTable(InletRampTable):
-    """A factor that goes from `start` to `stop`, smoothly or straight; a bearing's speed and load do not reverse."""
+    """A factor that goes from `start` to `stop`, smoothly or linearly; a bearing's speed and load must not reverse."""
 
     start: units.NonNegativeNumber
     stop: units.NonNegativeNumber = 1.0
 
 
 class FactorTable(Table):
-    """A factor over time, by straight lines: from a CSV file, see `time_tables`, or from lists in the scene.
+    """A factor over time, linear between points, from a CSV file (see `time_tables`) or from lists in the scene.
 
-    - `file`: CSV with a column of time and one of the value or its factor
-    - `times`: in place of a file
-    - `factors`: at these times, over the value of the operating point
+    - `file`: CSV file with a column of times and a column of values or factors
+    - `times`: times of the factors, s, in place of a file
+    - `factors`: ratios to the value of the operating point at these times
     """
 
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {
@@ -90,15 +90,15 @@ class FactorTable(Table):
 
 
 class RotatingLoadTable(table_of(RotatingLoad)):
-    """A turning load beside the radial one."""
+    """A rotating load in addition to the radial load."""
 
 
 class CoursesTable(Table):
-    """Courses over time: of speed and load, and in a run of temperatures of the oil.
+    """Speed and load over time, and in a run of temperatures also inlet temperature and flow of the oil.
 
-    - `oil_inlet_perturbation`: of what the oil that enters is warmer than the ambient
-    - `oil_inlet_ramp`: of what the oil that enters is warmer than the ambient
-    - `oil_inlet_table`: of what the oil that enters is warmer than the ambient
+    - `oil_inlet_perturbation`: factor of the temperature difference between oil inlet and ambient
+    - `oil_inlet_ramp`: factor of the temperature difference between oil inlet and ambient
+    - `oil_inlet_table`: factor of the temperature difference between oil inlet and ambient
     """
 
     speed_perturbation: PerturbationTable | None = None
@@ -115,7 +115,7 @@ class CoursesTable(Table):
     oil_flow_table: FactorTable | None = None
 
     def given(self, name: str) -> list[str]:
-        """Fields that give a course of a quantity."""
+        """Names of the given fields that describe a quantity over time."""
         return [field for field in (f"{name}_{law}" for law in _LAWS) if getattr(self, field) is not None]
 
     @check
@@ -131,7 +131,7 @@ class CoursesTable(Table):
 
     @check
     def _tables(self) -> Problems:
-        """Refuses numbers in lists that the run cannot use."""
+        """Refuses factors in lists that a run cannot use."""
         rules = {
             "speed": ("> 0: at rest the films vanish", True, True),
             "load": (">= 0, the first one > 0", True, False),
@@ -147,7 +147,7 @@ class CoursesTable(Table):
 
 
 class WarmUpTable(table_of(WarmUpSimulation, base=CoursesTable)):
-    """See `bearings.warming.settings.WarmUpSimulation`; a steady solve does not look at it."""
+    """See `bearings.warming.settings.WarmUpSimulation`; a steady solve ignores it."""
 
 
 class SimulationTable(
@@ -160,14 +160,14 @@ class SimulationTable(
 ):
     """See `bearings.motion.settings.Simulation`, and with [thermal] `bearings.warming.settings.WarmUpSimulation`.
 
-    A solver that is not given is that of the class. Start, instants and courses of the oil need [thermal]; a load that
-    turns must not stand beside it.
+    The class provides the default solver. `start`, `instants` and the fields of the oil need [thermal];
+    `rotating_load` is not allowed with it.
     """
 
     rotating_load: RotatingLoadTable | None = None
 
     def of_other_run(self, warm: bool) -> Problems:
-        """Refusals of what belongs to the other kind of run. **Arguments:** `warm`: whether the file has [thermal]."""
+        """Refuses fields of the other kind of run. **Arguments:** `warm`: True if the file has [thermal]."""
         if warm:
             if self.solver is not None and self.solver not in WARM_UP_SOLVERS:
                 expected = f"{one_of(WARM_UP_SOLVERS)} beside [thermal], whose run is stiff"
@@ -195,7 +195,7 @@ class BallSimulationTable(table_of(Simulation, leave_out=_SHARED, base=Simulatio
     """See `bearings.motion.settings.Simulation`, and with [thermal] `bearings.warming.settings.WarmUpSimulation`."""
 
     def of_other_run(self, warm: bool) -> Problems:
-        # by its name: a draft of a file has the fields of this class, and is none of it
+        # called on the class: `self` may be a `Draft`, which has the fields of this class but is not an instance of it
         yield from SimulationTable.of_other_run(self, warm)
         for name in _NUMBERS_OF_BALLS if warm else ():
             if getattr(self, name) is not None:
@@ -204,8 +204,8 @@ class BallSimulationTable(table_of(Simulation, leave_out=_SHARED, base=Simulatio
 
 
 def simulation(table: SimulationTable, inner_speed: float, load: float) -> Simulation:
-    """The run of the rolling elements that a table describes. **Arguments:** speed, rad/s, and load, N, of the
-    operating point; a load of 0 where a file can only give factors.
+    """The run of the rolling elements that a table describes. **Arguments:** `inner_speed`, rad/s, and
+    `load`, N, of the operating point; a load of 0 means that a file can only give factors.
 
     **Raises:** `SceneError` for a file that cannot be read or makes no sense.
     """
@@ -225,7 +225,7 @@ def simulation(table: SimulationTable, inner_speed: float, load: float) -> Simul
 def warm_up(table: Any) -> WarmUpSimulation | None:
     """The run of temperatures that the file of a bearing describes; `None` without [simulation].
 
-    **Arguments:** `table`: of the whole file.
+    **Arguments:** `table`: table of the whole file.
 
     **Raises:** as `simulation`.
     """
@@ -238,7 +238,7 @@ def warm_up(table: Any) -> WarmUpSimulation | None:
 
 
 def _steady(table: Any, name: str) -> tuple[float, float]:
-    """Values, SI, for which a factor is 0 and 1; both the same where a file can only give factors."""
+    """Values, SI, that correspond to the factors 0 and 1; equal values mean that a file can only give factors."""
     operation, thermal = table.operation, table.thermal
     match name:
         case "speed":
@@ -279,4 +279,4 @@ _NO_UNIT = {
     "oil_inlet": "thermal.oil_inlet is the temperature of the ambient, or is not given",
     "oil_flow": "operation.oil_flow is 0",
 }
-"""Causes for which a file cannot have values in place of factors."""
+"""Reasons why a file can only give factors and not values."""

@@ -12,7 +12,9 @@ def simulation(
 ) -> Rows | None:
     """The table of a run; `None` if the scene has none.
 
-    **Arguments:** `table`: that of a run of the family. **Raises:** `SceneError` for what a file cannot hold.
+    **Arguments:** `table`: schema of [simulation] for the kind of bearing.
+
+    **Raises:** `SceneError` for what a file cannot hold.
     """
     if part is None:
         return None

@@ -31,33 +31,33 @@ def bearing_tables(scene: AbstractBearing, model: type[Table], **own: Rows | Non
 
     **Arguments:**
     - `model`: of the whole file.
-    - `own`: what the tables of parts with laws say beside what follows from their class, by name; `None` for a part
-      that is not modelled.
+    - `own`: name of a table -> entries that `rows` does not find, such as names of laws; `None` for a part that is
+      not modelled.
     """
     tables: Rows = {}
     for name in sorted(model.model_fields, key=lambda name: _ORDER.index(name) if name in _ORDER else len(_ORDER)):
         table, part = plain_table_at(model, name), getattr(scene, name, None)
         if table is None or part is None:
             continue
-        # files give the materials of a seat thermal properties, those of the bearing where its parts have temperatures
+        # materials from files have thermal properties in [fits], and in [materials] if the parts have temperatures
         warm = scene.temperatures is not None or scene.thermal is not None
         thermal = name == "fits" or (name == "materials" and warm)
         tables[name] = scene_oil(part) if name == "oil" else _joined(own.get(name) or {}, rows(table, part, thermal))
     tables["operation"] = _operation(tables["operation"], scene)
     if "thermal" in tables:
-        # parts of which nothing is given
+        # inner tables without entries are left out
         tables["thermal"] = {name: value for name, value in tables["thermal"].items() if value != {}}
     return {"kind": scene.kind} | tables
 
 
 def _joined(own: Rows, found: Rows) -> Rows:
-    """Both tables; where both have a table inside, what either says of it."""
+    """Both tables merged, and also the inner tables that both have."""
     inner = lambda name, value: own[name] | value if isinstance(value, dict) and name in own else value
     return own | {name: inner(name, value) for name, value in found.items()}
 
 
 def _operation(found: Rows, scene: AbstractBearing) -> Rows:
-    """The operating point without what a bearing without oil leaves at its default."""
+    """The operating point. For a bearing without oil, fields of the oil with their default values are left out."""
     if scene.oil is not None or scene.contact is not None:
         return found
     assumed = {field.name: field.default for field in dataclasses.fields(scene.operation) if field.name in _OF_OIL}
@@ -73,7 +73,7 @@ def cage(table: type[Table], part: AbstractCage | None) -> Rows | None:
 
 
 def profile(part: RollerProfile | None) -> Rows | None:
-    """The shape in the table [profile]."""
+    """The shape of the rollers and its numbers, for the table [profile]."""
     if part is None:
         return None
     words = {type(None): "straight", CrownedProfile: "crowned", LogarithmicProfile: "logarithmic"}
@@ -84,7 +84,7 @@ def profile(part: RollerProfile | None) -> Rows | None:
 
 
 def raceway_laws(contact: Any) -> Rows:
-    """The laws of a roller bearing's raceways by name, but for the traction."""
+    """Names of the laws of a roller bearing's raceways, except traction."""
     rolling = contact.rolling
     return given(
         {
@@ -103,12 +103,12 @@ def thermal_law(laws: Laws[Any], law: object) -> str | None:
 def flow_law(
     viscous: AbstractViscousFunction | None, oil: Lubricant | None, path: str, laws: Laws[Any] = TRACTIONS
 ) -> str:
-    """The name of a flow law with this oil."""
+    """The name of a flow law, whose exponent comes from the oil."""
     return law_name(laws, viscous, path, lambda name: viscous_function(name, oil))
 
 
 def march_accuracy(traction: DistributedTraction, path: str, spin: bool) -> float:
-    """The accuracy for which files have this resolution of the traction."""
+    """The value of `traction_accuracy` that gives this resolution of the traction."""
     known = {Resolution.for_accuracy(accuracy, spin): accuracy for accuracy in PRESETS}
     if traction.resolution not in known:
         expected = f"one of those that traction_accuracy has: {', '.join(map(shown, known))}"

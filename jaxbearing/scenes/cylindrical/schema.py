@@ -48,11 +48,11 @@ class MaterialsTable(RingMaterialsTable):
 
 
 class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
-    """Laws of the raceway contacts, by the names in `scenes.contact_laws`, which says what each stands for.
+    """Laws of the raceway contacts by name; `scenes.laws` lists the names.
 
-    - `traction_model`: the law at the mean Hertz pressure, or marched through the pressure
-    - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
-    - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
+    - `traction_model`: the law at the mean Hertz pressure, or marched through the pressure distribution
+    - `traction_accuracy`: relative error of the traction forces, for which the integration over the contact is resolved
+    - `rolling_resistance`: law of the raceways; `true`: the first of these laws; not given: none
     - `supply`: how much oil reaches the raceways; not given: they are fully flooded
     - `mixed`: mixed friction of rough raceways; not given: the films carry all of the loads
     """

@@ -1,4 +1,4 @@
-"""From a valid table of a line contact to the scene of the library."""
+"""Builds the scene of a line contact from its valid table."""
 
 import dataclasses
 
@@ -36,13 +36,13 @@ def line_contact(table: LineContactTable) -> EHLLineContact:
         operation=lambda: ContactOperation(**table.operation.model_dump()),
         simulation=lambda: None if table.simulation is None else _simulation(table.simulation),
     )
-    # inside of a program, too, the scene is made of numbers
+    # inside a traced program, too, the scene is made of known numbers
     with jax.ensure_compile_time_eval():
         return scene.replace({"contact": _fine_enough(scene, table.contact)})
 
 
 def _model(table: FilmModelTable) -> FilmModel:
-    """Before the load is known that says how finely it must be cut."""
+    """The settings of the contact before the mesh is adapted to the load (`_fine_enough`)."""
     nodes = table.nodes if table.nodes is not None else ACCURACIES[table.accuracy or DEFAULT_ACCURACY]
     inlet = INLET if table.inlet is None else table.inlet
     accuracy = table.accuracy if table.nodes is not None else table.accuracy or DEFAULT_ACCURACY
@@ -52,7 +52,7 @@ def _model(table: FilmModelTable) -> FilmModel:
 
 
 def _fine_enough(scene: EHLLineContact, table: FilmModelTable) -> FilmModel:
-    """Nodes and inlet that the load needs, where the table leaves them open."""
+    """The settings of the contact, with the nodes and the inlet length that the load needs if the table omits them."""
     scales, model = scene.scales(), scene.contact
     if not bool(scene.solvable(scales, scene.operation.entrainment_speed / scales.reference_speed)):
         return model

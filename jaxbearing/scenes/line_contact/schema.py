@@ -1,5 +1,5 @@
-"""The scene file of a line contact. Names are the attribute names of the classes that it builds, except for how
-accuracy chooses the mesh (see `line_contact.build`)."""
+"""The scene file of a line contact. Names are the attribute names of the classes that it builds, except for
+`accuracy`, which chooses the mesh (see `line_contact.build`)."""
 
 from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
@@ -17,8 +17,8 @@ from ..table_of import table_of
 from ..time_tables import check_lists
 
 ACCURACIES: dict[float, int] = {1e-2: 201, 2e-3: 501, 1e-3: 801, 3e-4: 1601}
-"""Relative error of the steady films -> fewest nodes of the mesh, enough at moderate loads; heavy ones take more (see
-`ehl.resolution`)."""
+"""Relative error of the steady films -> minimum number of nodes, which is enough at moderate loads; heavy loads need
+more (see `ehl.resolution`)."""
 DEFAULT_ACCURACY = 2e-3
 Accuracy = Annotated[float, units.among_note(ACCURACIES)]
 
@@ -35,8 +35,8 @@ class ContactBodiesTable(Table):
 class FilmModelTable(table_of(FilmModel, optional=("nodes", "inlet"))):
     """Numerical settings of the contact.
 
-    - `accuracy`: relative error of the steady films for which mesh and inlet are chosen, by the load of the scene, as
-      far as they are not given; a warning says where they leave more
+    - `accuracy`: relative error of the steady films, for which nodes and inlet are chosen by the load of the scene if
+      they are not given; a warning reports larger errors
     """
 
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"accuracy": ("nodes",), "nodes": ("accuracy",)}
@@ -53,7 +53,7 @@ class ContactOperationTable(table_of(ContactOperation)):
 
 
 class SpeedRampTable(table_of(LinearRamp)):
-    """A factor from `start` to `stop`; straight, or smooth (a quintic); at once for a duration of 0."""
+    """A factor that goes from `start` to `stop`, linearly or smoothly (quintic); a duration of 0 is a step."""
 
     start: units.Number = 1.0
     stop: units.Number = 0.0
@@ -68,7 +68,7 @@ class SpeedRampTable(table_of(LinearRamp)):
 
 
 class SpeedTable(Table):
-    """Straight lines between times, as factors."""
+    """Factors at given times, linear between them."""
 
     times: units.Times
     factors: units.Numbers
@@ -81,7 +81,7 @@ class SpeedTable(Table):
 
 
 class FilmPerturbationTable(table_of(Sinusoidal)):
-    """A factor 1 + amplitude sin(2 pi frequency t); beyond an amplitude of 1 the motion reverses."""
+    """A factor 1 + amplitude sin(2 pi frequency t); with an amplitude above 1 the motion reverses."""
 
 
 class FilmSimulationTable(table_of(FilmSimulation)):

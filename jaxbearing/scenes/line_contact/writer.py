@@ -35,10 +35,10 @@ def line_contact_tables(scene: EHLLineContact) -> Rows:
 
 
 def line_contact_text(scene: EHLLineContact, header: Iterable[str], origins: Mapping[str, Origin] | None = None) -> str:
-    """The text of a scene file whose oil says where its values come from; its load chooses the mesh, where that of the
-    scene is the default.
+    """The text of a scene file that gives the sources of the oil data. If the scene has the default mesh, the file has
+    `accuracy` in its place, so that the load chooses the mesh.
 
-    **Arguments:** `header`: lines of comment at the top; `origins`: of the laws of the oil, by name.
+    **Arguments:** `header`: lines of comment at the top; `origins`: name of a law of the oil -> its origin.
 
     **Raises:** `ValueError` for a law of the oil that files do not know.
     """

@@ -1,4 +1,4 @@
-"""Oils: the data files of the catalogue, and the `Lubricant` that an oil table describes."""
+"""Reads the oils of the catalogue and makes the `Lubricant` that an oil table describes."""
 
 import tomllib
 from collections.abc import Mapping
@@ -29,15 +29,15 @@ from .grades import grade_named
 from .schema import DOCUMENTATION, LAWS, Law, OilTable, builds
 
 ROOM_TEMPERATURE = 293.15
-"""K; reference of a linear law without a slope, where it has no effect."""
+"""Reference temperature, K, of a linear law without a slope, on which it has no effect."""
 
 
 def load_oil(name: str, base: str | None = None) -> Lubricant:
     """An oil of the catalogue by its name, or a standard oil by its grade.
 
-    **Arguments:** `base`: base stock of a grade, mineral if not given.
+    **Arguments:** `base`: base stock of a grade; "mineral" if not given.
 
-    **Raises:** `SceneError` for a name, a grade or a base stock that there is not.
+    **Raises:** `SceneError` for an unknown name, grade or base stock.
     """
     if (isinstance(name, str) and grade_named(name) is not None) or base is not None:
         given = {"grade": name} if base is None else {"grade": name, "base": base}
@@ -55,13 +55,12 @@ def oil_data(name: str) -> dict[str, object]:
 
 
 def with_catalogue(oil: Mapping[str, Any]) -> dict[str, Any]:
-    """An oil table together with what its `name`, its `grade` or its `file` stands for; what the table itself says
-    prevails.
+    """An oil table merged with the data of its `name`, `grade` or `file`; entries of the table itself take precedence.
 
-    A law table without `law`, or with the law of the catalogue, changes single parameters; with another law it
-    replaces the catalogue's. The catalogue's pressure-viscosity coefficient belongs to its viscosity: where that is
-    changed, the coefficient is integrated anew. The same goes for the laws of a file. An unknown name is left for the
-    validation to refuse.
+    A table of a law without `law`, or with the same law as the catalogue, changes single parameters; with another law
+    it replaces the law of the catalogue. If the viscosity is changed, the pressure-viscosity coefficient of the
+    catalogue is dropped and integrated from the new viscosity. The same rules hold for an oil file. The validation
+    refuses an unknown name.
 
     **Raises:** `SceneError` for a file that cannot be read or is not an oil.
     """
@@ -73,11 +72,11 @@ def with_catalogue(oil: Mapping[str, Any]) -> dict[str, Any]:
     for key, own in oil.items():
         theirs = merged.get(key)
         if isinstance(own, Mapping) and isinstance(theirs, Mapping) and own.get("law", theirs["law"]) == theirs["law"]:
-            # a note on the catalogue's values does not speak for those that replace them, be they the same
+            # a note on the catalogue's values does not apply to values that replace them, even if these are equal
             replaced = any(key not in DOCUMENTATION for key in own)
             kept = {name: value for name, value in theirs.items() if name != "note" or not replaced}
             if own.get("viscous_function", kept.get("viscous_function")) != kept.get("viscous_function"):
-                # it belongs to the viscous function that is replaced
+                # the exponent belongs to the viscous function that is replaced
                 kept.pop("exponent", None)
             merged[key] = {**kept, **own}
         else:
@@ -90,7 +89,7 @@ def _changes(own: object, theirs: Mapping[str, object]) -> bool:
 
 
 def missing_sources(data: Mapping[str, object]) -> list[str]:
-    """Dotted paths of the values of an oil file whose source is not given (`all` speaks for a whole law)."""
+    """Dotted paths of the values of an oil file without a source (`all` is the source of all values of a law)."""
     missing = []
     for law, table in data.items():
         if isinstance(table, Mapping):
@@ -101,7 +100,7 @@ def missing_sources(data: Mapping[str, object]) -> list[str]:
 
 
 def lubricant(table: OilTable) -> Lubricant:
-    """The laws of a valid oil table, its parameters numpy scalars."""
+    """The lubricant that a valid oil table describes, with numpy scalars as parameters."""
     density = None if table.density is None else LinearDensity(**_linear(table.density))
     viscosity = _viscosity(table, density)
     laws = [getattr(table, name) for name in LAWS]
@@ -138,7 +137,7 @@ def _rheology(table: Any) -> AbstractRheology:
 
 
 def _linear(law: float | Law) -> dict[str, object]:
-    """Parameters of a linear law; a number is the same at every temperature."""
+    """Parameters of a linear law. A plain number means a constant."""
     if isinstance(law, Law):
         return _parameters(law)
     return {"value": np.float64(law), "slope": np.float64(0.0), "reference_temperature": np.float64(ROOM_TEMPERATURE)}

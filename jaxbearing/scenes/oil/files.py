@@ -1,4 +1,4 @@
-"""Oils in files of their own, and where the numbers of a scene's oil come from."""
+"""Oil files, and the origins of the numbers of a scene's oil."""
 
 from collections.abc import Mapping
 from typing import Any, NamedTuple
@@ -14,14 +14,14 @@ _EXPECTED = "an oil file: the tables of [oil] in a scene, such as [viscosity], a
 
 
 class Origin(NamedTuple):
-    """Origin of a law: `sources` of its parameters, in words; `note` that solutions with it repeat, or ""."""
+    """Origin of a law: `sources` of its parameters, in words; `note` that is repeated in solutions, or ""."""
 
     sources: dict[str, str]
     note: str
 
 
 def read_oil(path: str) -> dict[str, object]:
-    """The tables of an oil file, less its own name.
+    """The tables of an oil file without its `name`.
 
     **Raises:** `SceneError` for a file that cannot be read or is not an oil.
     """
@@ -38,8 +38,8 @@ def read_oil(path: str) -> dict[str, object]:
 
 
 def base_of(oil: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The tables that the `name`, the `grade` or the `file` of an oil table stands for; `None` without one of them, and
-    where the validation is to refuse them.
+    """The tables of the oil that the `name`, the `grade` or the `file` of an oil table refers to; `None` without one of
+    these, and if they are invalid, which the validation reports.
 
     **Raises:** `SceneError` for a file that cannot be read or is not an oil.
     """
@@ -56,10 +56,10 @@ def base_of(oil: Mapping[str, Any]) -> dict[str, Any] | None:
 
 
 def prior_ranges(oil: Mapping[str, Any]) -> dict[str, Any]:
-    """The parameters of a scene's oil that are a prior of its catalogue or file, as distributions that a scene file
-    could have: {law: {parameter: {"low": ..., "high": ..., "shape": "uniform"}}}.
+    """Prior distributions that the catalogue or the oil file gives for parameters of a scene's oil, in the form of a
+    scene file: {law: {parameter: {"low": ..., "high": ..., "shape": "uniform"}}}.
 
-    What the scene sets itself is none of them. **Raises:** `SceneError` for a file that cannot be read.
+    Parameters that the scene itself sets have no prior. **Raises:** `SceneError` for a file that cannot be read.
     """
     found: dict[str, Any] = {}
     for law, theirs in (base_of(oil) or {}).items():
@@ -73,8 +73,8 @@ def prior_ranges(oil: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def origins(oil: Mapping[str, Any], scene: str) -> dict[str, Origin]:
-    """Origin of each law of a valid oil table, as it stands in a scene of this name: the sources that the catalogue or
-    the oil file gives, and the scene itself for what it sets."""
+    """Origin of each law of a valid oil table: the sources in the catalogue or the oil file, or the scene itself for
+    the values that it sets. **Arguments:** `scene`: name of the scene."""
     base = base_of(oil) or {}
     found = {}
     for law in dict.fromkeys([*base, *oil]):
@@ -90,7 +90,7 @@ def origins(oil: Mapping[str, Any], scene: str) -> dict[str, Origin]:
 
 
 def _law(value: object) -> Mapping[str, Any]:
-    """The table of a law; a plain value is that of the parameter `value`."""
+    """The table of a law. A plain value becomes the parameter `value`."""
     if value is None:
         return {}
     return value if isinstance(value, Mapping) else {"value": value}

@@ -11,9 +11,9 @@ from ..data_files import grades_text
 from ..errors import nearest, one_of
 
 DEFAULT_BASE = "mineral"
-"""Base stock of a grade that comes without one."""
+"""Base stock of a grade if none is given."""
 POINTS = (313.15, 373.15)
-"""Temperatures, K, at which the viscosities of a grade are given to its law."""
+"""Temperatures, K, of the two viscosities that define the law of a grade."""
 _ALSO = {"pag": "polyglycol"}
 """Further names of base stocks."""
 _LAWS = ("viscosity", "rheology", "density", "conductivity", "heat_capacity")
@@ -31,20 +31,20 @@ def bases() -> tuple[str, ...]:
 
 
 def base_named(given: object) -> str | None:
-    """The base stock of this name in any case, e.g. "pao" or "PAG"; `None` for something else."""
+    """The base stock with this name in upper or lower case, e.g. "pao" or "PAG"; `None` if there is none."""
     by_lower = {base.lower(): base for base in bases()} | _ALSO
     return by_lower.get(given.strip().lower()) if isinstance(given, str) else None
 
 
 def grades(base: str | None = None) -> tuple[str, ...]:
-    """Grades of a base stock, the thin ones first; without one those of any base stock."""
+    """Grades of a base stock, or of all base stocks, in the order of rising viscosity."""
     chosen = bases() if base is None else (base,)
     numbers = {int(number) for one in chosen for number in _data()[one]["grades"]}
     return tuple(_name(number) for number in sorted(numbers))
 
 
 def grade_named(given: object) -> str | None:
-    """The grade, "ISO VG 68", that a person may call "iso vg 68", "VG68" or 68; `None` for what is no grade at all."""
+    """The grade "ISO VG 68" for a text such as "iso vg 68" or "VG68", or for 68; `None` for other values."""
     if isinstance(given, int) and not isinstance(given, bool):
         return _name(given)
     found = _GRADE.fullmatch(given.strip()) if isinstance(given, str) else None
@@ -52,7 +52,7 @@ def grade_named(given: object) -> str | None:
 
 
 def nearest_grade(given: object, known: tuple[str, ...]) -> str:
-    """The known grade whose number is nearest by ratio; "" where something without a number is given."""
+    """The known grade with the nearest viscosity by ratio. For a text without a number the nearest name, or ""."""
     grade = grade_named(given)
     if grade is None:
         return nearest(given, known) if isinstance(given, str) else ""
@@ -61,7 +61,7 @@ def nearest_grade(given: object, known: tuple[str, ...]) -> str:
 
 
 def number_of(grade: str) -> int:
-    """Nominal viscosity at 40 C, cSt."""
+    """Nominal viscosity of a grade at 40 degC, cSt."""
     return int(grade.rpartition(" ")[2])
 
 
@@ -70,7 +70,7 @@ def _name(number: int) -> str:
 
 
 def grade_of(oil: Mapping[str, object]) -> tuple[str, str] | None:
-    """Grade and base stock that an oil table names; `None` without a grade, and where the validation refuses them."""
+    """Grade and base stock of an oil table; `None` without a grade, and if they are invalid."""
     grade, base = grade_named(oil.get("grade")), base_named(oil.get("base", DEFAULT_BASE))
     if grade is None or base is None or grade not in grades(base):
         return None
@@ -78,7 +78,7 @@ def grade_of(oil: Mapping[str, object]) -> tuple[str, str] | None:
 
 
 def grade_tables(grade: str, base: str) -> dict[str, Any]:
-    """The tables of the laws of a standard oil, as a file of an oil has them."""
+    """The tables of the laws of a standard oil, as in an oil file."""
     data = _data()[base]
     tables = {law: dict(data[law]) for law in _LAWS}
     line = data["grades"][str(number_of(grade))]
@@ -98,7 +98,7 @@ def viscosity_at(m: float, n: float, temperature: float) -> float:
 
 
 def refused(base: str) -> str:
-    """Names, in words, the grades to take instead of one that a base stock does not have."""
+    """Text for messages that lists the grades of a base stock."""
     return (
         f"a grade of {base} oils: {one_of(grades(base))}; for another oil give two viscosities of its data sheet: "
         "[oil.viscosity] with law = 'two_viscosities'"

@@ -1,4 +1,4 @@
-"""Requirements of a scene on its oil: refused by name of the law that is missing or does not fit."""
+"""Checks that the oil of a scene has the laws that the scene needs; errors name the law."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -11,12 +11,12 @@ from .schema import OilTable, builds
 
 
 def require_laws(oil: OilTable, needs: Mapping[str, str]) -> Problems:
-    """Refusals of a scene whose oil lacks a law.
+    """Refuses a scene whose oil lacks a law.
 
-    **Arguments:** `needs`: name of a law of the oil -> the field that needs it, in words; "" where none does.
+    **Arguments:** `needs`: name of a law of the oil -> field that needs it, in words; "" if none does.
     """
     if oil.viscosity is None:
-        # it is refused as a whole, and whatever is meant may have these laws
+        # the oil is refused as a whole; the intended oil may have these laws
         return
     for law, user in needs.items():
         if user and getattr(oil, law) is None:
@@ -24,9 +24,9 @@ def require_laws(oil: OilTable, needs: Mapping[str, str]) -> Problems:
 
 
 def require_piezoviscous(oil: OilTable, contact: Table, laws: Mapping[str, Laws[Any]]) -> Problems:
-    """Refusals of a scene that names a law that does not hold for an oil of the same viscosity at every pressure.
+    """Refuses a scene whose oil has a viscosity independent of pressure, if a law holds only for piezoviscous oils.
 
-    **Arguments:** `laws`: fields of `contact` -> the laws that they may name.
+    **Arguments:** `laws`: field of `contact` -> laws that it may name.
     """
     if not builds(oil.viscosity, *ISOVISCOUS) or oil.pressure_viscosity is not None:
         return

@@ -1,6 +1,6 @@
-"""The oil of a scene file: one table a law, each with `law = "..."`; the parameters are those of the classes.
+"""The oil of a scene file. Each law is a table with `law = "..."` and the parameters of its class.
 
-The names of the laws are registered here, once: tables, lists in messages, the reading and the writing of oils follow.
+The names of the laws are registered here; tables, messages, readers and writers of oils use them.
 """
 
 from collections.abc import Callable, Mapping
@@ -39,14 +39,14 @@ from ..words import describe
 from . import grades
 
 DOCUMENTATION = ("name", "grade", "base", "file", "description", "law", "sources", "note", "ranges")
-"""Names in an oil table and in the tables of its laws that are no parameters."""
+"""Names in an oil table and in the tables of its laws that are not parameters."""
 LAWS = ("viscosity", "pressure_viscosity", "rheology", "density", "conductivity", "heat_capacity")
 
 
 class Law(Table):
-    """A law; `sources` says where each parameter comes from and is for the reader of the file only, `note` is what a
-    solution that uses the oil repeats among its warnings, `ranges` holds the lowest and the highest value of parameters
-    that are a prior, which `jaxbearing tolerances` takes as uniform distributions."""
+    """A law. `sources` gives the source of each parameter, for readers of the file only. `note` is repeated among the
+    warnings of solutions with the oil. `ranges` gives the lowest and the highest value of parameters that are a prior;
+    `jaxbearing tolerances` uses them as uniform distributions."""
 
     sources: dict[str, str] | None = None
     note: str | None = None
@@ -54,7 +54,7 @@ class Law(Table):
 
 
 class _FallingViscosities(Law):
-    """The rule of two viscosities, in the units of data sheets."""
+    """Check that viscosity falls with temperature; messages have the units of data sheets."""
 
     @check
     def _falls_with_temperature(self) -> Problems:
@@ -70,8 +70,8 @@ _RISE = units.INVERSE_PRESSURE.expected("> 0")
 
 
 class _RisesWithPressure(Law):
-    """A law whose viscosity must rise with pressure in a file, where the opposite is more likely a slip. The class
-    itself allows it, for closed forms."""
+    """Check that viscosity rises with pressure, since a coefficient of 0 in a file is probably an error. The class
+    itself allows 0, for closed-form solutions."""
 
     @check
     def _rises(self) -> Problems:
@@ -81,7 +81,7 @@ class _RisesWithPressure(Law):
 
 
 class _ExponentOfFunction(Law):
-    """The rule of the exponent of a viscous function."""
+    """Check that an exponent is given only for the viscous function that has one."""
 
     @check
     def _exponent_where_there_is_one(self) -> Problems:
@@ -101,8 +101,8 @@ def _law_named(*names: str) -> dict[str, Any]:
 def law_table(name: str, law: type, tag: str | None = None, base: type[Law] = Law) -> type[Law]:
     """The table of a law of an oil.
 
-    **Arguments:** `name`: in files; `law`: the class that has the parameters; `tag`: of the alternative, where it is
-    not the name, or "" where there is none; `base`: with further rules.
+    **Arguments:** `name`: name in files; `law`: class with the parameters; `tag`: tag of the alternative if it is not
+    the name; "" for a field without alternatives; `base`: table with further checks.
     """
     made: Any = create_model(f"{law.__name__}Table", __base__=table_of(law, base=base), **_law_named(name))
     made.tag, made.__doc__ = f"<{name}>" if tag is None else tag, law.__doc__
@@ -143,8 +143,8 @@ def _no_text(value: object) -> Never:
 def _law_field(title: str, laws: Mapping[str, type[Law]], text: object) -> Any:
     """The type of a field that holds a table with a law.
 
-    **Arguments:** `title`: for the stand-in of a table whose `law` is absent or unknown: it only raises the error;
-    `laws`: by name; `text`: the type of what may stand instead of a table.
+    **Arguments:** `title`: part of the name of the table that reports a missing or wrong `law`; `laws`: name -> table;
+    `text`: type of the value that the field accepts instead of a table.
     """
     unknown: Any = create_model(f"Unknown{title}Table", __base__=_Unknown, **_law_named(*laws))
 
@@ -168,12 +168,12 @@ def _text_or_table(value: object) -> str:
 
 
 def _linear_field(table: type[Law], law: type) -> object:
-    """The type of a field that holds a number, the same at every temperature, or a linear law."""
+    """The type of a field that holds a number, which means a constant, or a linear law."""
     return _alternatives({"<value>": number_of(law, "value"), "<table>": table}, _text_or_table)
 
 
 def _alternatives(kinds: Mapping[str, object], tag: Callable[[Any], str]) -> Any:
-    """The type of a field that holds one of these, by the tag of what is given."""
+    """The type of a field that accepts these types; `tag`: function that selects one of them for a given value."""
     return Annotated[reduce(or_, [Annotated[kind, Tag(name)] for name, kind in kinds.items()]), Discriminator(tag)]
 
 
@@ -186,7 +186,7 @@ def _cst(viscosity: float) -> str:
 
 
 def builds(table: object, *laws: type) -> bool:
-    """True if what stands in a field is the table of one of these laws."""
+    """True if the value of a field is the table of one of these laws."""
     return isinstance(table, Law) and table.builds in laws
 
 
@@ -232,19 +232,19 @@ _HeatCapacity = _linear_field(LinearHeatCapacityTable, LinearHeatCapacity)
 
 class OilTable(Table):
     """`name` takes the laws of an oil of the catalogue, `grade` those of a standard oil, `file` those of an oil file;
-    further tables replace or amend them. A `--set` of the grade or of the file is of the whole oil.
+    further tables replace or change them. A `--set` of the grade or of the file replaces the whole oil.
 
-    - `name`: of the catalogue
+    - `name`: name of an oil of the catalogue
     - `grade`: ISO viscosity grade of a standard oil
     - `base`: base stock of the grade, not given: mineral
-    - `file`: an oil file
-    - `description`: for the reader
+    - `file`: path of an oil file
+    - `description`: text for the reader of the file
     - `viscosity`: law of viscosity
-    - `pressure_viscosity`: coefficient of film formulas; not given: by integral
-    - `rheology`: shear modulus and stress, which traction needs
-    - `density`: which drag, cage lands and kinematic viscosities need
-    - `conductivity`: which thermal factors and film heating need
-    - `heat_capacity`: which thermal networks need
+    - `pressure_viscosity`: coefficient of film formulas; not given: integrated from the viscosity
+    - `rheology`: shear modulus and stress, needed by traction
+    - `density`: law of density, needed by drag, cage lands and kinematic viscosities
+    - `conductivity`: law of thermal conductivity, needed by thermal factors and film heating
+    - `heat_capacity`: law of heat capacity, needed by thermal networks
     """
 
     builds: ClassVar[type | None] = Lubricant

@@ -1,4 +1,4 @@
-"""A `Lubricant` as the tables of a file: the way back from `oils.lubricant`, to the last digit of every number."""
+"""The tables of a file from a `Lubricant`: the way back from `catalogue.lubricant`, exact to the last bit."""
 
 import typing
 from collections.abc import Iterable, Iterator, Mapping
@@ -45,9 +45,9 @@ def oil_text(
     """The text of an oil file.
 
     **Arguments:**
-    - `name`, `description`: of the oil, for whoever reads the file.
+    - `name`, `description`: texts for the reader of the file.
     - `header`: lines of comment at the top.
-    - `origins`: of the laws, by name; what they do not say is marked as not known.
+    - `origins`: name of a law -> its origin; other sources are marked as not known.
 
     **Raises:** `ValueError` for a law that files do not know.
     """
@@ -56,7 +56,7 @@ def oil_text(
 
 
 def sourced_laws(oil: Lubricant, origins: Mapping[str, Origin] | None = None) -> Rows:
-    """The tables of the laws with the sources of their values and with notes.
+    """The tables of the laws, with notes and the sources of the values.
 
     **Raises:** `ValueError` for a law that files do not know.
     """
@@ -102,7 +102,7 @@ def _name_of(table: type[Law]) -> str:
 
 
 def _notes(oil: Lubricant, laws: Iterable[str], origins: Mapping[str, Origin]) -> dict[str, str]:
-    """Notes of the laws; those that no law is known for go with the viscosity."""
+    """Name of a law -> its note. Notes that belong to no known law are added to the viscosity."""
     found = {law: origins[law].note for law in laws if law in origins and origins[law].note}
     rest = [note for note in oil.notes if note not in (*found.values(), *oil.viscosity.notes)]
     if rest:
@@ -111,7 +111,7 @@ def _notes(oil: Lubricant, laws: Iterable[str], origins: Mapping[str, Origin]) -
 
 
 def scene_oil(oil: Lubricant | None) -> Rows | None:
-    """The table [oil] of a scene: the name in the catalogue, with what differs from it, or all laws.
+    """The table [oil] of a scene: the name in the catalogue and the differences from it, or all laws.
 
     **Raises:** `SceneError` for a law that files do not know.
     """
@@ -126,7 +126,7 @@ def scene_oil(oil: Lubricant | None) -> Rows | None:
 
 
 def _catalogue(oil: Lubricant) -> Iterator[Rows]:
-    """The oils of the catalogue that may be this one, as tables that name them."""
+    """Tables that name the oils of the catalogue of which this oil may be a variant."""
     yield from ({"name": name} for name in oil_names())
     if isinstance(oil.viscosity, WaltherPower):
         for base in bases():
@@ -138,7 +138,7 @@ def _size(table: Mapping[str, object]) -> int:
 
 
 def _amended(oil: Lubricant, named: Rows) -> Rows | None:
-    """An oil of the catalogue, which has this viscosity, with what differs; `None` where that is not this oil."""
+    """The table of a named oil with the differences; `None` if the viscosity differs or the table gives another oil."""
     base = lubricant(read_table(OilTable, with_catalogue(named), SCENE))
     if not same(base.viscosity, oil.viscosity):
         return None
@@ -154,7 +154,7 @@ def _amended(oil: Lubricant, named: Rows) -> Rows | None:
 
 
 def _short(law: eqx.Module, table: Rows) -> object:
-    """The value of a law that is one number; any other as its table."""
+    """The value of a law that is a single number; other laws as their tables."""
     constant = isinstance(law, ConstantPressureViscosity)
     if isinstance(law, LinearDensity | LinearConductivity | LinearHeatCapacity):
         constant = same((law.slope, law.reference_temperature), (0.0, ROOM_TEMPERATURE))
@@ -166,9 +166,9 @@ def _is_oil(table: Rows, oil: Lubricant) -> bool:
 
 
 def _share_out_notes(oil: Lubricant, laws: dict[str, Rows]) -> None:
-    """Puts the notes into tables of laws, in whose order they are read: where one can, into the law that it is about.
+    """Distributes the notes over the tables of the laws in their order, if possible to laws that they name.
 
-    A lubricant does not say which law a note is about.
+    A lubricant does not store to which law a note belongs.
 
     **Raises:** `SceneError` for more notes than laws.
     """

@@ -1,5 +1,5 @@
-"""From a valid table of a shaft to the scene of the library. Only Python and numpy numbers enter the constructors:
-nothing runs on JAX."""
+"""Builds the scene of a shaft from its valid table. Only Python and numpy numbers enter the constructors: nothing runs
+on JAX."""
 
 import dataclasses
 import re
@@ -36,7 +36,7 @@ _PATH = re.compile(r"[a-z_0-9]+(?:\.[a-z_0-9]+)*(?::| must)")
 
 
 def shaft(table: ShaftTable, states: tuple[ShaftState, ...] = ()) -> ShaftSystem:
-    """The scene that a table describes. **Arguments:** `states`: of its duty cycle.
+    """The scene that a table describes. **Arguments:** `states`: states of its duty cycle.
 
     **Raises:** `ValueError` for combinations that the classes refuse.
     """
@@ -75,7 +75,7 @@ def _each(table: ShaftTable, word: str, make: Callable[[str, Any], Any]) -> tupl
 
 
 def _within(error: ValueError, word: str, name: str) -> list[ValueError]:
-    """The refusals of an entry with its name before each path."""
+    """The errors of an entry, with its name before each path."""
     if isinstance(error, SceneError):
         return [one.inside(f"{word}.{name}") for one in error.problems]
     if isinstance(error, Refusals):
@@ -116,7 +116,7 @@ def _bearing(table: Any, rated: bool) -> AbstractBearing:
 
 
 def _bearings_of_set(table: Any, rated: bool) -> AbstractBearing | tuple[AbstractBearing, ...]:
-    """The bearing of a set, or one for each sign of its picture. **Raises:** `ValueError` of all of them."""
+    """The bearing of a set, or its bearings if they differ. **Raises:** `ValueError` with the errors of all of them."""
     if MEMBERS not in type(table).model_fields:
         return _bearing(table, rated)
     each = getattr(table, MEMBERS)

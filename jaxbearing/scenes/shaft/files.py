@@ -1,8 +1,8 @@
-"""The lists of tables of a shaft's file, by name, and the scenes of bearings that it names.
+"""Converts the tables of a shaft's file: lists become tables by name, and scenes of bearings are read.
 
-A file writes bearings, sets and forces as lists of tables, each with a `name`, and the sections of the shaft as a list.
-Here they become tables by name, so that a dotted path such as `bearing.rear.position` finds them. The scene of a
-bearing, a file or a built-in one, becomes the tables of its entry.
+In a file, bearings, sets and forces are lists of tables, each with a `name`, and the sections of the shaft are a list.
+Here they become tables by name, so that a dotted path such as `bearing.rear.position` finds them. The scene that a
+bearing names (a file or a built-in scene) is replaced by its tables.
 """
 
 import re
@@ -21,33 +21,33 @@ from ..words import describe
 from .members import MEMBERS, at, changed, numbered, put
 
 LISTS = {"bearing": "rear", "set": "front", "force": "pinion"}
-"""Tables of a shaft's file that are lists by name -> an example of a name."""
+"""Tables of a shaft's file that are lists with names -> example of a name."""
 NAME, SCENE, SECTIONS = "name", "scene", "sections"
 BEARINGS = ("ball_bearing", "cylindrical_roller_bearing", "tapered_roller_bearing")
 """Kinds of bearing scenes that a shaft may have."""
 LINEAR = "linear"
-"""Kind of a bearing that is known by its stiffness only."""
+"""Kind of a bearing that is described by its stiffness only."""
 OF_SHAFT = ("oil_temperature", "oil_flow", "outer_speed")
-"""Fields of a bearing's operating point that it keeps on a shaft; its loads and inner speed follow from the shaft."""
+"""Fields of the operating point that a bearing keeps on a shaft; loads and inner speed follow from the shaft."""
 OF_MOUNT = (
     *("position", "thrust", "closure", "expansion", "support"),
     *("picture", "distance", "preload", "mismatch"),
 )
-"""Fields of an entry that say where the bearing is and how it is mounted."""
+"""Fields of an entry that describe position and mounting of the bearing."""
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _MEANT = "a name of letters, digits, _ and -, beginning with a letter, e.g. {example!r}"
 _TAKEN = "another name: this one means something to the program"
 
 Read = Callable[[str], dict[str, Any]]
-"""Reads the tables of the scene of a bearing, of a file or built-in."""
+"""Function that reads the tables of a bearing's scene, from a file or a built-in scene."""
 
 
 def named(mapping: Mapping[str, Any], label: str) -> dict[str, Any]:
-    """The tables of a shaft with its lists as tables by name; tables by name stay as they are.
+    """The tables of a shaft with lists converted to tables by name; existing tables by name are unchanged.
 
     **Arguments:** `label`: name of the file, for messages.
 
-    **Raises:** `SceneError` with all that is wrong with names.
+    **Raises:** `SceneError` with all errors in the names.
     """
     problems: list[SceneError] = []
     found = dict(mapping)
@@ -72,7 +72,8 @@ def named(mapping: Mapping[str, Any], label: str) -> dict[str, Any]:
 
 
 def _by_name(given: object, table: str, example: str, label: str) -> dict[str, Any]:
-    """**Raises:** `SceneError` for what is no list of tables, and for names that are wrong or there twice."""
+    """A list of tables as tables by name. **Raises:** `SceneError` if it is no list of tables, and for names that are
+    invalid or not unique."""
     if isinstance(given, Mapping) and all(isinstance(one, Mapping) for one in given.values()):
         for name in given:
             if not _NAME.fullmatch(str(name)):
@@ -102,19 +103,19 @@ def _by_name(given: object, table: str, example: str, label: str) -> dict[str, A
 
 
 def _is_taken(name: str) -> bool:
-    """True for a name that a table has for something else, such as `checks`."""
+    """True for a name that is an attribute of `Table`, such as `checks`."""
     return hasattr(Table, name) or name.startswith("model_")
 
 
 def _default_name(one: Mapping[str, object], table: str, taken: Mapping[str, object]) -> str:
-    """The name of a table that has none: its kind, or what it is, with a number where that is taken."""
+    """A name for a table without one: the kind of a force, otherwise the word of the list, with a number if needed."""
     kind = one.get("kind")
     base = kind if table == "force" and isinstance(kind, str) and _NAME.fullmatch(kind) else table
     return next(name for i in range(1, len(taken) + 2) if (name := base if i == 1 else f"{base}_{i}") not in taken)
 
 
 def _twice(found: Mapping[str, Any], label: str) -> Iterator[SceneError]:
-    """Problems with names that a bearing and a set share: results are told apart by them."""
+    """Problems with names that a bearing and a set share; results need different names."""
     bearings, sets = (found.get(table) for table in ("bearing", "set"))
     if isinstance(bearings, Mapping) and isinstance(sets, Mapping):
         for name in sets:
@@ -123,7 +124,7 @@ def _twice(found: Mapping[str, Any], label: str) -> Iterator[SceneError]:
 
 
 def beside(mapping: Mapping[str, object], folder: Path) -> dict[str, Any]:
-    """The tables of a shaft's file in this folder, by name, with the paths of bearing scenes as seen from here."""
+    """The tables of a shaft's file in `folder`, by name, with paths made relative to the working folder."""
     return changed(mapping, lambda _, entry: _moved(entry, folder))
 
 
@@ -138,9 +139,9 @@ def _moved(entry: Mapping[str, object], folder: Path) -> dict[str, Any]:
 
 
 def read_scenes(mapping: Mapping[str, object], label: str, read: Read) -> dict[str, Any]:
-    """The tables of a shaft, by name, with the tables of each bearing's scene in the place of its file's name.
+    """The tables of a shaft, by name, with each name of a bearing's scene replaced by the tables of this scene.
 
-    **Raises:** `SceneError` for a file that cannot be read, and for one that is no bearing.
+    **Raises:** `SceneError` for a file that cannot be read, and for a scene that is not a bearing.
     """
 
     def with_tables(keys: tuple[str, ...], entry: object) -> object:
@@ -154,9 +155,9 @@ def read_scenes(mapping: Mapping[str, object], label: str, read: Read) -> dict[s
 def bearing_scene(source: str, path: str, label: str, read: Read) -> dict[str, object]:
     """The tables of a bearing's scene without its loads and speeds.
 
-    **Arguments:** `path`: of the field that names it; `label`: name of the shaft's file.
+    **Arguments:** `path`: path of the field that names the scene; `label`: name of the shaft's file.
 
-    **Raises:** `SceneError` for a file that cannot be read, and for one that is no bearing.
+    **Raises:** `SceneError` for a file that cannot be read, and for a scene that is not a bearing.
     """
     tables = read(source)
     kind = kind_named(tables.get("kind"))
@@ -169,8 +170,8 @@ def bearing_scene(source: str, path: str, label: str, read: Read) -> dict[str, o
 def with_scenes(
     mapping: Mapping[str, object], overrides: Mapping[str, str], label: str
 ) -> tuple[dict[str, Any], dict[str, str]]:
-    """The tables of a shaft, by name, with the tables of scenes in the place of their names, also of those that an
-    override names; and the other overrides.
+    """The tables of a shaft, by name, with names of scenes replaced by the tables of these scenes, also for scenes that
+    an override names. Also returns the remaining overrides.
 
     **Raises:** `SceneError` as `named` and `read_scenes`.
     """
@@ -185,7 +186,7 @@ def with_scenes(
         keys = tuple(path.split("."))
         entry = at(found, keys[:-1]) if _names_a_scene(keys) and text != REMOVE else None
         if isinstance(entry, Mapping):
-            # another bearing takes the place of one whose tables stand in the entry itself
+            # the new scene replaces a bearing whose tables are in the entry itself
             kept = entry if SCENE in entry else {key: value for key, value in entry.items() if key in OF_MOUNT}
             given = parse_value(text)
             other = {**kept, SCENE: given if isinstance(given, list) else text}
@@ -202,15 +203,15 @@ def _names_a_scene(keys: tuple[str, ...]) -> bool:
 
 
 REMOVE = "none"
-"""The value that takes an optional table or field of a bearing's scene out."""
+"""The value that removes an optional table or field of a bearing's scene."""
 _WHOLE_OIL = ("name", "grade", "base", "file")
-"""Fields with which the oil of an entry stands for another one than that of its scene."""
+"""Fields with which the oil of an entry replaces the whole oil of the scene."""
 
 
 def merged(scene: Mapping[str, Any], own: Mapping[str, object], table: type[BaseModel] | None) -> dict[str, Any]:
-    """The tables of a bearing's scene with what its entry in the shaft's file says beside it.
+    """The tables of a bearing's scene with the changes from its entry in the shaft's file.
 
-    **Arguments:** `table`: schema of both, where it is one.
+    **Arguments:** `scene`: tables of the scene; `own`: entry; `table`: their schema, if known.
     """
     found = dict(scene)
     instead = getattr(table, "instead", {})
@@ -232,8 +233,8 @@ def merged(scene: Mapping[str, Any], own: Mapping[str, object], table: type[Base
 
 
 def without_loads(tables: Mapping[str, object]) -> dict[str, object]:
-    """The tables of a bearing without loads and speeds, which a shaft gives it, and without what only a bearing that
-    stands alone has: transient runs and a load spectrum."""
+    """The tables of a bearing without loads and speeds, which follow from the shaft, and without transient run and load
+    spectrum, which only single bearings have."""
     found = {name: value for name, value in tables.items() if name not in ("simulation", "state")}
     operation = found.get("operation")
     if isinstance(operation, Mapping):
@@ -244,7 +245,7 @@ def without_loads(tables: Mapping[str, object]) -> dict[str, object]:
 def kind_of(entry: Mapping[str, object], path: str, label: str) -> str:
     """The kind of the bearing of an entry: its own, or that of its scene.
 
-    **Raises:** `SceneError` for an entry without a kind, and for an unknown one.
+    **Raises:** `SceneError` for a missing or unknown kind.
     """
     known = (*BEARINGS, LINEAR)
     scene = entry.get(SCENE)

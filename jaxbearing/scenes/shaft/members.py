@@ -1,6 +1,6 @@
-"""Sets whose bearings differ: in a file a list of scenes, or tables [[set.bearing]], one for each sign of the picture.
+"""Sets with different bearings. A file gives a list of scenes or tables [[set.bearing]], one for each bearing.
 
-Inside, the bearings are tables by number, from 1, under `bearing`.
+Internally they are tables by number, from 1, in the table `bearing`.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -16,11 +16,11 @@ _LIST = "[[set.bearing]] tables in double brackets, one for each sign of the pic
 
 
 def numbered(entry: object, path: str, label: str) -> Any:
-    """The entry of a set with its different bearings as tables by number; other entries as they are.
+    """The entry of a set with its different bearings as tables by number; other entries are unchanged.
 
-    **Arguments:** `path`: of the entry; `label`: name of the file, for messages.
+    **Arguments:** `path`: path of the entry; `label`: name of the file, for messages.
 
-    **Raises:** `SceneError` for what is no list of scenes, or of tables.
+    **Raises:** `SceneError` for a value that is no list of scenes or tables.
     """
     if not isinstance(entry, Mapping):
         return entry
@@ -51,12 +51,12 @@ def numbered(entry: object, path: str, label: str) -> Any:
 
 
 def differ(entry: object) -> bool:
-    """True for the entry of a set that has bearings of its own for each sign."""
+    """True for the entry of a set with different bearings."""
     return isinstance(entry, Mapping) and isinstance(entry.get(MEMBERS), Mapping)
 
 
 def each_bearing(tables: Mapping[str, object]) -> Iterator[tuple[str, ...]]:
-    """The keys of all tables of bearings of a shaft, which has them by name."""
+    """The keys of all bearing tables of a shaft, whose tables are by name."""
     for word in ("bearing", "set"):
         entries = tables.get(word)
         for name, entry in entries.items() if isinstance(entries, Mapping) else ():
@@ -75,18 +75,18 @@ def at(tables: Mapping[str, object], keys: tuple[str, ...]) -> Any:
 
 
 def put(tables: Mapping[str, Any], keys: tuple[str, ...], value: object) -> dict[str, Any]:
-    """A copy of the tables with another one at these keys."""
+    """A copy of the tables with `value` at these keys."""
     if len(keys) == 1:
         return {**tables, keys[0]: value}
     return {**tables, keys[0]: put(tables[keys[0]], keys[1:], value)}
 
 
 def changed(tables: Mapping[str, object], change: Callable[[tuple[str, ...], Any], Any]) -> dict[str, Any]:
-    """A copy of the tables of a shaft with another table of each bearing.
+    """A copy of the tables of a shaft with the table of each bearing changed.
 
-    **Arguments:** `change`: (keys of the bearing's table, the table) -> another one.
+    **Arguments:** `change`: (keys of the bearing's table, table) -> new table.
 
-    **Raises:** `SceneError` with all that `change` raises.
+    **Raises:** `SceneError` with all errors from `change`.
     """
     found, problems = dict(tables), []
     for keys in each_bearing(tables):

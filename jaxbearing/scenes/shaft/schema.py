@@ -1,7 +1,7 @@
 """The schema of the scene file of a shaft.
 
-The table of a file has a field for each of its bearings, sets, forces and sections, with the schema of its own kind:
-`shaft_model` makes it. `ShaftTable` is that of no file in particular.
+The schema of a file has a field for each of its bearings, sets, forces and sections, with the schema of its kind.
+`shaft_model` makes it. `ShaftTable` holds the fields that all files have.
 """
 
 import functools
@@ -48,11 +48,11 @@ from .tables import (
 )
 
 Kind = str | tuple[str, ...]
-"""Kind of the bearings of a set, or of each of them."""
+"""Kind of all bearings of a set, or kinds of its different bearings."""
 
 
 def _kind_of_force(entry: Mapping[str, object], path: str, file: str) -> str:
-    """**Raises:** `SceneError` for an entry without a known kind."""
+    """The kind of a force. **Raises:** `SceneError` for an entry without a known kind."""
     kind = entry.get("kind")
     if isinstance(kind, str) and kind in FORCES:
         return kind
@@ -61,13 +61,13 @@ def _kind_of_force(entry: Mapping[str, object], path: str, file: str) -> str:
 
 
 def with_kind(entry: object, kind: str | None) -> dict[str, Any]:
-    """An entry with the kind of an override."""
+    """An entry with its kind replaced by that of an override, if there is one."""
     own = dict(entry) if isinstance(entry, Mapping) else {}
     return own if kind is None else {**own, "kind": kind}
 
 
 def _with_scene(entry: object, keys: tuple[str, ...], file: str) -> object:
-    """An entry with the tables of its scene. **Raises:** `SceneError` for a kind beside the scene."""
+    """An entry merged with the tables of its scene. **Raises:** `SceneError` if its kind differs from the scene's."""
     if not isinstance(entry, Mapping) or not isinstance(entry.get(SCENE), Mapping):
         return entry
     scene, own = entry[SCENE], {key: value for key, value in entry.items() if key != SCENE}
@@ -83,7 +83,7 @@ def _with_scene(entry: object, keys: tuple[str, ...], file: str) -> object:
 
 
 def _kinds_of_set(entry: Any, path: str, file: str) -> Kind:
-    """**Raises:** `SceneError` for a bearing without a known kind, and for one that is no rolling bearing."""
+    """The kinds of the bearings of a set. **Raises:** `SceneError` for an unknown kind and for the kind linear."""
     if not differ(entry):
         each: tuple[tuple[str, Any], ...] = ((path, entry),)
     else:
@@ -96,12 +96,12 @@ def _kinds_of_set(entry: Any, path: str, file: str) -> Kind:
 
 
 ANY_NAME, NUMBER = "NAME", "NUMBER"
-"""The sign for a name, and for the number of a section, in lists of fields."""
+"""Placeholders for a name and for the number of a section or bearing, in lists of fields."""
 _ANY_FORCE: Any = functools.reduce(operator.or_, FORCE_TABLES.values())
 
 
 class ShaftTable(Table):
-    """The whole file, but for the names of its bearings, sets and forces."""
+    """The whole file without its bearings, sets, forces and states."""
 
     kind: Annotated[Literal["shaft"], KIND]
     shaft: ShaftPart
@@ -147,7 +147,7 @@ class ShaftTable(Table):
         return changed(found, lambda keys, entry: _with_scene(entry, keys, file)), left
 
     def entries(self, table: str) -> dict[str, Any]:
-        """The tables of the bearings, sets or forces, or the sections, by name."""
+        """The tables of the bearings, sets, forces or sections, by name. **Arguments:** `table`: which of these."""
         owner = self.shaft if table == SECTIONS else self
         found = getattr(owner, table, None)
         if not isinstance(found, Table | None):
@@ -156,7 +156,7 @@ class ShaftTable(Table):
 
 
 def _by_name(word: str, tables: Mapping[str, object]) -> Any:
-    """A table with a table for each name. **Arguments:** `word`: of the list in files."""
+    """A schema with a table for each name. **Arguments:** `word`: name of the list in files."""
     doc = f"""Tables by name.
 
     - `{ANY_NAME}`: one for each, under its name; in a file each is a table [[{word}]] with a `name`
@@ -167,7 +167,7 @@ def _by_name(word: str, tables: Mapping[str, object]) -> Any:
 
 
 def _any_set() -> type[Table]:
-    """The table of a set of no file in particular."""
+    """The schema of a set for lists of fields, which belongs to no file."""
     fields: dict[str, Any] = {MEMBERS: (_by_name("members", {NUMBER: MemberEntry}) | None, None)}
     return create_model("SetEntry", __base__=SetEntry, __module__=__name__, __doc__=SetEntry.__doc__, **fields)
 
@@ -185,7 +185,7 @@ def shaft_model(
     forces: tuple[tuple[str, str], ...],
     sections: tuple[str, ...],
 ) -> type[ShaftTable]:
-    """The schema of a file with these names of bearings, sets and forces, each with its kind, and these sections."""
+    """The schema of a file with these bearings, sets and forces, each by name and kind, and with these sections."""
     tables: dict[str, dict[str, type[Table]]] = {
         "bearing": {name: mounted_table(kind, False) for name, kind in bearings},
         "set": {name: mounted_table(kind, True) if isinstance(kind, str) else _mixed_set(kind) for name, kind in sets},
@@ -200,7 +200,7 @@ def shaft_model(
 
 @functools.lru_cache(64)
 def _mixed_set(kinds: tuple[str, ...]) -> type[Table]:
-    """The table of a set whose bearings differ."""
+    """The schema of a set with different bearings."""
     numbers = {str(place + 1): member_table(kind) for place, kind in enumerate(kinds)}
     fields: Any = {MEMBERS: (_by_name("members", numbers), ...)}
     doc = "A set of different bearings."

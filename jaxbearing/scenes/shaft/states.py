@@ -1,4 +1,4 @@
-"""The states of a shaft's duty cycle: tables [[state]], each with a share of the time and what differs in it."""
+"""The states of a shaft's duty cycle: tables [[state]], each with a share of the time and changes of the scene."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -22,7 +22,7 @@ def with_states(scene: ShaftSystem, given: object, raw: Mapping[str, object], fi
 
     **Arguments:** `given`: the tables [[state]]; `raw`: tables of the scene without them.
 
-    **Raises:** `SceneError` for states that are wrong, and for scenes that cannot be built.
+    **Raises:** `SceneError` for invalid states, and for scenes that cannot be built.
     """
     if not isinstance(given, list) or not given or not all(isinstance(one, Mapping) for one in given):
         raise SceneError(file, "state", describe(given), EXAMPLE)
@@ -45,7 +45,7 @@ def with_states(scene: ShaftSystem, given: object, raw: Mapping[str, object], fi
 
 
 def _plain(one: Mapping[str, Any]) -> dict[str, Any]:
-    """A state whose changes are beside its share."""
+    """A state whose changes are moved from the table `set` into the state itself."""
     found = dict(one)
     changes = found.get(SET)
     if isinstance(changes, Mapping):
@@ -56,7 +56,8 @@ def _plain(one: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _number(value: Any, path: str, where: str) -> float:
-    """**Raises:** `SceneError` for something else than a number of the scene, and for one of another bearing."""
+    """The changed number. **Raises:** `SceneError` for a value that is no number, and for a field whose change makes
+    another bearing."""
     if names_another_bearing(path):
         raise SceneError(where, path, "a field that makes another bearing", "states of the same bearings")
     if value is None or isinstance(value, str | bool) or np.ndim(value) or dataclasses.is_dataclass(value):

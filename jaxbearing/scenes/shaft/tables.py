@@ -37,19 +37,19 @@ _FREEDOMS = ", ".join(RING_FREEDOMS)
 
 
 def _matrix(value: object) -> tuple[tuple[float, ...], ...]:
-    """Five rows of five stiffnesses, each with its unit; zeros need none."""
+    """A matrix of five rows of five stiffnesses, each with its unit; zeros need no unit."""
     wanted = f"5 rows of 5 stiffnesses with units, of {_FREEDOMS}; a 0 needs no unit"
     return _square(value, wanted, lambda count: count == 5)
 
 
 def _matrix_of_all(value: object) -> tuple[tuple[float, ...], ...]:
-    """Five rows and columns for each bearing."""
+    """A matrix of stiffnesses with five rows and columns for each bearing."""
     wanted = f"5 n rows of 5 n stiffnesses with units, of {_FREEDOMS} for each of n bearings; a 0 needs no unit"
     return _square(value, wanted, lambda count: count > 0 and count % 5 == 0)
 
 
 def _square(value: Any, wanted: str, fits: Callable[[int], bool]) -> tuple[tuple[float, ...], ...]:
-    """A square matrix of stiffnesses. **Arguments:** `fits`: whether it may have so many rows."""
+    """A square matrix of stiffnesses. **Arguments:** `fits`: function that is True for a valid number of rows."""
     square = isinstance(value, list) and all(isinstance(row, list) and len(row) == len(value) for row in value)
     if not square or not fits(len(value)):
         raise units.refusal(wanted, describe(value))
@@ -71,7 +71,7 @@ def _entry(value: object, row: int, column: int) -> float:
 
 
 def _units_of_matrix() -> tuple[tuple[str, ...], ...]:
-    """Units of a stiffness, as dimensions know them: a force over an angle, and a moment over a length, are forces."""
+    """Units of the stiffnesses for `dimension_of_unit`; force over angle and moment over length have the unit N."""
     plain = {"N/m": "N/m", "N/rad": "N", "N m/m": "N", "N m/rad": "N m/rad"}
     return tuple(tuple(plain[unit] for unit in row) for row in stiffness_units())
 
@@ -96,7 +96,7 @@ def _scenes(value: Any) -> tuple[str, ...]:
 
 
 def _weibull(value: object) -> float | None:
-    """A slope, or the word for those of the standards."""
+    """A Weibull slope; `None` for the word 'iso', which means the slopes of the standards."""
     if value == _ISO:
         return None
     try:
@@ -107,9 +107,9 @@ def _weibull(value: object) -> float | None:
 
 
 class SectionTable(table_of(Section)):
-    """A cylindrical part of the shaft.
+    """A cylindrical section of the shaft.
 
-    - `material`: if it is not that of the shaft
+    - `material`: material of the section; not given: that of the shaft
     """
 
     material: MaterialField | None = None
@@ -122,9 +122,9 @@ class GravityTable(table_of(Gravity)):
 class ShaftPart(table_of(Shaft)):
     """The shaft itself: see `shafts.shaft.Shaft`.
 
-    - `material`: of the sections that name none; not given: steel
-    - `gravity`: weight of shaft and masses; not given: weightless
-    - `sections`: cylindrical parts from x = 0, a list of tables; paths number them from 1. Not given: a rigid shaft
+    - `material`: material of the sections without their own; not given: steel
+    - `gravity`: weight of shaft and masses; not given: no weight
+    - `sections`: cylindrical sections from x = 0, a list of tables; paths number them from 1. Not given: a rigid shaft
     """
 
     material: MaterialField | None = None
@@ -134,7 +134,7 @@ class ShaftPart(table_of(Shaft)):
 class SupportTable(table_of(Support)):
     """Elastic support of an outer ring.
 
-    - `matrix`: all of the stiffness in the frame of the shaft, in the place of the three numbers
+    - `matrix`: full stiffness matrix in the frame of the shaft, in place of the three stiffnesses
     """
 
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"matrix": ("axial", "radial", "tilt")}
@@ -142,20 +142,20 @@ class SupportTable(table_of(Support)):
 
 
 class HousingTable(Table):
-    """A housing that holds all outer rings, in the place of a support of each.
+    """An elastic housing that holds all outer rings, in place of a support for each ring.
 
-    - `matrix`: its stiffness in the frame of the shaft: 5 rows and columns for each bearing, those of the sets first
+    - `matrix`: its stiffness in the frame of the shaft, 5 rows and columns for each bearing, bearings of sets first
     """
 
     matrix: MatrixOfAll
 
 
 class ShaftThermalTable(table_of(ShaftThermal)):
-    """Joins the thermal networks of the bearings along shaft and housing; each has six nodes."""
+    """Connects the thermal networks of the bearings, each with six nodes, along shaft and housing."""
 
 
 class PreloadTable(table_of(Preload)):
-    """Preload of a set: one of force, class_force, offset, spring_force."""
+    """Preload of a set, given as force, class_force, offset or spring_force."""
 
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {
         way: tuple(other for other in (*_WAYS, "spring_stiffness") if other != way) for way in _WAYS
@@ -163,7 +163,7 @@ class PreloadTable(table_of(Preload)):
 
 
 class MountTable(table_of(MountedBearing)):
-    """A bearing on the shaft: where it is, and how its outer ring is held.
+    """Position of a bearing on the shaft, and the support of its outer ring.
 
     - `support`: elastic support of the outer ring; not given: rigid
     """
@@ -174,10 +174,10 @@ class MountTable(table_of(MountedBearing)):
 class SetMountTable(table_of(MatchedSet)):
     """A matched set.
 
-    - `picture`: one sign a bearing from -x to +x, the cone of its contact lines: '<>' is an O arrangement, '><' an X
-      arrangement, '<<' a tandem
-    - `distance`: of neighbouring rows, one length or one for each gap
-    - `preload`: not given: all bearings touch and carry nothing
+    - `picture`: one sign for each bearing from -x to +x, the cone of its contact lines: '<>' is an O arrangement, '><'
+      an X arrangement, '<<' a tandem
+    - `distance`: distance of neighbouring rows, one length or one for each pair of rows
+    - `preload`: preload of the set; not given: all bearings touch without load
     - `mismatch`: additional closure of each bearing; not given: 0
     - `support`: elastic support of each outer ring; not given: rigid
     """
@@ -190,10 +190,10 @@ class SetMountTable(table_of(MatchedSet)):
 
 
 class LifeTable(Table):
-    """Life of all bearings together. Given, bearings without a rating are rated as one with an empty [rating] is.
+    """Life of the system of all bearings. With this table, bearings without [rating] are rated as with an empty one.
 
-    - `weibull`: slope of the distribution of every bearing's life, 1.5 in API 610; 'iso': those of the standards, 10/9
-      of ball and 9/8 of roller bearings
+    - `weibull`: Weibull slope of the life of every bearing, 1.5 in API 610; 'iso': slopes of the standards, 10/9 for
+      ball and 9/8 for roller bearings
     """
 
     builds: ClassVar[type | None] = SystemLife
@@ -203,8 +203,8 @@ class LifeTable(Table):
 class StateTable(table_of(ShaftState)):
     """A state of a duty cycle, in a table [[state]].
 
-    - `name`: of the state; not given: its number
-    - `set`: what differs in it, values by dotted paths in quotes; the paths may also stand in the state itself
+    - `name`: name of the state; not given: its number
+    - `set`: changes of the scene, values by dotted paths in quotes; the paths may also be in the state itself
     """
 
     name: units.Text | None = None
@@ -217,7 +217,10 @@ def _loads_elsewhere(operation: type) -> dict[str, str]:
 
 
 def _operation_of(operation: type, **load: float) -> Any:
-    """The operating point of a bearing on a shaft: oil, and speed of the outer ring."""
+    """The table of the operating point of a bearing on a shaft: oil, and speed of the outer ring.
+
+    **Arguments:** `load`: a load that makes the bearing valid and has no effect.
+    """
 
     class MountedOperation(
         table_of(
@@ -231,14 +234,14 @@ def _operation_of(operation: type, **load: float) -> Any:
         elsewhere: ClassVar[Mapping[str, str]] = _loads_elsewhere(operation)
 
         def model_dump(self, **given: Any) -> dict[str, Any]:
-            """The fields, with a load and a speed that make the bearing valid and have no effect."""
+            """The fields, with a load and an inner speed that make the bearing valid and have no effect."""
             return super().model_dump(**given) | load | {"inner_speed": self.outer_speed + 1.0}
 
     return MountedOperation
 
 
 class _OnShaft(Table):
-    """Fields of a bearing on a shaft, in the place of those that it has alone."""
+    """Replaces fields that only a single bearing can have."""
 
     simulation: Literal[None] = None
 
@@ -265,9 +268,9 @@ FAMILIES: dict[str, type[Table]] = {
 
 
 class LinearTable(MountTable):
-    """A bearing on a shaft that is known by its stiffness alone.
+    """A bearing on a shaft that is described by its stiffness alone.
 
-    - `stiffness`: in the bearing's own frame, 5 rows of 5 entries, N/m, N and N m/rad
+    - `stiffness`: stiffness matrix in the bearing's own frame, 5 rows of 5 entries in N/m, N and N m/rad
     """
 
     builds: ClassVar[type | None] = LinearBearing
@@ -277,7 +280,7 @@ class LinearTable(MountTable):
 
 @functools.cache
 def member_table(kind: str) -> type[Table]:
-    """The table of one bearing of a set whose bearings differ."""
+    """The table of one bearing of a set with different bearings."""
     doc = "One of the different bearings of a set."
     return _mounted(f"MemberOf{FAMILIES[kind].__name__}", FAMILIES[kind], Table, OPERATIONS[kind], doc)
 
@@ -309,10 +312,10 @@ FORCE_TABLES = {kind: _force_table(kind) for kind in FORCES}
 class BearingEntry(MountTable):
     """A bearing on the shaft, in a table [[bearing]].
 
-    - `scene`: of the bearing, a file or a built-in scene, whose loads and speeds do not count
-    - `kind`: of the bearing, in the place of a scene: then the tables of its own scene file, such as geometry, are
-      here; beside a scene they change it
-    - `stiffness`: of the kind linear, in the bearing's own frame, 5 rows of 5 entries, N/m, N and N m/rad
+    - `scene`: scene of the bearing, a file or a built-in scene, of which loads and speeds are ignored
+    - `kind`: kind of the bearing, in place of a scene. The entry then has the tables of a scene file, such as geometry;
+      with a scene, these tables change it
+    - `stiffness`: stiffness matrix of the kind linear in the bearing's frame, 5 rows of 5 entries in N/m, N and N m/rad
     """
 
     scene: units.Text | None = None
@@ -323,9 +326,9 @@ class BearingEntry(MountTable):
 class MemberEntry(Table):
     """One of the different bearings of a set, in a table [[set.bearing]].
 
-    - `scene`: of the bearing, a file or a built-in scene, whose loads and speeds do not count
-    - `kind`: of the bearing, in the place of a scene: then the tables of its own scene file, such as geometry, are
-      here; beside a scene they change it
+    - `scene`: scene of the bearing, a file or a built-in scene, of which loads and speeds are ignored
+    - `kind`: kind of the bearing, in place of a scene. The entry then has the tables of a scene file, such as geometry;
+      with a scene, these tables change it
     """
 
     scene: units.Text | None = None
@@ -335,10 +338,10 @@ class MemberEntry(Table):
 class SetEntry(SetMountTable):
     """A matched set, in a table [[set]]; its bearings are called `name.1`, `name.2` ...
 
-    - `scene`: of the bearing, a file or a built-in scene, whose loads and speeds do not count; or a list of scenes, one
-      for each sign of the picture
-    - `kind`: of the bearing, in the place of a scene: then the tables of its own scene file, such as geometry, are
-      here; beside a scene they change it
+    - `scene`: scene of the bearing, a file or a built-in scene, of which loads and speeds are ignored; or a list of
+      scenes, one for each sign of the picture
+    - `kind`: kind of the bearing, in place of a scene. The entry then has the tables of a scene file, such as geometry;
+      with a scene, these tables change it
     - `bearing`: different bearings, in tables [[set.bearing]], one for each sign of the picture, each with a scene or
       with a kind and its tables; paths number them from 1
     """

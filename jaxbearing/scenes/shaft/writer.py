@@ -46,7 +46,7 @@ def shaft_tables(scene: ShaftSystem) -> Rows:
 
 
 def plain_scene(scene: ShaftSystem) -> ShaftSystem:
-    """The scene with the loads and speeds that files give its bearings, which have no effect; and its numbers."""
+    """The scene with loads and speeds of its bearings, which have no effect, set to the values that files give."""
     bearings = tuple(dataclasses.replace(one, scene=_standing(one.scene)) for one in scene.bearings)
     sets = tuple(dataclasses.replace(one, scene=_standing_set(one)) for one in scene.sets)
     return dataclasses.replace(scene, bearings=bearings, sets=sets)
@@ -120,7 +120,7 @@ def _support(part: Support | None) -> Rows | None:
 
 
 def _matrix(values: "npt.ArrayLike") -> list[list[float | str]]:
-    """Rows of texts with units, five for each bearing; a 0 has none."""
+    """A stiffness matrix as texts with units, five rows for each bearing; a 0 has no unit."""
     return [
         [0 if one == 0.0 else number(one, MATRIX_UNITS[i % 5][j % 5]) for j, one in enumerate(row)]
         for i, row in enumerate(np.asarray(values, dtype=np.float64))
@@ -143,7 +143,7 @@ def _life(scene: ShaftSystem) -> Rows | None:
 
 
 def _state(one: ShaftState, scene: ShaftSystem) -> Rows:
-    """**Raises:** `SceneError` for a change that a file cannot hold."""
+    """The table of a state. **Raises:** `SceneError` for a change that a file cannot hold."""
     changes = {path: _change(path, value, scene) for path, value in one.changes.items()}
     return ({"name": one.name} if one.name else {}) | {"share": written(one, "share")} | changes
 

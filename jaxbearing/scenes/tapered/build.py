@@ -1,4 +1,4 @@
-"""From a valid table of a tapered roller bearing to the scene of the library. Only Python and numpy numbers enter the
+"""Builds the scene of a tapered roller bearing from its valid table. Only Python and numpy numbers enter the
 constructors: nothing runs on JAX."""
 
 from functools import cache
@@ -67,8 +67,8 @@ def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
 
 
 def _rib_laws(table: TaperedContactTable, oil: Lubricant | None) -> PointLaws:
-    """Laws of the roller ends; without a name the film of contacts that roll along their longer axis, which holds for
-    oils whose viscosity rises with pressure."""
+    """Laws of the contacts of roller ends and rib. If `flange_film` is not given, the film law is that of contacts that
+    roll along their longer axis. It holds only for piezoviscous oils; other oils have the law of Nijenbanning."""
     isoviscous = oil is not None and isinstance(oil.pressure_viscosity, NoPressureViscosity)
     film = NijenbanningVennerMoes if isoviscous else ChittendenCentral
     traction = None

@@ -44,12 +44,14 @@ class TaperedMaterialsTable(RingMaterialsTable):
 
 
 class TaperedContactTable(table_of(ContactLaws, leave_out=("entrainment_offset", "entrainment_smoothing"))):
-    """Laws of the contacts, by the names in `tapered.build`. `film`, `rolling_resistance`: of the raceways;
-    `flange_film`: of the roller ends on the rib; `thermal`: of both, on the rib always Gupta's, the other one is made
-    for lines; `traction`: of what slides on the rib, and what the raceways could carry.
+    """Laws of the contacts by name; `scenes.laws` lists the names.
 
-    - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
-    - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
+    `film` and `rolling_resistance` hold for the raceways, `flange_film` for the roller ends on the rib. `thermal` holds
+    for both, but the rib always has Gupta's law, because the other law is for line contacts. `traction` holds for the
+    sliding on the rib, and for the friction that the raceways could transmit.
+
+    - `traction_accuracy`: relative error of the traction forces, for which the integration over the contact is resolved
+    - `rolling_resistance`: law of the raceways; `true`: the first of these laws; not given: none
     - `supply`: how much oil reaches the raceways; not given: they are fully flooded
     - `flange_film`: film law of the roller ends on the rib
     - `mixed`: mixed friction of rough raceways and ribs; not given: the films carry all of the loads

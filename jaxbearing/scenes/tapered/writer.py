@@ -22,7 +22,7 @@ def tapered_tables(scene: TaperedRollerBearing) -> Rows:
 
 
 def _laws(scene: TaperedRollerBearing) -> Rows | None:
-    """A file describes raceways and rib in one table; what of the rib does not follow from it shows when it is read."""
+    """The table [contact] of raceways and rib. Laws of the rib that it cannot express are noticed on reading it."""
     contact, rib = scene.contact, scene.rib
     if contact is None:
         return None

@@ -1,5 +1,5 @@
-"""From a valid table of a two-disk machine to the scene of the library. Only Python and numpy numbers enter the
-constructors: nothing runs on JAX."""
+"""Builds the scene of a two-disk machine from its valid table. Only Python and numpy numbers enter the constructors:
+nothing runs on JAX."""
 
 from functools import cache
 from typing import Any

@@ -1,5 +1,5 @@
-"""The scene file of a two-disk machine. Names are the attribute names of the classes that it builds, except for how
-[contact] puts its laws together (see `two_disk.build`)."""
+"""The scene file of a two-disk machine. Names are the attribute names of the classes that it builds, except for
+[contact], which combines several laws (see `two_disk.build`)."""
 
 from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
@@ -73,7 +73,7 @@ SlideField = Annotated[
 
 
 def _compliance(value: object) -> float | str:
-    """L1, m/Pa, or the word for that of the scene's own bodies."""
+    """Tangential compliance L1, m/Pa, or the word for the compliance of the bodies of the scene as half-spaces."""
     if value == HALF_SPACE:
         return HALF_SPACE
     try:
@@ -94,13 +94,13 @@ class DiskMaterialsTable(Table):
 
 
 class TwoDiskContactTable(Table):
-    """Laws of the contact, by the names in `scenes.laws`, which says what each stands for.
+    """Laws of the contact by name; `scenes.laws` lists the names.
 
-    - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
+    - `traction_accuracy`: relative error of the traction forces, for which the integration over the contact is resolved
     - `compliance`: tangential compliance of the bodies in series with the film; not given: none
-    - `film_heating`: whether the heat of the sheared film counts
-    - `inlet`: whether the oil in the contact has the temperature of the heated inlet or of the supply
-    - `elastic`: whether the oil is a Maxwell element; false: the viscous limit
+    - `film_heating`: true: the shear heating of the film is considered
+    - `inlet`: temperature of the oil in the contact, that of the heated inlet (warm) or of the supply (cold)
+    - `elastic`: true: the oil is a Maxwell element; false: the viscous limit
     """
 
     film: Annotated[str, ANY_FILMS]

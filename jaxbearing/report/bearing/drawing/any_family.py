@@ -1,4 +1,4 @@
-"""A bearing of any family in a drawing: seen along the axis, and one element in a section through the axis."""
+"""Drawing of a bearing of any family: a view along the axis, and one element in a section through the axis."""
 
 import dataclasses
 from collections.abc import Iterator, Sequence
@@ -31,7 +31,7 @@ Label = tuple[str, tuple[float, float]]
 
 
 class _Patches:
-    """Draws on axes of matplotlib what `section` draws."""
+    """Matplotlib axes with the drawing methods that `section` uses."""
 
     def __init__(self, axes: "matplotlib.axes.Axes"):
         self.axes = axes
@@ -78,7 +78,8 @@ def draw_in_section(scene: AbstractBearing) -> "matplotlib.figure.Figure":
 
 
 def _beside(axes: "matplotlib.axes.Axes", points: np.ndarray, labels: list[Label]) -> None:
-    """Labels on both sides of the section, each as high as what it points at, less crowded."""
+    """Places labels on both sides of the section, evenly spaced and in the order of the heights of the features they
+    mark."""
     (left, low), (right, high) = points.min(axis=0), points.max(axis=0)
     width, height, middle = right - left, high - low, 0.5 * (left + right)
     for side in (-1.0, 1.0):
@@ -92,7 +93,7 @@ def _beside(axes: "matplotlib.axes.Axes", points: np.ndarray, labels: list[Label
 
 
 def _dimensions(scene: AbstractBearing) -> Iterator[tuple[str, str]]:
-    """Path of each number of geometry and cage, and of the loads that the view does not show, and the text for it."""
+    """Path and text of each number of geometry and cage, and of each load that the view does not show."""
     for table in ("geometry", "cage"):
         part = getattr(scene, table, None)
         for field in () if part is None else dataclasses.fields(part):
@@ -108,7 +109,7 @@ def _dimensions(scene: AbstractBearing) -> Iterator[tuple[str, str]]:
 
 
 def _value(value: SupportsFloat, unit: str) -> str:
-    """A count, or a number with the unit that its class says."""
+    """A count, or a number with the unit given in its class, as text."""
     if isinstance(value, int):
         return str(value)
     if unit == "m":

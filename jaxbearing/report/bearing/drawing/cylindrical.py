@@ -1,4 +1,4 @@
-"""A cylindrical roller bearing in a drawing: along the axis, one roller with its pocket, and a section."""
+"""Drawing of a cylindrical roller bearing: a view along the axis, one roller in its pocket, and a section."""
 
 from typing import TYPE_CHECKING, SupportsFloat
 
@@ -54,13 +54,13 @@ def draw_cylindrical(scene: CylindricalRollerBearing) -> "matplotlib.figure.Figu
 
 
 def _draw_pocket(axes: "matplotlib.axes.Axes", scene: CylindricalRollerBearing, size: _Size) -> None:
-    """The roller that is farthest from the load, above, drawn as number 0 of a bearing turned round."""
+    """Draws the roller opposite the load, at the top, as roller 0 of the bearing turned by half a turn."""
     geometry, diameter = scene.geometry, size.diameter
     ring_outline(axes, size.outer, size.outer + diameter, RING)
     ring_outline(axes, size.inner - size.gap - diameter, size.inner - size.gap, RING)
     draw_bars(axes, size, (-2, -1, 0, 1), 0.0)
     draw_rollers(axes, size, (-2, -1, 0, 1, 2), 0.0)
-    # turned: what is at azimuth 0 is above
+    # turned by half a turn: azimuth 0 is at the top
     axes.set_ylim(-(size.inner - size.gap - 0.55 * diameter), -(size.outer + 0.55 * diameter))
     axes.set_xlim(1.75 * diameter, -1.75 * diameter)
     pitch = -size.pitch
@@ -103,7 +103,7 @@ def _draw_section(axes: "matplotlib.axes.Axes", scene: CylindricalRollerBearing,
 
 
 def _shoulders(scene: CylindricalRollerBearing, size: _Size) -> tuple[float, float]:
-    """Radii of inner and outer ring beside the rollers: land of the cage, flange, or the raceway going on."""
+    """Radii of the inner and the outer ring beside the rollers: cage land, flange, or continued raceway."""
     flange, cage = scene.flange, scene.cage
     inner = size.inner + (size.rim if flange is not None and flange.ring in ("inner", "both") else 0.0)
     outer = size.outer - (size.rim if flange is not None and flange.ring in ("outer", "both") else 0.0)
@@ -116,7 +116,7 @@ def _shoulders(scene: CylindricalRollerBearing, size: _Size) -> tuple[float, flo
 
 
 def _draw_roller_outline(axes: "matplotlib.axes.Axes", size: _Size) -> None:
-    """Draws a roller with the corners that carry no load; their depth is exaggerated so that it can be seen."""
+    """Draws a roller with its unloaded corners, whose depth is exaggerated to be visible."""
     half, flat, radius = size.length / 2.0, size.loaded / 2.0, size.diameter / 2.0
     corner = min(half - flat, 0.12 * size.diameter)
     x = np.array([-half, -flat, flat, half, half, flat, -flat, -half])
@@ -189,7 +189,7 @@ def _label_section(
 
 
 def _thrust_text(scene: CylindricalRollerBearing, stiffness: SupportsFloat) -> str:
-    """Text about the flanges that hold the inner ring along the axis, and its axial load."""
+    """Text about the flanges that guide the inner ring axially, and about its axial load."""
     geometry, load = scene.geometry, scene.operation.axial_load
     said = [
         f"flange_gap {length_text(geometry.flange_gap)}, thrust {geometry.thrust or 'both'}",
@@ -202,7 +202,7 @@ def _thrust_text(scene: CylindricalRollerBearing, stiffness: SupportsFloat) -> s
 def _stack(
     axes: "matplotlib.axes.Axes", size: _Size, labels: list[tuple[str, tuple[float, float]]], side: float
 ) -> None:
-    """Labels beside the section, one above the other in the order of what they point at."""
+    """Stacks labels beside the section, in the order of the heights of the features they mark."""
     labels = sorted(labels, key=lambda label: label[1][1])
     low, high = size.inner - 0.45 * size.ring, size.outer + 0.45 * size.ring
     places = np.linspace(low, high, len(labels)) if len(labels) > 1 else np.full(len(labels), size.pitch)

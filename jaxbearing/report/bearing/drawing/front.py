@@ -64,7 +64,7 @@ def ring_outline(axes: "matplotlib.axes.Axes", inside: float, outside: float, co
 
 
 def draw_bars(axes: "matplotlib.axes.Axes", size: FrontSizes, indices: Iterable[int], first: float) -> None:
-    """Cage bars between the pockets, after rollers of these numbers; `first`: azimuth of number 0."""
+    """Draws the cage bar that follows each roller in `indices`. **Arguments:** `first`: azimuth of roller 0, rad."""
     if size.cage is None:
         return
     radius = np.linspace(*size.cage, 30)

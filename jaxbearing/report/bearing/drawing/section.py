@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     from .any_family import _Patches
 
 _WIDTH = 115.0
-"""Width of the rolling element, points of the page."""
+"""Diameter of the rolling element, points of the page."""
 _LONGEST = 0.9
 """Longest arrow, in diameters of the element."""
 _EDGE = {"stroke": INK, "stroke_width": 1.0}
 
 
 def section(scene: AbstractBearing, solution: Solution) -> str:
-    """SVG; the axis of the bearing lies below, its positive direction points to the right."""
+    """The section as SVG; the bearing axis is below, with its positive direction to the right."""
     elements = solution.elements
     j = int(np.argmax(np.asarray(on_heavier_flanks(elements).load_inner)))
     of = lambda name: float(np.asarray(getattr(elements, name))[j])
@@ -38,12 +38,12 @@ def section(scene: AbstractBearing, solution: Solution) -> str:
     for side, (place, direction) in contacts.items():
         race = side.removesuffix(SECOND)
         if f"{race}{SECOND}" in contacts and loads[side] <= LOADED * largest:
-            continue  # an open flank
+            continue  # a flank that carries no load
         length = _LONGEST * diameter * loads[side] / largest if largest > 0.0 else 0.0
         end = moved(place, direction, length)
         colour = {"inner": INNER, "outer": OUTER, "flange": RIB}[race]
         drawing.arrow(place, end, colour, width=3.0, data_load=loads[side])
-        # that of the rib stands beside the ring
+        # the text of the rib load is placed beside the ring
         gap, anchor = (0.45 * diameter, "end") if side == "flange" else (18.0 / drawing.scale, "middle")
         beside = moved(end, direction, gap)
         drawing.text(beside, f"{_SAID[race]} {digits(loads[side])} N", anchor=anchor, fill=colour)
@@ -68,7 +68,7 @@ _SAID = {"inner": "inner race", "outer": "outer race", "flange": "rib"}
 
 
 def draw_outline(drawing: "Drawing | _Patches", outline: Outline) -> None:
-    """Draws rings and element. **Arguments:** `drawing`: takes polygons, circles and lines, as `svg.Drawing` does."""
+    """Draws rings and element. **Arguments:** `drawing`: object with the drawing methods of `svg.Drawing`."""
     for ring in outline.rings:
         drawing.polygon(ring, fill=RING, **_EDGE)
     if outline.element is None:

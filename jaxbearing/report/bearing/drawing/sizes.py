@@ -9,13 +9,14 @@ from ....bearings.outline import RING_THICKNESS
 from ....bearings.parts import AbstractGeometry
 
 DRAWN_CLEARANCE = 0.07
-"""A clearance in a drawing, in diameters of the element."""
+"""Size at which a clearance is drawn, in diameters of the rolling element."""
 
 
 class FrontSizes:
-    """Dimensions of a bearing seen along its axis, mm, and how many elements it has.
+    """Dimensions of a bearing seen along its axis, mm, and its number of rolling elements.
 
-    **Arguments:** `shoulder`: from the pitch circle to where the rings end, mm; to the raceways if not given.
+    **Arguments:** `shoulder`: distance from the pitch circle to the ring shoulders, mm; by default that to the
+    raceways.
     """
 
     def __init__(self, scene: AbstractBearing, shoulder: float | None = None):

@@ -21,8 +21,8 @@ _LONGEST = 0.42
 
 
 def front_view(scene: AbstractBearing, solution: Solution) -> str:
-    """SVG: rings, elements at their azimuths (0 below, counter-clockwise), the force of each on the rings, the applied
-    load."""
+    """The view as SVG: rings, elements at their azimuths (0 at the bottom, counter-clockwise), their forces on the
+    rings, and the applied load."""
     sizes = FrontSizes(scene, scene.outline().shoulder)
     elements = solution.elements
     drawing = Drawing("The bearing seen along its axis, with the loads of its contacts", _WIDTH / (2.0 * sizes.outside))
@@ -33,7 +33,7 @@ def front_view(scene: AbstractBearing, solution: Solution) -> str:
     azimuth = np.asarray(elements.azimuth)
     for angle in azimuth:
         drawing.circle(place_at(angle, sizes.pitch), 0.5 * sizes.diameter, fill=ROLLER, stroke=INK, stroke_width=1.0)
-    # both flanks of a race together
+    # sum over both flanks of a race
     load = lambda race: np.sum([getattr(one, f"load_{race}") for one in by_flank(elements)], axis=0)
     _loads(drawing, sizes, azimuth, load("inner"), load("outer"))
     _applied(drawing, sizes, solution)
@@ -67,11 +67,11 @@ _SAID = {
     "radial": "radial",
     "lateral": "lateral",
 }
-"""Name of a load, where there is little room, and the freedom of the ring along which it acts."""
+"""Short name of a load -> degree of freedom of the ring along which it acts."""
 
 
 def _applied(drawing: Drawing, sizes: FrontSizes, solution: Solution) -> None:
-    """Load on the inner ring and its speed, in the middle."""
+    """Draws the load on the inner ring and its speed in the middle."""
     operation = solution.operation
     number = lambda freedom: float(given) if (given := operation.load(freedom)) is not None else 0.0
     radial, lateral = number("radial"), number("lateral")
@@ -82,7 +82,7 @@ def _applied(drawing: Drawing, sizes: FrontSizes, solution: Solution) -> None:
     if radial or lateral:
         reach = 0.32 * sizes.bore / math.hypot(radial, lateral)
         drawing.arrow((0.0, 0.0), (reach * lateral, -reach * radial), INK, width=4.0)
-    # a small bore holds four lines of smaller letters
+    # smaller letters where the bore is small
     size = min(12.0, 0.55 * sizes.bore * drawing.scale / len(words))
     gap = (0.625 * size * len(words) + 6.0) / drawing.scale
     drawing.text((0.0, gap if radial else 0.0), "\n".join(words), size=size)

@@ -1,7 +1,8 @@
-"""A run in motion: rolling elements, cage and rings to scale but for their clearances, with the loads between them.
+"""Animation of a transient run: rolling elements, cage and rings to scale except for clearances, with the loads between
+them.
 
-It serves every family that moves: sizes are those that all bearings have, and what the results of a family do not hold,
-as loads or a cage, is not drawn."""
+It serves every family with a motion model: it uses only sizes that all bearings have, and leaves out results that a
+family does not have, such as loads or a cage."""
 
 import math
 from collections.abc import Callable
@@ -25,13 +26,13 @@ if TYPE_CHECKING:
     import matplotlib.figure
 
 _CLEARANCE_SHOWN = 0.3
-"""Half the pocket clearance as drawn, over the gap between neighbouring rolling elements."""
+"""Half the pocket clearance as drawn, as a fraction of the gap between neighbouring rolling elements."""
 _LEAST_POCKET_LOAD = 1.0
-"""N: from here on the colours of pocket loads go by the logarithm."""
+"""Pocket load above which the colour scale is logarithmic, N."""
 
 
 class _Picture(NamedTuple):
-    """Drawing of one instant: places in mm on a page with the load line downwards."""
+    """Data of the picture of one instant: positions in mm, with the load line pointing down."""
 
     elements: np.ndarray
     bars: np.ndarray | None
@@ -42,7 +43,8 @@ class _Picture(NamedTuple):
 
 
 def exaggeration(scene: AbstractMovingBearing) -> float:
-    """Factor on clearances, positions of elements in their pockets and offsets of cage and inner ring."""
+    """Factor by which clearances, offsets of elements in their pockets, and offsets of cage and inner ring are
+    enlarged."""
     if scene.cage is None:
         return 1.0
     gap = float(scene.geometry.pitch_diameter) * math.pi / scene.n_elements - float(scene.element_diameter)
@@ -51,7 +53,7 @@ def exaggeration(scene: AbstractMovingBearing) -> float:
 
 
 def animate(history: History, scene: AbstractMovingBearing, title: str) -> "matplotlib.animation.FuncAnimation":
-    """Evenly spaced instants of a run as moving pictures; pocket loads are the largest since the picture before."""
+    """Animation of evenly spaced instants of a run; pocket loads are the largest since the previous picture."""
     from matplotlib.figure import Figure
 
     chosen = np.unique(instants(0, history.time.shape[0] - 1, history.time.shape[0]).round().astype(int))
@@ -63,7 +65,7 @@ def animate(history: History, scene: AbstractMovingBearing, title: str) -> "matp
 
 
 def _on_page(radius: object, azimuth: object) -> np.ndarray:
-    """Azimuth 0 downwards, counter-clockwise."""
+    """Positions at a radius and azimuths: azimuth 0 points down, positive counter-clockwise."""
     return np.stack(place_at(azimuth, radius), axis=-1)
 
 
@@ -107,7 +109,7 @@ def _draw(
     title: str,
     factor: float,
 ) -> "Callable[[int], list[matplotlib.artist.Artist]]":
-    """Draws all that stands still, and returns the function that moves the rest."""
+    """Draws everything that stands still, and returns the function that updates the rest."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.collections import EllipseCollection, LineCollection
     from matplotlib.colors import SymLogNorm
@@ -193,7 +195,7 @@ def _draw(
 
 
 def _cage_radii(scene: AbstractMovingBearing) -> np.ndarray:
-    """Bore and outside radius of the cage, m."""
+    """Inner and outer radius of the cage, m."""
     if scene.cage is None:
         return np.zeros(2)
     return 0.5 * np.array([float(scene.cage.bore(scene.geometry)), float(scene.cage.outside(scene.geometry))])

@@ -1,8 +1,8 @@
 """A transient run as a labelled xarray data set.
 
-Every field that carries a label in the result classes becomes one variable, as in `bearing.dataset`; those of an
-instant have the dimension `time` before their own, those over the rolling elements (`load_inner`) `time` and `element`.
-`state_elements` and `state_cage` are the state itself, in SI units and in the frame of the run.
+Every labelled field of the result classes becomes one variable, as in `bearing.dataset`. Results of an instant have the
+leading dimension `time`; results of the rolling elements (`load_inner`) have `time` and `element`. `state_elements` and
+`state_cage` are the integrated state, in SI units and in the frame of the run.
 """
 
 import numpy as np
@@ -44,7 +44,7 @@ def to_dataset(history: History) -> xr.Dataset:
 
 
 def _statistics(history: History) -> dict[str, xr.Variable]:
-    """Shocks turn by turn and round the azimuth, and the whirl of the cage."""
+    """Shocks turn by turn and over the azimuth, and the whirl of the cage."""
     found: dict[str, xr.Variable] = {}
     say = lambda unit, text: {"units": unit, "long_name": text, "path": "summary"}
     whirl, peaks, spread = whirl_ratio(history), peaks_by_turn(history), sectors(history)
@@ -69,7 +69,7 @@ def _statistics(history: History) -> dict[str, xr.Variable]:
 
 
 def _of_elements_and_cage(history: History) -> dict[str, xr.Variable]:
-    """Energy that sliding takes at each element, and stresses of the cage."""
+    """Energy dissipated by sliding at each element and over the groove angle, and stresses of the cage."""
     say = lambda unit, text: {"units": unit, "long_name": text, "path": "summary"}
     places = {"inner": "on the inner raceway", "outer": "on the outer raceway", "pocket": "in its pocket"}
     found = {

@@ -20,11 +20,12 @@ if TYPE_CHECKING:
 
 _RPM = displayed(1.0, "rad/s")
 FOLLOWED = 7
-"""The rolling element whose loads are drawn over its azimuth: the eighth, as in the source's figures."""
+"""Index of the rolling element whose loads are drawn over its azimuth: the eighth element, as in the source's
+figures."""
 
 
 def plot(history: History, title: str) -> "matplotlib.figure.Figure":
-    """The page; what the scene does not model is not on it."""
+    """See `report.histories.plot_history`. Results that the scene does not model are left out."""
     from ...backends.matplotlib.page import Page
 
     figure, instants, element = Page(), history.instants, history.element_name
@@ -68,7 +69,8 @@ def _over_grooves(axes: "matplotlib.axes.Axes", angle: np.ndarray, energy: dict[
 
 
 def draw_orbit(axes: "matplotlib.axes.Axes", cage: CageMotion, loaded: bool) -> None:
-    """**Arguments:** `loaded`: whether a load across the axis acts, whose arrow is drawn."""
+    """Draws the orbit of the cage centre. **Arguments:** `loaded`: whether a radial load acts, for which an arrow is
+    drawn."""
     x, y = 1e6 * np.asarray(cage.x), 1e6 * np.asarray(cage.y)
     axes.plot(x, y, color=INNER, linewidth=0.8)
     axes.plot(x[0], y[0], "o", color=FAINT, markersize=4)
@@ -126,7 +128,7 @@ def _pocket_over_time(axes: "matplotlib.axes.Axes", time: np.ndarray, peaks: Poc
 
 
 def _pocket_over_azimuth(axes: "matplotlib.axes.Axes", instants: Any, element: str) -> None:
-    """Peaks between instants, of whichever wall is pressed more."""
+    """Draws the peak pocket loads between instants over the azimuth, always those of the more heavily loaded wall."""
     turned = lambda values: np.degrees(np.mod(np.asarray(values) + np.pi, 2.0 * np.pi) - np.pi)
     azimuth, elements = turned(instants.elements.azimuth), instants.elements
     front, rear = np.asarray(instants.pocket_peaks.front), np.asarray(instants.pocket_peaks.rear)

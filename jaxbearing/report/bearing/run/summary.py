@@ -1,4 +1,4 @@
-"""A transient run of a bearing on the screen."""
+"""Summary of a transient run of a bearing on the screen."""
 
 import math
 from typing import TYPE_CHECKING, Any
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def print_summary(history: History, label: str, console: "Console") -> None:
-    """The run on the screen."""
+    """See `report.histories.print_history`."""
     from rich.table import Table
     from rich.text import Text
 
@@ -79,7 +79,7 @@ def print_summary(history: History, label: str, console: "Console") -> None:
 
 
 def _print_motion(found: dict[str, Any], element: str, console: "Console") -> None:
-    """Prints orbit and stresses of the cage, variation of the speeds, sliding and skidding, where they are there."""
+    """Prints orbit and stresses of the cage, variation of the speeds, sliding and skidding, as far as available."""
     orbit = found.get("cage", {}).get("orbit")
     if orbit is not None:
         radius = " and ".join(with_unit(orbit[f"{name}_radius"], "m") for name in ("mean", "max"))
@@ -112,7 +112,7 @@ def _print_motion(found: dict[str, Any], element: str, console: "Console") -> No
 
 
 def _print_sectors(found: dict[str, Any], console: "Console") -> None:
-    """Prints the places of the shocks: two lines a face, or one where there are none."""
+    """Prints the shocks by azimuth: two lines for each pocket wall, or one line in all if there are none."""
     from rich.table import Table
 
     threshold = with_unit(found["threshold"], "N")

@@ -1,4 +1,4 @@
-"""Temperatures of a bearing in motion: a bar for each node, and the curves with a mark at the time shown."""
+"""Animation of the temperatures of a bearing: a bar for each node, and the curves with a mark at the time shown."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def animate(history: WarmUpHistory, scene: AbstractScene, title: str) -> "matplotlib.animation.FuncAnimation":
-    """Evenly spaced times of a run; between two instants what is drawn is interpolated."""
+    """Animation of evenly spaced times of a run, interpolated between its instants."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(8.4, 6.6), facecolor="white")
@@ -32,7 +32,7 @@ def animate(history: WarmUpHistory, scene: AbstractScene, title: str) -> "matplo
 def _draw(
     figure: "matplotlib.figure.Figure", history: WarmUpHistory, times: np.ndarray, title: str
 ) -> Callable[[int], "list[matplotlib.artist.Artist]"]:
-    """Draws all that stands still, and returns the function that moves the rest."""
+    """Draws everything that stands still, and returns the function that updates the rest."""
     time = np.asarray(history.time)
     nodes = np.asarray(history.node_temperatures()) - ZERO_CELSIUS
     total = np.asarray(history.instants.power_loss.total)

@@ -1,4 +1,4 @@
-"""A run of the temperatures of a bearing: its statistics, and the run as plain numbers and texts."""
+"""A transient run of bearing temperatures: its statistics, and the run as plain numbers and texts."""
 
 from typing import Any
 
@@ -10,8 +10,8 @@ from ...backends.json import finite, plain
 
 
 def statistics(history: WarmUpHistory) -> dict[str, Any]:
-    """Values at the start and the end, and extremes with their times, SI; of play, load and the hottest node these are
-    also looked for between the instants."""
+    """Values at the start and the end, and extremes with their times, in SI units. The extremes of play, load and
+    hottest node include those between the instants."""
     instants, time = history.instants, np.asarray(history.time)
     spread = lambda values: _spread(time, values)
     found: dict[str, Any] = {
@@ -44,7 +44,7 @@ def statistics(history: WarmUpHistory) -> dict[str, Any]:
 
 
 def losses(history: WarmUpHistory) -> dict[str, Any]:
-    """The total loss and the losses that the scene models, W."""
+    """The total power loss and the losses that the scene models, W."""
     loss = history.instants.power_loss
     return {name: getattr(loss, name) for name in ("total", *vars(loss)) if getattr(loss, name) is not None}
 

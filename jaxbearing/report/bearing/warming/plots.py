@@ -1,4 +1,5 @@
-"""A page of plots of a run of temperatures: temperatures, clearance, heat flows, largest load and film over time."""
+"""A page of plots of a transient run of bearing temperatures: temperatures, clearance, heat flows, largest load and
+film over time."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def plot(history: WarmUpHistory, title: str) -> "matplotlib.figure.Figure":
-    """See `report.histories.plot_history`; what the scene does not model is not on it."""
+    """See `report.histories.plot_history`. Results that the scene does not model are left out."""
     from ...backends.matplotlib.page import Page
 
     figure = Page()
@@ -38,7 +39,7 @@ def plot(history: WarmUpHistory, title: str) -> "matplotlib.figure.Figure":
 
 
 def times_of(history: WarmUpHistory) -> tuple[np.ndarray, str]:
-    """The times in the unit of the axis, and this unit."""
+    """The times in the unit of the time axis, and this unit."""
     time = np.asarray(history.time)
     unit, length = clock_unit(float(time[-1]))
     return time / length, unit
@@ -50,7 +51,7 @@ def _root(values: np.ndarray) -> np.ndarray:
 
 def _finish(axes: "matplotlib.axes.Axes", history: WarmUpHistory, title: str) -> None:
     time, unit = times_of(history)
-    # most happens at the start
+    # most changes happen at the start
     axes.set_xscale("function", functions=(_root, np.square))
     axes.set_xlim(time[0], time[-1])
     axes.set_xlabel(f"time, {unit}, on a scale of square roots", fontsize=9)
@@ -59,7 +60,7 @@ def _finish(axes: "matplotlib.axes.Axes", history: WarmUpHistory, title: str) ->
 
 
 def draw_temperatures(axes: "matplotlib.axes.Axes", history: WarmUpHistory) -> None:
-    """Temperature of every node, and of the oil that enters."""
+    """Draws the temperatures of all nodes and of the oil at the inlet."""
     time, _ = times_of(history)
     for name, colour in zip(history.nodes, CURVES, strict=False):
         values = np.asarray(getattr(history.instants.temperatures, name)) - ZERO_CELSIUS
@@ -99,7 +100,7 @@ def _play(axes: "matplotlib.axes.Axes", history: WarmUpHistory, play: tuple[str,
 def _mark(
     axes: "matplotlib.axes.Axes", history: WarmUpHistory, time: Any, value: Any, factor: float, unit: str
 ) -> None:
-    """A mark at an extreme that lies inside the run, with its value and its time."""
+    """Marks an extreme with its value and time, unless it lies at the start or the end of the run."""
     at, height = float(time), factor * float(value)
     if not float(history.time[0]) < at < float(history.time[-1]):
         return

@@ -1,4 +1,4 @@
-"""A run of the temperatures of a bearing on the screen."""
+"""Summary of a transient run of bearing temperatures on the screen."""
 
 from collections.abc import Callable, Iterator
 from typing import Any, SupportsFloat
@@ -12,13 +12,13 @@ from .clock import clock
 from .json_report import statistics
 
 PLAYS = {"clearance": ("the clearance", True), "axial_shift": ("the axial play", False)}
-"""Words for the play, and whether its value is shown, which below 0 is a preload."""
+"""Name of the play -> its words, and whether its value is shown (a value below 0 is a preload)."""
 LEAST_DEPTH = 1e-8
-"""Least difference of the play that is a peak on the screen, m."""
+"""Smallest difference of the play that is reported as a peak, m."""
 LEAST_RISE = 1e-3
-"""Least difference of the load that is one, relative."""
+"""Smallest relative difference of the load that is reported as a peak."""
 LEAST_WARMING = 0.05
-"""Least difference of the highest temperature that is one, K."""
+"""Smallest difference of the highest temperature that is reported as a peak, K."""
 _COLUMNS = {"start": "at the start", "min": "least", "max": "largest", "end": "at the end"}
 
 
@@ -51,10 +51,10 @@ def print_summary(history: WarmUpHistory, label: str, console: Console) -> None:
 
 
 def peak_sentence(history: WarmUpHistory, found: dict[str, Any]) -> str:
-    """Says when the play is least, the contact load largest and, if not at the start or the end, a node hottest, and
-    how far this is from the end of the run.
+    """Sentence that says when the play is smallest, the contact load largest and, if not at the start or the end, a
+    node hottest, and by how much these values differ from those at the end of the run.
 
-    **Arguments:** `found`: the `statistics` of the run.
+    **Arguments:** `found`: result of `statistics` for the run.
     """
     said, name = [], next((one for one in PLAYS if one in found), None)
     if name is not None:
@@ -94,7 +94,7 @@ def _um(value: float) -> str:
 def _rows(
     history: WarmUpHistory, found: dict[str, Any]
 ) -> Iterator[tuple[str, dict[str, float], Callable[[float], str]]]:
-    """Name with its unit, spread, and the function from a value to its text."""
+    """Rows of the table: name with unit, statistics, and the function that turns a value into text."""
     degrees = lambda value: f"{value - ZERO_CELSIUS:.1f}"
     plain = lambda unit, significant=4: lambda value: digits(displayed(value, unit), significant)
     for name in history.nodes:

@@ -1,4 +1,4 @@
-"""Pressure and film of a line contact in motion."""
+"""Animation of pressure and film of a line contact."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     import matplotlib.figure
 
 _SHOWN = 1.5
-"""Half widths to each side that are drawn."""
+"""Range drawn on each side of the centre, in Hertz half widths."""
 _MICRO = 1e6
 
 
 def animate(history: LineContactHistory, scene: AbstractScene, title: str) -> "matplotlib.animation.FuncAnimation":
-    """Evenly spaced times of a run; between two steps what is drawn is interpolated."""
+    """Animation of evenly spaced times of a run, interpolated between its steps."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(8.4, 8.0), facecolor="white")
@@ -34,7 +34,7 @@ def animate(history: LineContactHistory, scene: AbstractScene, title: str) -> "m
 def _draw(
     figure: "matplotlib.figure.Figure", history: LineContactHistory, times: np.ndarray, title: str
 ) -> Callable[[int], "list[matplotlib.artist.Artist]"]:
-    """Draws all that stands still, and returns the function that moves the rest."""
+    """Draws everything that stands still, and returns the function that updates the rest."""
     time, speed = np.asarray(history.time), np.asarray(history.entrainment_speed)
     central, minimum = np.asarray(history.film.central), np.asarray(history.film.minimum)
     pressure, film = np.asarray(history.profile.pressure), np.asarray(history.profile.film)
@@ -72,7 +72,7 @@ def _draw(
         grid_lines(axes)
     upper.legend(fontsize=8, frameon=False, loc="upper right")
     lower.legend(fontsize=8, frameon=False, loc="lower left", ncols=2)
-    # a speed that passes through 0 has digits after the point, no powers of ten
+    # a speed that passes through 0 is written with fixed decimals, not with powers of ten
     fastest = u_factor * float(np.abs(speed).max())
     decimals = 0 if fastest == 0.0 else max(0, 2 - int(np.floor(np.log10(fastest))))
     words = f"Hertz half width {1e3 * width:.4g} mm, pressure {p_factor * hertz:.4g} {p_unit}"

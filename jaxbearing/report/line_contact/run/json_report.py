@@ -1,4 +1,4 @@
-"""A line contact in time: its statistics, and the run as plain numbers and texts."""
+"""A transient run of a line contact: its statistics, and the run as plain numbers and texts."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from ...backends.json import plain
 
 
 def statistics(history: LineContactHistory) -> dict[str, Any]:
-    """Summary of a run, SI."""
+    """Statistics of a run, in SI units."""
     time, central = np.asarray(history.time), np.asarray(history.film.central)
     minimum, place = np.asarray(history.film.minimum), np.asarray(history.film.minimum_position)
     lowest = int(np.argmin(minimum))
@@ -40,7 +40,7 @@ def _ends(values: np.ndarray) -> dict[str, float]:
 
 
 def to_dict(history: LineContactHistory) -> dict[str, Any]:
-    """See `report.histories.history_to_dict`. There is no balance of energy: that of mass stands in the summary."""
+    """See `report.histories.history_to_dict`. There is no energy balance; the mass balance is in `summary`."""
     return {
         "completed": history.completed,
         "status": Status(int(history.status)).text,

@@ -1,4 +1,4 @@
-"""A page of plots of a line contact in time: films, speed, profiles."""
+"""A page of plots of a transient run of a line contact: films, speed, profiles."""
 
 from typing import TYPE_CHECKING
 
@@ -15,11 +15,12 @@ if TYPE_CHECKING:
     import matplotlib.figure
 
 PROFILES = 6
-"""Profiles that are drawn of a run."""
+"""Number of profiles drawn for a run."""
 
 
 def plot(history: LineContactHistory, title: str) -> "matplotlib.figure.Figure":
-    """See `report.histories.plot_history`: central and minimum film over time, the speed, profiles at some times."""
+    """See `report.histories.plot_history`: the page shows central and minimum film and speed over time, and profiles at
+    some times."""
     from ...backends.matplotlib.page import Page
 
     figure = Page()

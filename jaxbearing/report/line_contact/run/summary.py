@@ -1,4 +1,4 @@
-"""A line contact in time on the screen."""
+"""Summary of a transient run of a line contact on the screen."""
 
 from rich.console import Console
 
