@@ -133,7 +133,7 @@ def turns_done(history: History) -> float:
 
 
 def skidding(history: History) -> dict[str, dict[str, Any]]:
-    """Where and when elements skid on each raceway; empty for families without `slide_to_roll`.
+    """Places and times at which elements skid on each raceway; empty for families without `slide_to_roll`.
 
     For each side: share of the instants and elements that skid (above `SKID`), mean and largest slide-to-roll ratio,
     share by azimuth (`SECTORS` sectors from the load line), and time intervals, s, in which more than half of the
