@@ -26,7 +26,7 @@ class DerivedResult(property):
 
 
 class DerivedPart(property):
-    """A property that returns a class of results, whose fields have the labels. `kind`: that class."""
+    """A property that returns several results, the fields of a class with labels. `kind`: that class."""
 
     def __init__(self, function: Callable[[Any], Any], kind: type):
         super().__init__(function)
@@ -35,9 +35,9 @@ class DerivedPart(property):
 
 
 def derived(unit: str, description: str) -> Callable[[Callable[[Any], Any]], DerivedResult]:
-    """Decorator that makes a method of a result class a result, a property. The method also meets batches of
-    solutions: it takes an element's axis as the last one, and its annotation begins with `*batch`. It returns `None`
-    where the scene does not model what it needs.
+    """Decorator that makes a method of a result class a property with a label, so that outputs show it like a field. The
+    method must serve batches of solutions too: the axis of the rolling elements is the last one, and the annotation
+    begins with `*batch`. It returns `None` if the scene does not model what it needs.
 
     **Arguments:** as those of `label`.
     """
@@ -68,6 +68,7 @@ def _properties(kind: type, wanted: type[Property]) -> dict[str, Property]:
 
 
 def known_numbers(tree: Numbers) -> Numbers:
-    """The tree with numpy's arrays, unless a number is traced: JAX would compile every operation on its own arrays."""
+    """The tree with numpy arrays in place of JAX arrays, unless a number is traced. Numpy computes at once, where JAX
+    would compile each operation first."""
     traced = any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(tree))
     return tree if traced else jax.tree.map(np.asarray, tree)

@@ -191,7 +191,7 @@ def _there(solution: Any, name: str, known: Mapping[str, Any]) -> bool:
 
 
 def _forces(solution: AbstractSolution) -> Iterator[str]:
-    """Loads of the degrees of freedom with a prescribed displacement, such as a preload."""
+    """Names of the loads, such as a preload, that hold degrees of freedom with a prescribed displacement."""
     operation = getattr(solution, "operation", None)
     for place, name in enumerate(LOAD_FIELDS):
         if isinstance(operation, AbstractOperation) and operation.held_at(name) is not None:
@@ -214,8 +214,8 @@ def _path_of(text: str, known: Mapping[str, object]) -> str | None:
 
 
 def is_result(solution: AbstractSolution, text: str) -> bool:
-    """True for the name of a result that varies smoothly, with or without its places, or that this scene does not
-    model."""
+    """True if the text names a result that varies smoothly, with or without places of an array. A result that this
+    scene does not model counts too."""
     path = _path_of(text, dict(_known(solution)))
     if path is None:
         return not_modelled(solution, text)

@@ -43,7 +43,8 @@ FLOOR_SHARE = 1e-4
 """Largest added force over the mean load of a ball. A larger force would make balls at rest roll down the outer groove,
 and move a ring that carries 0.01 N by 20 um along its axis."""
 CENTRIFUGAL_SHARE = 1e-3
-"""Part of the centrifugal force by which the added force may be larger: it presses the balls outwards anyway."""
+"""The outward force that is added to a ball may be as large as this fraction of its centrifugal force, which presses
+the ball outwards anyway."""
 
 ESTIMATES = 3
 """Fixed-point passes between centrifugal forces and contact angles in the first guess."""
@@ -164,8 +165,8 @@ class BallCore(AbstractBallSystem):
 
     @property
     def heavier(self) -> Array:
-        """Ratio of the easiest load to the load on the ring. Centrifugal forces and film effects are small compared
-        with the easiest load."""
+        """Ratio of the easiest load to the load on the ring. The easiest load has, for each ball, the centrifugal force
+        of rolling and `EASY_LOAD` D^2 more."""
         angle = self.grooves.free_angle
         force = self.outward_force(self.kinematics.rolling(angle, angle, angle))
         force = force + EASY_LOAD * jnp.square(self.kinematics.ball_diameter)

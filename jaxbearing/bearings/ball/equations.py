@@ -139,13 +139,14 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
 
     @property
     def increasing(self) -> bool:
-        """False: a pivot at a root can be negative if a ball has almost lost contact with the inner race."""
+        """Whether each equation grows with its own unknown at every root. It does not: a pivot can be negative if a ball
+        has almost lost contact with the inner race."""
         return False
 
     @property
     def rounding(self) -> float:
-        """In slow, heavily loaded contacts the round-off of a speed changes the friction by up to 1e-8 of the friction
-        scale. That scale is 1 % of the load of a ball."""
+        """Factor of the tolerance. In slow, heavily loaded contacts the round-off of a speed changes the friction by up
+        to 1e-8 of the friction scale, which is 1 % of the load of a ball."""
         return 100.0
 
     @property

@@ -63,7 +63,8 @@ class WarmPeaks(eqx.Module):
 
 
 class WarmEnergy(eqx.Module):
-    """Energies over the run, J. The balance is `losses` = `to_oil` + `to_ambient` + `stored`, up to `error`."""
+    """Energies over the run, J. The balance is `losses` = `to_oil` + `to_ambient` + `stored`; `error` is what it leaves
+    open, over the losses."""
 
     losses: _Number = eqx.field(metadata=label("J", "energy of all losses"))
     to_oil: _Number = eqx.field(metadata=label("J", "energy that left with the oil"))
