@@ -35,9 +35,9 @@ class DerivedPart(property):
 
 
 def derived(unit: str, description: str) -> Callable[[Callable[[Any], Any]], DerivedResult]:
-    """Decorator that makes a method of a result class a property with a label, so that outputs show it like a field. The
-    method must serve batches of solutions too: the axis of the rolling elements is the last one, and the annotation
-    begins with `*batch`. It returns `None` if the scene does not model what it needs.
+    """Decorator that makes a method of a result class a property with a label, so that outputs show it like a field.
+    The method must serve batches of solutions too: the axis of the rolling elements is the last one, and the
+    annotation begins with `*batch`. It returns `None` if the scene does not model what it needs.
 
     **Arguments:** as those of `label`.
     """

@@ -139,8 +139,8 @@ class AbstractBallEquations(AbstractLubricatedBallSystem):
 
     @property
     def increasing(self) -> bool:
-        """Whether each equation grows with its own unknown at every root. It does not: a pivot can be negative if a ball
-        has almost lost contact with the inner race."""
+        """The equations need not grow with their own unknown at a root: a pivot can be negative if a ball has almost
+        lost contact with the inner race."""
         return False
 
     @property

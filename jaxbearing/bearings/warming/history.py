@@ -98,7 +98,7 @@ class WarmUpHistory(AbstractHistory):
     """
 
     of: ClassVar[str] = "bearing with [thermal]"
-    """Kind of the scenes that have this state, for messages."""
+    """Kind of the scenes whose runs have this history, for messages."""
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the run ended"))
     time: Float[Array, " time"] = eqx.field(metadata=label("s", "time"))
