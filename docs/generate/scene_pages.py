@@ -156,7 +156,7 @@ def _takes(field):
 
 
 def _meaning(field):
-    """What it is; nothing where its name says as much."""
+    """The meaning of a field; empty if its name says as much."""
     return "" if field.description == field.name.replace("_", " ") else _cell(field.description)
 
 

@@ -71,8 +71,8 @@ def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: fl
         console.print(grid)
         if 1 < failure.size <= _FEW and len(dataset.attrs["sweep_fields"].split()) <= _FEW_FIELDS:
             print_cases(dataset, _MAIN, console)
-        told = filter(None, dataset.attrs.get("warnings", "").split("\n"))
-        print_warnings([*_reasons(failure), *_yield(whole), *told], console)
+        warnings = filter(None, dataset.attrs.get("warnings", "").split("\n"))
+        print_warnings([*_reasons(failure), *_yield(whole), *warnings], console)
     console.print(Text(f"wrote {os.fspath(file)}: open it with xarray.open_dataset"))
 
 

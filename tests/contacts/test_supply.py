@@ -203,8 +203,8 @@ def test_contacts_at_hard_cases(way):
 def test_a_level_is_its_number():
     """The words for usual supplies: a gap over the central film."""
     for level, gap in LEVELS.items():
-        found, same = (line(Supply(**one), 2000.0, 30.0) for one in ({"level": level}, {"gap_over_central": gap}))
-        assert found.film == same.film
+        of_level, of_gap = (line(Supply(**way), 2000.0, 30.0) for way in ({"level": level}, {"gap_over_central": gap}))
+        assert of_level.film == of_gap.film
 
 
 def test_no_oil_leaves_the_layer():
