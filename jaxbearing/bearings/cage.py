@@ -79,11 +79,14 @@ class AbstractCage(Checked, Generic[Geometry]):
             return self.outer_diameter
         return geometry.pitch_diameter + self.assumed_outer * geometry.element_diameter
 
+    def land_diameter(self, geometry: Geometry) -> Scalar:
+        """Diameter of the guiding lands of the cage, m: its bore or its outside."""
+        return self.bore(geometry) if self.guidance == "inner_ring" else self.outside(geometry)
+
     def land(self, geometry: Geometry) -> ShortJournal:
         """The film of the guiding lands in a bearing of this geometry."""
-        diameter = self.bore(geometry) if self.guidance == "inner_ring" else self.outside(geometry)
         return ShortJournal(
-            radius=jnp.asarray(diameter) / 2.0,
+            radius=jnp.asarray(self.land_diameter(geometry)) / 2.0,
             width=jnp.asarray(self.land_width),
             clearance=jnp.asarray(self.guiding_clearance) / 2.0,
             turbulence=self.turbulence,
@@ -108,9 +111,10 @@ class AbstractCage(Checked, Generic[Geometry]):
 
         **Raises:** `ValueError` if it does not fit."""
         problems: dict[str, list[ValueError]] = {}
+        land = "inner_diameter" if self.guidance == "inner_ring" else "outer_diameter"
         for name, *limit in self._limits(geometry):
-            # the limit of the guiding clearance follows from the bore, so it is checked only if the bore is accepted
-            if name != "guiding_clearance" or not problems["inner_diameter"]:
+            # the limit of the guiding clearance follows from the land, so it is checked only if the land is accepted
+            if name != "guiding_clearance" or not problems[land]:
                 problems[name] = list(refusals_of(_check_limit, name, *limit))
         refuse_all(error for found in problems.values() for error in found)
 
@@ -132,7 +136,7 @@ class AbstractCage(Checked, Generic[Geometry]):
         yield (
             "guiding_clearance",
             self.guiding_clearance,
-            lambda: (0.0, 0.05 * bore),
+            lambda: (0.0, 0.05 * self.land_diameter(geometry)),
             "nothing",
             "5 % of the land diameter",
         )

@@ -276,9 +276,8 @@ def _wide_land(scene: AbstractBearing) -> Excess:
     cage: AbstractCage | None = getattr(scene, "cage", None)
     if cage is None or not scene.slips:
         return {}
-    diameter = cage.bore(scene.geometry) if cage.guidance == "inner_ring" else cage.outside(scene.geometry)
     text = Information("land wider than a third of its radius: the short journal film overestimates")
-    return {text: jnp.asarray(cage.land_width - diameter / 6.0)}
+    return {text: jnp.asarray(cage.land_width - cage.land_diameter(scene.geometry) / 6.0)}
 
 
 def _clearance(scene: AbstractBearing) -> Excess:

@@ -10,8 +10,6 @@ from .parameters import FreeField
 
 TOGETHER = 0.95
 """Magnitude of a correlation from which a note says that two fields can hardly be separated."""
-PART = 0.1
-"""Component of a field in a direction from which the field is named."""
 STARTS = 3.0
 """Multiple of the start of a field of either sign: if the interval reaches beyond it on both sides of zero, the field
 is not determined."""

@@ -57,7 +57,7 @@ class ConstantPressureViscosity(AbstractPressureViscosity):
 
 
 ConstantPressureViscosity.__init__.__doc__ = """**Arguments:**
-- `value`: 1/Pa, > 0; a fluid without one has `NoPressureViscosity`.
+- `value`: 1/Pa, >= 0; a fluid without one has `NoPressureViscosity`.
 """
 
 

@@ -101,7 +101,7 @@ class Barus(AbstractViscosity):
 Barus.__init__.__doc__ = """**Arguments:**
 - `reference_viscosity`: mu_0, Pa s, > 0.
 - `reference_temperature`: T_0, K, > 0.
-- `pressure_viscosity`: alpha, 1/Pa, > 0.
+- `pressure_viscosity`: alpha, 1/Pa, >= 0.
 - `temperature_viscosity`: beta, K, >= 0; 0 is a viscosity that does not depend on temperature.
 """
 

@@ -230,7 +230,7 @@ def _drag(read: Reader, family: str, size: float, missing: list[str], flags: lis
     times = 2.0 if read("lubrication") == "oil_jet" else 1.0
     if _kind(family) == "roller":
         length = ROLLER_DRAG[family]
-        return times * float(skf.roller_drag(read("speed"), bore, outside, read("width"), level, size, length, rows))
+        return times * float(skf.roller_drag(read("speed"), bore, outside, read("width"), level, size, length))
     return times * float(skf.ball_drag(read("speed"), read("viscosity"), bore, outside, level, size, rows))
 
 

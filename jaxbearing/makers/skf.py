@@ -222,14 +222,13 @@ def roller_drag(
     level: Values,
     geometry: Scalar,
     length: Scalar,
-    rows: float = 1.0,
 ) -> Batch:
     r"""$10V_MK_{roll}Bd_m^4n^2$, $K_{roll} = K_LK_z\frac{d + D}{D - d}10^{-12}$, N m: the older form for rollers.
 
-    **Arguments:** `speed`, rad/s; `bore`, `outside`, `width` B and `level`, m; `geometry` K_z; `length` K_L; `rows`:
-    number of rows, a further factor.
+    **Arguments:** `speed`, rad/s; `bore`, `outside`, `width` B and `level`, m; `geometry` K_z; `length` K_L. Unlike
+    that of balls, the formula has no number of rows.
     """
     dm = 0.5 * (jnp.asarray(bore) + outside)
-    size = rows * length * geometry * (jnp.asarray(bore) + outside) / (jnp.asarray(outside) - bore) * 1e-12
+    size = length * geometry * (jnp.asarray(bore) + outside) / (jnp.asarray(outside) - bore) * 1e-12
     moved = jnp.asarray(width) * MM * (dm * MM) ** 4 * speed_in_rpm(speed) ** 2
     return 10.0 * drag_variable(level, dm, True) * size * moved / MM

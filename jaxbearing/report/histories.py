@@ -20,8 +20,11 @@ _CALLED = "report"
 
 
 def history_to_dict(history: "AbstractHistory") -> dict[str, Any]:
-    """The run as plain numbers and texts in SI units; numbers that are not finite are `None`."""
-    return output(history, "json_report", _CALLED, RUNS)(history)
+    """The run as plain numbers and texts in SI units; numbers that are not finite are `None`.
+
+    Numbers below the resolution of the solve are 0, as on the screen (`report.round_off`).
+    """
+    return output(history, "json_report", _CALLED, RUNS)(without_round_off(history))
 
 
 def not_begun_to_dict(scene: Any, duration: float | None, error: SolveError) -> dict[str, Any]:

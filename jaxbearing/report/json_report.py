@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 from ..sensitivity import Sensitivities, UsualTolerance, largest
 from .backends.json import plain
 from .registry import output
+from .round_off import without_round_off
 
 if TYPE_CHECKING:
     from .._scene import AbstractSolution
@@ -14,9 +15,11 @@ if TYPE_CHECKING:
 def solution_to_dict(solution: "AbstractSolution") -> dict[str, Any]:
     """All results of one solution, SI units and radians; numbers that are not finite are `None`.
 
+    Numbers below the resolution of the solve are 0, as on the screen (`report.round_off`).
+
     **Raises:** `TypeError` for another kind of solution.
     """
-    return output(solution, "json_report", "JSON")(solution)
+    return output(solution, "json_report", "JSON")(without_round_off(solution))
 
 
 RESULTS = {

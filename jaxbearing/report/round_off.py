@@ -1,8 +1,9 @@
-"""Removal of round-off from results on screen, page, figures and in notebooks.
+"""Removal of round-off from results on screen, page, figures, in JSON and in notebooks.
 
 A number whose modulus is below the resolution of the solve for its quantity is shown as 0. The resolution of lengths,
 angles and ratios is absolute, given by the scales of the equations. That of forces, powers, speeds and pressures is
-relative to the largest value of the same unit in the result. Results in Python, JSON and NetCDF stay unchanged.
+relative to the largest value of the same unit in the result. Results in Python and NetCDF, which further computation
+reads, stay unchanged.
 """
 
 import dataclasses
@@ -90,7 +91,9 @@ def _cleaned(part: Any, floors: Mapping[str, float]) -> Any:
         elif field.name in _FORCES:
             new = _without(value, RELATIVE * _largest(np.asarray(value)[..., :3]))
         elif field.name == "stiffness":
-            diagonal = np.sqrt(np.abs(np.diagonal(np.asarray(value), axis1=-2, axis2=-1)))
+            # of a failed solve it may not be finite
+            diagonal = np.abs(np.diagonal(np.asarray(value), axis1=-2, axis2=-1))
+            diagonal = np.sqrt(np.where(np.isfinite(diagonal), diagonal, 0.0))
             new = _without(value, RELATIVE * diagonal[..., :, None] * diagonal[..., None, :])
         else:
             new = _without(value, floors.get(field.metadata.get("unit", "")))

@@ -241,7 +241,7 @@ def test_arguments_written_below_a_class_are_found():
     tree = ast.parse((TOP / "jaxbearing" / "lubricants" / "simple_viscosity.py").read_text(encoding="utf-8"))
     found = docstrings.init_docstrings(tree)
     assert set(found) == {"ConstantViscosity", "IsoviscousLiquid", "Barus", "Roelands"}
-    assert "`pressure_viscosity`: alpha, 1/Pa, > 0." in found["Barus"]
+    assert "`pressure_viscosity`: alpha, 1/Pa, >= 0." in found["Barus"]
 
 
 def test_formulas_become_mathml():

@@ -33,6 +33,17 @@ def test_impossible_scenes_are_refused_by_name(change, field):
         reference_roller().replace(change)
 
 
+def test_guiding_clearance_is_limited_by_the_land_that_guides():
+    """5 % of the bore of the cage if the inner ring guides it, of its outside if the outer ring does."""
+    scene = reference_roller()
+    bore, outside = (float(of(scene.geometry)) for of in (scene.cage.bore, scene.cage.outside))
+    for ring, land in (("inner_ring", bore), ("outer_ring", outside)):
+        guided = scene.replace({"cage.guidance": ring})
+        guided.replace({"cage.guiding_clearance": 0.0499 * land})
+        with pytest.raises(ValueError, match=r"^cage\.guiding_clearance.*land diameter"):
+            guided.replace({"cage.guiding_clearance": 0.0501 * land})
+
+
 def test_unknown_path_says_what_there_is():
     with pytest.raises(AttributeError, match=r"cage.colour.*guidance"):
         reference_roller().replace({"cage.colour": 1.0})
