@@ -225,7 +225,7 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         variance = self.variance_of(residual[used], slopes[used], problem.scale, problem.free)
         return max(float(np.sqrt(variance)), float(np.finfo(float).tiny) ** 0.25)
 
-    def _told(self, slopes: np.ndarray, free: np.ndarray) -> float:
+    def _determined(self, slopes: np.ndarray, free: np.ndarray) -> float:
         """Effective number of parameters that the data determine, as opposed to the priors."""
         normal = slopes[:, free].T @ slopes[:, free]
         prior = np.diag(np.square(1.0 / self.prior_deviation[free]))
@@ -262,7 +262,7 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
             return variance_factor(residual / size, self.loss, int(np.sum(free))) * size**2
         if self.options.known_errors:
             return 1.0
-        degrees = max(len(residual) - self._told(slopes / scale, free), 1.0)
+        degrees = max(len(residual) - self._determined(slopes / scale, free), 1.0)
         return float(np.sum(np.square(residual)) / degrees)
 
     def spread(self, problem: Problem, u: np.ndarray, free: np.ndarray) -> Spread:
