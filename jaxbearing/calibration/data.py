@@ -52,22 +52,22 @@ class Data:
         return len(next(iter(self.measured.values())))
 
     @classmethod
-    def of(cls, given: object) -> "Data":
+    def of(cls, source: object) -> "Data":
         """The given data, or the data of a mapping with the same names, whose numbers become arrays of float64."""
-        if isinstance(given, Data):
-            return given
-        if not isinstance(given, Mapping) or not {"measured"} <= set(given) <= {
+        if isinstance(source, Data):
+            return source
+        if not isinstance(source, Mapping) or not {"measured"} <= set(source) <= {
             f.name for f in dataclasses.fields(cls)
         }:
             raise ValueError("data: expected calibration.Data, or a mapping with conditions and measured")
         arrays = lambda part: {name: np.asarray(value, dtype=float) for name, value in dict(part).items()}
-        whole = {"conditions": arrays(given.get("conditions", {})), "measured": arrays(given["measured"])}
-        held = given.get("held_back")
+        whole = {"conditions": arrays(source.get("conditions", {})), "measured": arrays(source["measured"])}
+        held = source.get("held_back")
         return cls(
             **whole,
-            deviations=arrays(given.get("deviations", {})),
+            deviations=arrays(source.get("deviations", {})),
             held_back=None if held is None else np.asarray(held, dtype=bool),
-            origin=given.get("origin", "data"),
+            origin=source.get("origin", "data"),
         )
 
 
@@ -104,8 +104,8 @@ class Observations:
                 size = np.abs(value[points])
                 largest = np.max(size, initial=0.0)
                 assumed = relative * np.hypot(size, FLOOR * largest) if largest > 0.0 else np.ones(len(points))
-                given = data.deviations.get(name)
-                deviation = assumed if given is None else np.asarray(given)[points]
+                stated = data.deviations.get(name)
+                deviation = assumed if stated is None else np.asarray(stated)[points]
                 row = (value[points], deviation, held[points], np.full(len(points), number), points)
                 for column, part in zip(columns, (*row, np.full(len(points), name, dtype=object)), strict=True):
                     column.append(part)

@@ -37,8 +37,8 @@ def at_point(
     stiffness = any(name.startswith("stiffness") for name in wanted)
 
     def results(own: Mapping[str, Array]) -> Array:
-        found = solution_at(roots, base.replace({**condition, **own}), options, stiffness=stiffness)
-        return jnp.stack(list(values_of(found, wanted).values()))
+        solved = solution_at(roots, base.replace({**condition, **own}), options, stiffness=stiffness)
+        return jnp.stack(list(values_of(solved, wanted).values()))
 
     def along(place: Array) -> Array:
         direction = {path: jnp.where(place == i, 1.0, 0.0) for i, path in enumerate(sorted(fields))}
@@ -60,11 +60,11 @@ def at_points(
     """Results of `at_point` for many points, one after the other; NaN for inactive points. To be traced."""
     nothing = jnp.full(len(wanted), jnp.nan), jnp.full((len(fields), len(wanted)), jnp.nan), jnp.asarray(False)
 
-    def one(given: Any) -> Any:
-        condition, own, wants = given
+    def lane(inputs: Any) -> Any:
+        condition, own, wants = inputs
         return jax.lax.cond(wants, lambda: at_point(base, condition, own, wanted, options), lambda: nothing)
 
-    return jax.lax.map(one, (dict(conditions), dict(fields), active))
+    return jax.lax.map(lane, (dict(conditions), dict(fields), active))
 
 
 _kept_points = KeptProgram(at_points, quick=True)
@@ -103,7 +103,7 @@ class Evaluator:
         `active`: mask of the lanes to solve.
         """
         count = len(active)
-        found = np.full((count, len(self.wanted)), np.nan)
+        gathered = np.full((count, len(self.wanted)), np.nan)
         slopes = np.full((count, len(self.paths), len(self.wanted)), np.nan)
         places = np.flatnonzero(active)
         for start in range(0, len(places), LANES):
@@ -111,12 +111,12 @@ class Evaluator:
             # the last call is filled up with copies that are not solved
             padded = np.pad(own, (0, LANES - len(own)), mode="edge")
             wanted = np.arange(LANES) < len(own)
-            given = {path: jnp.asarray(column[padded]) for path, column in conditions.items()}
+            points = {path: jnp.asarray(column[padded]) for path, column in conditions.items()}
             fields = {path: jnp.asarray(values[padded, i]) for i, path in enumerate(self.paths)}
-            parts = _kept_points(self.base, given, fields, jnp.asarray(wanted), self.wanted, self.options)
+            parts = _kept_points(self.base, points, fields, jnp.asarray(wanted), self.wanted, self.options)
             results, own_slopes, converged = (np.asarray(part)[: len(own)] for part in parts)
-            found[own] = np.where(converged[:, None], results, np.nan)
+            gathered[own] = np.where(converged[:, None], results, np.nan)
             slopes[own] = np.where(converged[:, None, None], own_slopes, np.nan)
             if self.progress is not None:
                 self.progress(len(own))
-        return found, slopes
+        return gathered, slopes

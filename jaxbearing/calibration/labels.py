@@ -18,37 +18,37 @@ def labels_in(
 
     **Raises:** `ValueError` for a name that is no result, and for a result that is not one number.
     """
-    found: dict[str, tuple[str, Label]] = {}
+    labels: dict[str, tuple[str, Label]] = {}
 
     def look(solution: AbstractSolution) -> None:
         for name in names:
             (path,) = names_in(solution, [name])
-            found[name] = path, labels_of(solution, [path])[path]
+            labels[name] = path, labels_of(solution, [path])[path]
 
     look_at(scene, look, newton)
-    return found
+    return labels
 
 
 def result_names(scene: AbstractScene, newton: NewtonOptions | None = None) -> tuple[str, ...]:
     """Paths of all results of a scene."""
-    found: list[str] = []
-    look_at(scene, lambda solution: found.extend(paths_of(solution)), newton)
-    return tuple(found)
+    paths: list[str] = []
+    look_at(scene, lambda solution: paths.extend(paths_of(solution)), newton)
+    return tuple(paths)
 
 
 def results_among(scene: AbstractScene, names: Sequence[str], newton: NewtonOptions | None = None) -> list[str]:
     """The names among these that are results, including results of parts that the scene does not model."""
-    found: list[str] = []
+    results: list[str] = []
     if names:
-        look_at(scene, lambda solution: found.extend(name for name in names if is_result(solution, name)), newton)
-    return found
+        look_at(scene, lambda solution: results.extend(name for name in names if is_result(solution, name)), newton)
+    return results
 
 
 def is_left_out(scene: AbstractScene, name: str, newton: NewtonOptions | None = None) -> bool:
     """True for the path of a result that this scene does not model."""
-    found: list[bool] = []
-    look_at(scene, lambda solution: found.append(not_modelled(solution, name)), newton)
-    return any(found)
+    left_out: list[bool] = []
+    look_at(scene, lambda solution: left_out.append(not_modelled(solution, name)), newton)
+    return any(left_out)
 
 
 def look_at(scene: AbstractScene, look: Callable[[AbstractSolution], None], newton: NewtonOptions | None) -> None:

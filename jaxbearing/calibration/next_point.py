@@ -68,16 +68,16 @@ def next_points(found: Calibration, candidates: Mapping[str, object], rig: int =
     ranked = []
     for place, rows in enumerate(jacobian):
         at = {path: float(column[place]) for path, column in columns.items()}
-        told, after = _updated(covariance, rows)
+        information, after = _updated(covariance, rows)
         errors = np.sqrt(np.diag(after)) * slope
-        ranked.append(Candidate(place, at, told, dict(zip(paths, map(float, errors), strict=True))))
-    return tuple(sorted(ranked, key=lambda one: (not np.isfinite(one.information), -one.information)))
+        ranked.append(Candidate(place, at, information, dict(zip(paths, map(float, errors), strict=True))))
+    return tuple(sorted(ranked, key=lambda candidate: (not np.isfinite(candidate.information), -candidate.information)))
 
 
-def _deviations(found: Calibration, rig: int, results: np.ndarray) -> np.ndarray:
+def _deviations(calibration: Calibration, rig: int, results: np.ndarray) -> np.ndarray:
     """Standard deviations of new results: root mean square of those given for the quantity in the rig's data, or, if
     none are given, assumed ones."""
-    search, deviation = found.search, np.empty_like(results)
+    search, deviation = calibration.search, np.empty_like(results)
     for column, name in enumerate(search.evaluators[rig].wanted):
         mine = (search.observed.rig == rig) & (search.observed.name == name)
         if name in search.rigs[rig].deviations:
@@ -85,7 +85,7 @@ def _deviations(found: Calibration, rig: int, results: np.ndarray) -> np.ndarray
             continue
         largest = np.max(np.abs(search.observed.value[mine]))
         deviation[:, column] = search.options.relative_error * np.hypot(results[:, column], FLOOR * largest)
-    return found.scale * deviation
+    return calibration.scale * deviation
 
 
 def _updated(covariance: np.ndarray, rows: np.ndarray) -> tuple[float, np.ndarray]:

@@ -87,14 +87,14 @@ class FreeField:
         """Mean and standard deviation of the normal prior of the coordinate; `None` if only bounds are known. For a
         positive number, a lognormal prior is represented exactly, apart from its limits, which become bounds; a normal
         prior is replaced by a lognormal one with the same median and relative deviation."""
-        one = self.prior
-        if one is None or one.shape == "uniform":
+        prior = self.prior
+        if prior is None or prior.shape == "uniform":
             return None
         if not self.positive:
-            return self.coordinate(one.mean), one.deviation / self.scale
-        if one.log_deviation is not None:
-            return self.coordinate(one.nominal), one.log_deviation
-        return self.coordinate(one.mean), math.sqrt(math.log1p((one.deviation / one.mean) ** 2))
+            return self.coordinate(prior.mean), prior.deviation / self.scale
+        if prior.log_deviation is not None:
+            return self.coordinate(prior.nominal), prior.log_deviation
+        return self.coordinate(prior.mean), math.sqrt(math.log1p((prior.deviation / prior.mean) ** 2))
 
 
 def free_fields(
@@ -116,8 +116,8 @@ def free_fields(
     twice = next((path for path in free if list(free).count(path) > 1), None)
     if twice is not None:
         raise ValueError(f"free: found '{twice}' twice; expected each field once")
-    for name, given in (("prior", priors), ("bounds", bounds)):
-        other = next((path for path in given if path not in free), None)
+    for name, entries in (("prior", priors), ("bounds", bounds)):
+        other = next((path for path in entries if path not in free), None)
         if other is not None:
             raise ValueError(f"{name}: found '{other}', which is not free; expected one of {', '.join(free)}")
     return tuple(_field(scenes, path, priors.get(path), bounds.get(path, (None, None))) for path in free)
@@ -159,8 +159,8 @@ def _field(
             "0, or the value in the scene (--set) and no --free"
         )
     owner = owner_of(scene, path.split("."))
-    said = {} if owner is None else owner[0].__dataclass_fields__[owner[1]].metadata
-    allowed = RANGES[said.get("bound", "finite")]
+    metadata = {} if owner is None else owner[0].__dataclass_fields__[owner[1]].metadata
+    allowed = RANGES[metadata.get("bound", "finite")]
     ends = [allowed.low, allowed.high]
     cut = (None, None) if prior is None else (prior.low, prior.high)
     if prior is not None and prior.shape == "uniform":

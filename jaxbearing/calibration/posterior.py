@@ -43,12 +43,12 @@ def posterior_of(found: Calibration, sampling: Sampling | None = None) -> Poster
     return sampled(target, Sampling() if sampling is None else sampling, found.options.level)
 
 
-def _evaluate(found: Calibration):
+def _evaluate(calibration: Calibration):
     """Traceable function from the coordinates of the fitted fields to the residuals of the fitted values, over their
     deviations, and the Jacobian."""
-    search = found.search
-    observed, place = search.observed, np.flatnonzero(found.settled.held.free)
-    held = np.asarray(found.settled.problem.natural(found.settled.u))
+    search = calibration.search
+    observed, place = search.observed, np.flatnonzero(calibration.settled.held.free)
+    held = np.asarray(calibration.settled.problem.natural(calibration.settled.u))
     used = np.flatnonzero(search.weight > 0)
     paths = [field.path for field in search.fields]
 
@@ -88,5 +88,7 @@ def predictive(found: Calibration, posterior: Posterior, count: int = PREDICTED,
     whole = np.tile(np.asarray(found.settled.problem.natural(found.settled.u)), (len(place), 1))
     whole[:, found.settled.held.free] = posterior.coordinates.reshape(-1, posterior.coordinates.shape[-1])[place]
     values, _ = search.predicted(whole)
-    one = search.observed
-    return measured_again(posterior, place, values, one.value, one.deviation, tuple(map(str, one.name)), seed)
+    observed = search.observed
+    return measured_again(
+        posterior, place, values, observed.value, observed.deviation, tuple(map(str, observed.name)), seed
+    )

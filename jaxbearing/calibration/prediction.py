@@ -82,11 +82,11 @@ def predict(
     normal = float(stats.norm.ppf(0.5 + 0.5 * found.options.level))
     prior = np.diag(np.square(np.where(np.isfinite(known), known, 0.0)))
     before = _at(found, evaluator, order, found.search.prior_mean, prior, normal)
-    return {name: dataclasses.replace(one, before=before[name]) for name, one in after.items()}
+    return {name: dataclasses.replace(result, before=before[name]) for name, result in after.items()}
 
 
 def _at(
-    found: Calibration,
+    calibration: Calibration,
     evaluator: Evaluator,
     order: list[str],
     coordinates: np.ndarray,
@@ -94,8 +94,8 @@ def _at(
     quantile: float,
 ) -> dict[str, Predicted]:
     own = [order.index(path) for path in evaluator.paths]
-    values = np.array([[float(found.fields[i].value(coordinates[i])) for i in own]])
-    chain = np.array([float(found.fields[i].slope(coordinates[i])) for i in own])
+    values = np.array([[float(calibration.fields[i].value(coordinates[i])) for i in own]])
+    chain = np.array([float(calibration.fields[i].slope(coordinates[i])) for i in own])
     results, slopes = evaluator({}, values, np.ones(1, dtype=bool))
     if not np.all(np.isfinite(results)):
         raise ValueError("scene: found no solution with the calibrated fields")
@@ -110,17 +110,21 @@ def _at(
 
 
 def _by_samples(
-    found: Calibration, evaluator: Evaluator, order: list[str], coordinates: np.ndarray, posterior: Posterior
+    calibration: Calibration, evaluator: Evaluator, order: list[str], coordinates: np.ndarray, posterior: Posterior
 ) -> dict[str, Predicted]:
     """Median, standard deviation and quantiles of the results with samples of the posterior; fields without samples
     keep their values."""
     place = chosen_samples(posterior, PREDICTED)
-    told = list(posterior.parameters)
-    drawn = posterior.values.reshape(-1, len(told))[place]
+    parameters = list(posterior.parameters)
+    drawn = posterior.values.reshape(-1, len(parameters))[place]
     columns = []
     for path in evaluator.paths:
         i = order.index(path)
-        own = drawn[:, told.index(path)] if path in told else np.full(len(place), found.fields[i].value(coordinates[i]))
+        own = (
+            drawn[:, parameters.index(path)]
+            if path in parameters
+            else np.full(len(place), calibration.fields[i].value(coordinates[i]))
+        )
         columns.append(own)
     results, _ = evaluator({}, np.stack(columns, axis=1), np.ones(len(place), dtype=bool))
     failed = int(np.sum(~np.all(np.isfinite(results), axis=1)))

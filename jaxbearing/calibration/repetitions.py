@@ -48,6 +48,6 @@ def repeated(found: Calibration, measured: np.ndarray) -> Repetitions:
         )
         own = spread(whole[0], free, 1.0, options.level)
         half[lane] = search.quantile(own) * np.sqrt(np.diag(own.covariance))
-    at = lambda where: np.stack([one.value(where[:, i]) for i, one in enumerate(search.fields)], axis=1)
+    at = lambda where: np.stack([field.value(where[:, i]) for i, field in enumerate(search.fields)], axis=1)
     value, lower, upper = at(coordinates), at(coordinates - half), at(coordinates + half)
     return Repetitions(value, lower, upper, np.asarray(estimate.converged))

@@ -30,7 +30,7 @@ STRONG = 0.5
 
 
 def print_calibration(
-    found: Calibration,
+    calibration: Calibration,
     label: str,
     notes: Iterable[str],
     ranked: Sequence[Candidate],
@@ -44,27 +44,32 @@ def print_calibration(
     **Arguments:** `label`: names of scenes and files; `notes`: notes on these; `ranked`: candidates; `posterior`:
     samples, or `None`; `predicted`: results of other scenes; `again`: prediction of a repeated measurement.
     """
-    if found.status == "not_converged":
-        print_failure(label, "not converged", found.failure(), console)
+    if calibration.status == "not_converged":
+        print_failure(label, "not converged", calibration.failure(), console)
         return
-    values = counted(len(found.measured), "value")
-    state = f"{values}, {counted(len(found.fitted), 'field')} fitted, {found.options.loss} loss"
-    headline(label, found.status.upper(), "bold green" if found.converged else "bold yellow", state, console)
-    if not found.converged:
-        print_line("why", found.reason, console)
-    print_rule(f"Fields, {100.0 * found.options.level:g} % intervals", console)
-    console.print(Padding(_fields(found), (0, 1)))
+    values = counted(len(calibration.measured), "value")
+    state = f"{values}, {counted(len(calibration.fitted), 'field')} fitted, {calibration.options.loss} loss"
+    headline(
+        label, calibration.status.upper(), "bold green" if calibration.converged else "bold yellow", state, console
+    )
+    if not calibration.converged:
+        print_line("why", calibration.reason, console)
+    print_rule(f"Fields, {100.0 * calibration.options.level:g} % intervals", console)
+    console.print(Padding(_fields(calibration), (0, 1)))
     print_rule("Measured and calculated", console)
-    console.print(Padding(_misfits(found), (0, 1)))
-    if found.held_back is not None:
-        one = found.held_back
-        text = f"{counted(len(one.place), 'value')} predicted without a fit to it, {100.0 * one.relative:.3g} % rms; "
-        print_line("held back", f"{text}{100.0 * one.inside:.0f} % inside their intervals", console)
-    for text in _together(found):
+    console.print(Padding(_misfits(calibration), (0, 1)))
+    if calibration.held_back is not None:
+        held_back = calibration.held_back
+        text = (
+            f"{counted(len(held_back.place), 'value')} predicted without a fit to it, "
+            f"{100.0 * held_back.relative:.3g} % rms; "
+        )
+        print_line("held back", f"{text}{100.0 * held_back.inside:.0f} % inside their intervals", console)
+    for text in _together(calibration):
         print_line("correlation", text, console)
     if posterior is not None:
         print_rule("Posterior", console)
-        console.print(Padding(_posterior(found, posterior), (0, 1)))
+        console.print(Padding(_posterior(calibration, posterior), (0, 1)))
         print_line("sampler", posterior.in_words(), console)
     if again is not None:
         print_line("predictive", again.in_words(), console)
@@ -73,8 +78,8 @@ def print_calibration(
         console.print(Padding(_predictions(predicted), (0, 1)))
     if ranked:
         print_rule("Next operating point, the one that tells most first", console)
-        console.print(Padding(_ranked(found, ranked), (0, 1)))
-    print_warnings([*found.notes, *([] if posterior is None else posterior.warnings), *notes], console)
+        console.print(Padding(_ranked(calibration, ranked), (0, 1)))
+    print_warnings([*calibration.notes, *([] if posterior is None else posterior.warnings), *notes], console)
 
 
 def _table(*columns: str) -> Table:
@@ -85,28 +90,30 @@ def _table(*columns: str) -> Table:
     return table
 
 
-def _fields(found: Calibration) -> Table:
+def _fields(calibration: Calibration) -> Table:
     table = _table("", "value", "std. error", "interval", "start")
-    for field in found.fields:
-        one, unit = found.parameters[field.path], field.unit
+    for field in calibration.fields:
+        parameter, unit = calibration.parameters[field.path], field.unit
         start = with_unit(field.start, unit)
-        if one.standard_error is None or one.lower is None or one.upper is None:
-            why = f"{'held' if one.fixed else 'no interval'}: {one.reason}"
-            table.add_row(field.path, with_unit(one.value, unit), "", why, start)
+        if parameter.standard_error is None or parameter.lower is None or parameter.upper is None:
+            why = f"{'held' if parameter.fixed else 'no interval'}: {parameter.reason}"
+            table.add_row(field.path, with_unit(parameter.value, unit), "", why, start)
             continue
-        in_unit = lambda value, size=one.value, unit=unit: displayed(value, unit, size)
-        error = digits(in_unit(one.value + one.standard_error) - in_unit(one.value), 2)
-        table.add_row(field.path, with_unit(one.value, unit), error, span(one.lower, one.upper, unit), start)
+        in_unit = lambda value, size=parameter.value, unit=unit: displayed(value, unit, size)
+        error = digits(in_unit(parameter.value + parameter.standard_error) - in_unit(parameter.value), 2)
+        table.add_row(
+            field.path, with_unit(parameter.value, unit), error, span(parameter.lower, parameter.upper, unit), start
+        )
     return table
 
 
-def _misfits(found: Calibration) -> Table:
+def _misfits(calibration: Calibration) -> Table:
     table = _table("", "values", "rms difference", "mean difference", "rms, relative")
-    several = len(found.data) > 1
-    for one in found.misfits:
-        name = f"{found.data[one.rig].origin}: {one.name}" if several else one.name
-        shown = (_difference(part, one.unit) for part in (one.rms, one.mean))
-        table.add_row(name, str(one.points), *shown, f"{100.0 * one.relative:.3g} %")
+    several = len(calibration.data) > 1
+    for misfit in calibration.misfits:
+        name = f"{calibration.data[misfit.rig].origin}: {misfit.name}" if several else misfit.name
+        shown = (_difference(part, misfit.unit) for part in (misfit.rms, misfit.mean))
+        table.add_row(name, str(misfit.points), *shown, f"{100.0 * misfit.relative:.3g} %")
     return table
 
 
@@ -114,52 +121,64 @@ def _difference(value: float, unit: str) -> str:
     return f"{digits(value, 3)} K" if unit == "K" else with_unit(value, unit)
 
 
-def _together(found: Calibration) -> Iterable[str]:
-    for i, first in enumerate(found.fitted):
+def _together(calibration: Calibration) -> Iterable[str]:
+    for i, first in enumerate(calibration.fitted):
         for j in range(i):
-            value = float(found.correlation[i, j])
+            value = float(calibration.correlation[i, j])
             if abs(value) >= STRONG:
-                yield f"{found.fitted[j]} and {first}: {value:.2f}"
+                yield f"{calibration.fitted[j]} and {first}: {value:.2f}"
 
 
 def _predictions(predicted: Mapping[str, Predicted]) -> Table:
     table = _table("", "value", "interval", "interval by the priors alone")
-    ends = lambda one: span(one.lower, one.upper, one.unit)
-    for name, one in predicted.items():
-        table.add_row(name, with_unit(one.value, one.unit), ends(one), "" if one.before is None else ends(one.before))
+    ends = lambda result: span(result.lower, result.upper, result.unit)
+    for name, prediction in predicted.items():
+        table.add_row(
+            name,
+            with_unit(prediction.value, prediction.unit),
+            ends(prediction),
+            "" if prediction.before is None else ends(prediction.before),
+        )
     return table
 
 
-def _ranked(found: Calibration, ranked: Sequence[Candidate]) -> Table:
+def _ranked(calibration: Calibration, ranked: Sequence[Candidate]) -> Table:
     paths = list(ranked[0].conditions)
     last = lambda path: path.rpartition(".")[2]
-    table = _table("candidate", *map(last, paths), "information", *(f"error of {last(path)}" for path in found.fitted))
-    unit_of = {path: label_unit(label_of(found.scenes[0], path)["units"]) for path in paths}
-    units = {field.path: field.unit for field in found.fields}
-    for one in ranked[:CANDIDATES]:
-        told = "no solution" if not math.isfinite(one.information) else f"{one.information:.3f}"
-        errors = ["" if not math.isfinite(one.information) else _error(one, p, units[p]) for p in found.fitted]
-        values = (with_unit(one.conditions[path], unit_of[path]) for path in paths)
-        table.add_row(str(one.place + 1), *values, told, *errors)
+    table = _table(
+        "candidate", *map(last, paths), "information", *(f"error of {last(path)}" for path in calibration.fitted)
+    )
+    unit_of = {path: label_unit(label_of(calibration.scenes[0], path)["units"]) for path in paths}
+    units = {field.path: field.unit for field in calibration.fields}
+    for candidate in ranked[:CANDIDATES]:
+        information = "no solution" if not math.isfinite(candidate.information) else f"{candidate.information:.3f}"
+        errors = [
+            "" if not math.isfinite(candidate.information) else _error(candidate, p, units[p])
+            for p in calibration.fitted
+        ]
+        values = (with_unit(candidate.conditions[path], unit_of[path]) for path in paths)
+        table.add_row(str(candidate.place + 1), *values, information, *errors)
     return table
 
 
-def _error(one: Candidate, path: str, unit: str) -> str:
-    return _difference(one.standard_errors[path], unit)
+def _error(candidate: Candidate, path: str, unit: str) -> str:
+    return _difference(candidate.standard_errors[path], unit)
 
 
-def _posterior(found: Calibration, posterior: Posterior) -> Table:
+def _posterior(calibration: Calibration, posterior: Posterior) -> Table:
     table = _table("", "median", "interval", "R-hat", "effective samples")
-    units = {field.path: field.unit for field in found.fields}
-    for path, one in posterior.parameters.items():
+    units = {field.path: field.unit for field in calibration.fields}
+    for path, parameter in posterior.parameters.items():
         unit = units[path]
-        ends = span(one.lower, one.upper, unit)
-        table.add_row(path, with_unit(one.median, unit), ends, f"{one.r_hat:.4f}", f"{one.effective:.0f}")
+        ends = span(parameter.lower, parameter.upper, unit)
+        table.add_row(
+            path, with_unit(parameter.median, unit), ends, f"{parameter.r_hat:.4f}", f"{parameter.effective:.0f}"
+        )
     return table
 
 
 def calibration_to_dict(
-    found: Calibration,
+    calibration: Calibration,
     notes: Iterable[str],
     ranked: Sequence[Candidate] = (),
     posterior: Posterior | None = None,
@@ -168,44 +187,47 @@ def calibration_to_dict(
 ) -> dict[str, Any]:
     """A calibration as plain values in SI; numbers that are not finite are `None`. **Arguments:** as for
     `print_calibration`."""
-    parameters = {path: one._asdict() for path, one in found.parameters.items()}
-    for field in found.fields:
+    parameters = {path: parameter._asdict() for path, parameter in calibration.parameters.items()}
+    for field in calibration.fields:
         parameters[field.path] |= {"unit": field.unit, "start": field.start}
     whole: dict[str, Any] = {
-        "converged": found.converged,
-        "status": found.status,
-        "failure": None if found.converged else found.failure(),
+        "converged": calibration.converged,
+        "status": calibration.status,
+        "failure": None if calibration.converged else calibration.failure(),
         "parameters": parameters,
-        "fitted": list(found.fitted),
-        "unidentifiable": [path for path, one in found.parameters.items() if one.fixed],
-        "correlation": found.correlation.tolist(),
-        "error_scale": found.scale,
-        "loss": found.loss,
-        "evaluations": found.evaluations,
-        "misfits": [vars(one) for one in found.misfits],
+        "fitted": list(calibration.fitted),
+        "unidentifiable": [path for path, parameter in calibration.parameters.items() if parameter.fixed],
+        "correlation": calibration.correlation.tolist(),
+        "error_scale": calibration.scale,
+        "loss": calibration.loss,
+        "evaluations": calibration.evaluations,
+        "misfits": [vars(misfit) for misfit in calibration.misfits],
         "values": [
             {"rig": int(rig), "point": int(point), "name": name, "measured": m, "predicted": p, "deviation": d}
             for rig, point, name, m, p, d in zip(
-                *(found.rigs, found.points, found.names),
-                *(map(float, part) for part in (found.measured, found.predicted, found.scale * found.deviation)),
+                *(calibration.rigs, calibration.points, calibration.names),
+                *(
+                    map(float, part)
+                    for part in (calibration.measured, calibration.predicted, calibration.scale * calibration.deviation)
+                ),
                 strict=True,
             )
         ],
         "held_back": None,
-        "predictions": {name: asdict(one) for name, one in predicted.items()},
-        "next": [one.__dict__ for one in ranked],
+        "predictions": {name: asdict(prediction) for name, prediction in predicted.items()},
+        "next": [candidate.__dict__ for candidate in ranked],
         "posterior": None if posterior is None else posterior.to_dict(),
         "predictive": None if again is None else again.to_dict(),
-        "warnings": [*found.notes, *([] if posterior is None else posterior.warnings), *notes],
+        "warnings": [*calibration.notes, *([] if posterior is None else posterior.warnings), *notes],
     }
-    if found.held_back is not None:
-        one = found.held_back
+    if calibration.held_back is not None:
+        held_back = calibration.held_back
         whole["held_back"] = {
-            "values": [int(place) for place in one.place],
-            "predicted": np.asarray(one.predicted).tolist(),
-            "deviation": np.asarray(one.deviation).tolist(),
-            "inside": one.inside,
-            "relative": one.relative,
-            "converged": one.converged,
+            "values": [int(place) for place in held_back.place],
+            "predicted": np.asarray(held_back.predicted).tolist(),
+            "deviation": np.asarray(held_back.deviation).tolist(),
+            "inside": held_back.inside,
+            "relative": held_back.relative,
+            "converged": held_back.converged,
         }
     return finite(whole)

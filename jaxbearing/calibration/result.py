@@ -123,7 +123,7 @@ class Calibration:
     @property
     def values(self) -> dict[str, float]:
         """Calibrated values by dotted path, for `scene.replace`."""
-        return {path: one.value for path, one in self.parameters.items()}
+        return {path: parameter.value for path, parameter in self.parameters.items()}
 
     @property
     def status(self) -> str:

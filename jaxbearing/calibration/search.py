@@ -99,8 +99,8 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         self.weight = np.where(self.observed.held_back, 0.0, 1.0)
         self.scale = 1.0
         known = [field.normal_prior for field in fields]
-        self.prior_mean = np.array([0.0 if one is None else one[0] for one in known])
-        self.prior_deviation = np.array([np.inf if one is None else one[1] for one in known])
+        self.prior_mean = np.array([0.0 if prior is None else prior[0] for prior in known])
+        self.prior_deviation = np.array([np.inf if prior is None else prior[1] for prior in known])
         self.evaluations = 0
 
     @property
@@ -113,11 +113,11 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         (lane, value, field); NaN where a solve failed and for lanes that are not `active`."""
         lanes = len(coordinates)
         active = np.ones(lanes, dtype=bool) if active is None else active
-        found = np.full((lanes, len(self.observed)), np.nan)
+        gathered = np.full((lanes, len(self.observed)), np.nan)
         slopes = np.zeros((lanes, len(self.observed), len(self.fields)))
-        values = np.stack([one.value(coordinates[:, i]) for i, one in enumerate(self.fields)], axis=1)
-        chain = np.stack([one.slope(coordinates[:, i]) for i, one in enumerate(self.fields)], axis=1)
-        paths = [one.path for one in self.fields]
+        values = np.stack([field.value(coordinates[:, i]) for i, field in enumerate(self.fields)], axis=1)
+        chain = np.stack([field.slope(coordinates[:, i]) for i, field in enumerate(self.fields)], axis=1)
+        paths = [field.path for field in self.fields]
         for number, (evaluator, data) in enumerate(zip(self.evaluators, self.rigs, strict=True)):
             own = [paths.index(path) for path in evaluator.paths]
             conditions = {path: np.tile(column, lanes) for path, column in data.conditions.items()}
@@ -129,11 +129,11 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
             mine = np.flatnonzero(self.observed.rig == number)
             column = np.array([evaluator.wanted.index(name) for name in self.observed.name[mine]])
             point = self.observed.point[mine]
-            found[:, mine] = results[:, point, column]
+            gathered[:, mine] = results[:, point, column]
             part = derived[:, point, :, column]
             # an advanced index on both sides of a slice comes first
             slopes[np.ix_(np.arange(lanes), mine, np.array(own))] = np.moveaxis(part, 0, 1) * chain[:, None, own]
-        return found, slopes
+        return gathered, slopes
 
     def residuals(
         self, problem: Problem, u: np.ndarray, active: np.ndarray, weight: np.ndarray, measured: np.ndarray
@@ -181,7 +181,7 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         weights, values = full(weight, problem.weight), full(measured, self.observed.value)
         evaluate = lambda u, active: self.residuals(problem, u, active, weights, values)
         end = minimised_outside(evaluate, starts, MOST_EVALUATIONS, OFFSET)
-        return Estimates(*(np.asarray(one) for one in (end.u, end.loss, end.converged, end.steps)))
+        return Estimates(*(np.asarray(part) for part in (end.u, end.loss, end.converged, end.steps)))
 
     def problem(self, free: np.ndarray, pinned: dict[int, float], base: np.ndarray | None = None) -> Problem:
         start = np.array([field.coordinate(field.start) for field in self.fields])
@@ -195,25 +195,25 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         coordinate without a prior."""
         rng = np.random.default_rng(self.options.seed)
         width = np.where(np.isfinite(self.prior_deviation), self.prior_deviation, WIDTH)
-        found = rng.normal(size=(self.options.starts, len(free))) * width * free
-        found[0] = 0.0
+        starts = rng.normal(size=(self.options.starts, len(free))) * width * free
+        starts[0] = 0.0
         low, high = self.limits
-        return np.clip(found, low - problem.base, high - problem.base)
+        return np.clip(starts, low - problem.base, high - problem.base)
 
     def optimised(self, problem: Problem, starts: np.ndarray) -> tuple[Problem, Estimates, np.ndarray]:
-        found, u = self.best(problem, starts)
+        estimates, u = self.best(problem, starts)
         for _ in range(ROUNDS if self.scale_matters else 0):
             before, self.scale = self.scale, self.renewed_scale(problem, u)
             problem = problem._replace(scale=self.scale)
             if abs(self.scale / before - 1.0) <= SAME_SCALE:
                 break
-            found, u = self.best(problem, np.tile(u, (len(starts), 1)))
-        return problem, found, u
+            estimates, u = self.best(problem, np.tile(u, (len(starts), 1)))
+        return problem, estimates, u
 
     def best(self, problem: Problem, starts: np.ndarray) -> tuple[Estimates, np.ndarray]:
         """Results of the searches from all starts, and the unknowns of the best."""
-        found = self.lanes(problem, starts)
-        return found, found.u[int(np.argmin(np.where(np.isfinite(found.loss), found.loss, np.inf)))]
+        estimates = self.lanes(problem, starts)
+        return estimates, estimates.u[int(np.argmin(np.where(np.isfinite(estimates.loss), estimates.loss, np.inf)))]
 
     def renewed_scale(self, problem: Problem, u: np.ndarray) -> float:
         """Size of the errors, over the deviations, estimated from the differences."""
@@ -225,7 +225,7 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         variance = self.variance_of(residual[used], slopes[used], problem.scale, problem.free)
         return max(float(np.sqrt(variance)), float(np.finfo(float).tiny) ** 0.25)
 
-    def _told(self, slopes: np.ndarray, free: np.ndarray) -> float:
+    def _determined(self, slopes: np.ndarray, free: np.ndarray) -> float:
         """Effective number of parameters that the data determine, as opposed to the priors."""
         normal = slopes[:, free].T @ slopes[:, free]
         prior = np.diag(np.square(1.0 / self.prior_deviation[free]))
@@ -262,7 +262,7 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
             return variance_factor(residual / size, self.loss, int(np.sum(free))) * size**2
         if self.options.known_errors:
             return 1.0
-        degrees = max(len(residual) - self._told(slopes / scale, free), 1.0)
+        degrees = max(len(residual) - self._determined(slopes / scale, free), 1.0)
         return float(np.sum(np.square(residual)) / degrees)
 
     def spread(self, problem: Problem, u: np.ndarray, free: np.ndarray) -> Spread:
@@ -272,28 +272,28 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         used = problem.weight > 0
         coordinates = problem.natural(u)[None]
         _, rows = self.with_priors(np.zeros((1, int(np.sum(used)))), jacobian[used][None] / size, coordinates)
-        found = spread(rows[0], free, 1.0, self.options.level)
-        return found._replace(quantile=self.quantile(found))
+        uncertainty = spread(rows[0], free, 1.0, self.options.level)
+        return uncertainty._replace(quantile=self.quantile(uncertainty))
 
-    def quantile(self, found: Spread) -> float:
+    def quantile(self, uncertainty: Spread) -> float:
         """Half-width of an interval in standard errors: that of the normal distribution where the errors are known."""
         if not self.options.known_errors or self.loss != "linear":
-            return found.quantile
+            return uncertainty.quantile
         from scipy import stats
 
         return float(stats.norm.ppf(0.5 + 0.5 * self.options.level))
 
-    def covariance_of(self, slopes: np.ndarray, found: Settled) -> np.ndarray:
+    def covariance_of(self, slopes: np.ndarray, settled: Settled) -> np.ndarray:
         """Covariance of the coordinates from the priors and from values with this Jacobian, in standard deviations."""
-        _, rows = self.with_priors(np.zeros((1, len(slopes))), slopes[None], found.problem.natural(found.u)[None])
-        covariance = spread(rows[0], found.held.free, 1.0, self.options.level).covariance
+        _, rows = self.with_priors(np.zeros((1, len(slopes))), slopes[None], settled.problem.natural(settled.u)[None])
+        covariance = spread(rows[0], settled.held.free, 1.0, self.options.level).covariance
         return np.where(np.isfinite(covariance), covariance, 0.0)
 
     def undetermined(self, problem: Problem, u: np.ndarray, held: Held) -> tuple[int, str] | None:
-        found = self.spread(problem, u, held.free)
+        uncertainty = self.spread(problem, u, held.free)
         _, jacobian = self.at(problem, u)
-        told = jacobian[problem.weight > 0]
-        return why_undetermined(found, told, held.free, self.fields, problem.natural(u))
+        rows = jacobian[problem.weight > 0]
+        return why_undetermined(uncertainty, rows, held.free, self.fields, problem.natural(u))
 
     def value_in_words(self, index: int, coordinate: float) -> str:
         from ..report.display import with_unit

@@ -51,31 +51,31 @@ def given_of(
 
     **Raises:** `SceneError`.
     """
-    texts = dict(_parted("--prior", one, _PRIOR) for one in priors)
-    given = Given([], [], [], list(dict.fromkeys(free)))
+    texts = dict(_parted("--prior", prior, _PRIOR) for prior in priors)
+    inputs = Given([], [], [], list(dict.fromkeys(free)))
     for place, (scene, file) in enumerate(rigs):
         source = SceneSource.of(scene, overrides)
         if place:
             source = SceneSource(source.label, source.tables, _known(source, overrides))
         own = {path: text for path, text in texts.items() if text != ASSUMED and _has(source, path)}
         distributions = distributions_in(source.tables, source.label, {**source.overrides, **own}, priors=True)
-        given.priors |= {path: one for path, one in distributions.items() if path in given.free}
+        inputs.priors |= {path: distribution for path, distribution in distributions.items() if path in inputs.free}
         built = scene_from_tables(source.tables, source.label, source.overrides)
         data, notes = read_data(file, source, built)
-        given.sources.append(source)
-        given.scenes.append(built)
-        given.data.append(data)
-        given.notes += notes
+        inputs.sources.append(source)
+        inputs.scenes.append(built)
+        inputs.data.append(data)
+        inputs.notes += notes
     for path, text in texts.items():
         if text == ASSUMED:
-            given.priors[path] = _assumed(path, given.scenes)
-        elif path not in given.priors:
+            inputs.priors[path] = _assumed(path, inputs.scenes)
+        elif path not in inputs.priors:
             raise SceneError("--prior", path, "a field that is not free, or no distribution", _PRIOR)
-    for one in bounds:
-        path, text = _parted("--bound", one, _BOUND)
-        given.bounds[path] = _ends(given, path, text)
-    _check_plain(given)
-    return given
+    for bound in bounds:
+        path, text = _parted("--bound", bound, _BOUND)
+        inputs.bounds[path] = _ends(inputs, path, text)
+    _check_plain(inputs)
+    return inputs
 
 
 def _parted(option: str, text: str, expected: str) -> tuple[str, str]:
@@ -102,40 +102,40 @@ def _known(source: SceneSource, overrides: Mapping[str, str]) -> dict[str, str]:
 def _assumed(path: str, scenes: Sequence[AbstractScene]) -> Distribution:
     """The package's own prior of a field. **Raises:** `SceneError` where there is none."""
     known = {DRAG_FIELD: drag_prior, SUPPLY_FIELD: supply_prior}
-    found = next((one for scene in scenes if path in known and (one := known[path](scene)) is not None), None)
-    if found is None:
+    prior = next((own for scene in scenes if path in known and (own := known[path](scene)) is not None), None)
+    if prior is None:
         expected = f"a distribution of your own; assumed ones are known of {' and '.join(known)} where a scene has them"
         raise SceneError("--prior", path, f"'{ASSUMED}'", expected)
-    return found
+    return prior
 
 
-def _ends(given: Given, path: str, text: str) -> tuple[float | None, float | None]:
+def _ends(inputs: Given, path: str, text: str) -> tuple[float | None, float | None]:
     low, colon, high = (part.strip() for part in text.partition(":"))
     if not colon or not (low or high):
         raise SceneError("--bound", path, describe(text), _BOUND)
-    source = next((one for one in given.sources if _has(one, path)), given.sources[0])
+    source = next((rig for rig in inputs.sources if _has(rig, path)), inputs.sources[0])
     field = source.field(path, "--bound")
     ends = [field.read(end, "--bound") if end else None for end in (low, high)]
     return ends[0], ends[1]
 
 
-def _check_plain(given: Given) -> None:
+def _check_plain(inputs: Given) -> None:
     """Checks that each free field is a number that the scene takes over unchanged from its file.
 
     **Raises:** `SceneError`.
     """
-    for path in given.free:
+    for path in inputs.free:
         sources = [
-            (source, scene) for source, scene in zip(given.sources, given.scenes, strict=True) if _has(source, path)
+            (source, scene) for source, scene in zip(inputs.sources, inputs.scenes, strict=True) if _has(source, path)
         ]
         if not sources:
-            given.sources[0].field(path, "--free")
+            inputs.sources[0].field(path, "--free")
         for source, scene in sources:
             value: Any = scene
             for name in path.split("."):
                 value = getattr(value, name, None)
-            if path in given.priors:
-                value = given.priors[path].nominal
+            if path in inputs.priors:
+                value = inputs.priors[path].nominal
             if value is None:
                 raise SceneError(
                     "--free", path, "no value in the scene", "a number to start from (--set), or a --prior"

@@ -51,8 +51,8 @@ def read_data(
         raise SceneError(header, twice, "this column twice", "each column once")
     is_field = lambda name: is_known(source.model, name.split(".")) if all(name.split(".")) else False
     plain = [name for name in names if name and "." not in name and name != HELD_BACK and not is_field(name)]
-    told = results_among(scene, plain, newton)
-    ignored = [name for name in names if not name or (name in plain and name not in told)]
+    known = results_among(scene, plain, newton)
+    ignored = [name for name in names if not name or (name in plain and name not in known)]
     fields = {name: source.field(name, header) for name in names if name not in ignored and is_field(name)}
     results = [name for name in names if name not in ignored and name not in fields and name != HELD_BACK]
     measured = [name for name in results if not name.endswith((DEVIATION, WEIGHT))]
@@ -159,22 +159,22 @@ def _in_si(
     values: np.ndarray, unit: str | None, si: str, name: str, where: str, difference: bool = False
 ) -> np.ndarray:
     """Values of a result converted to the SI unit of its label. **Raises:** `SceneError`."""
-    given, wanted = (unit or "").strip(), si
+    written, wanted = (unit or "").strip(), si
     plain = wanted in NO_UNIT
     expected = "no unit" if plain else f"a unit of the kind '{wanted}', e.g. '{name} [{wanted}]'"
-    if plain and given == "%":
+    if plain and written == "%":
         return values / 100.0
-    if plain or not given:
-        if plain and given in NO_UNIT:
+    if plain or not written:
+        if plain and written in NO_UNIT:
             return values
-        raise SceneError(where, name, f"the unit {describe(given)}" if given else "no unit", expected)
+        raise SceneError(where, name, f"the unit {describe(written)}" if written else "no unit", expected)
     units = registry()
     try:
-        quantity = units.Quantity(values, units.Unit(given)).to(wanted).magnitude
-        zero = units.Quantity(0.0, units.Unit(given)).to(wanted).magnitude if difference else 0.0
+        quantity = units.Quantity(values, units.Unit(written)).to(wanted).magnitude
+        zero = units.Quantity(0.0, units.Unit(written)).to(wanted).magnitude if difference else 0.0
         return np.asarray(quantity - zero, dtype=float)
     except (pint.errors.PintError, AttributeError, ValueError, TypeError):
-        raise SceneError(where, name, f"the unit {describe(given)}", expected) from None
+        raise SceneError(where, name, f"the unit {describe(written)}", expected) from None
 
 
 def _condition(table: CsvTable, field: Field, unit: str | None, values: np.ndarray) -> np.ndarray:

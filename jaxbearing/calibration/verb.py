@@ -81,16 +81,16 @@ def calibrate(
     options = Options() if options is None else options
     _check_options(options, folds)
     scenes = [scene] if isinstance(scene, AbstractScene) else list(scene)
-    rigs = [Data.of(one) for one in ([data] if isinstance(data, Data | Mapping) else data)]
+    rigs = [Data.of(rig) for rig in ([data] if isinstance(data, Data | Mapping) else data)]
     if len(rigs) != len(scenes):
         raise ValueError(f"data: found {len(rigs)} for {len(scenes)} scenes; expected as many")
-    for one in scenes:
-        require_solvable(one)
+    for rig_scene in scenes:
+        require_solvable(rig_scene)
     fields = free_fields(scenes, free, priors or {}, bounds or {})
-    scenes = [_started(one, fields) for one in scenes]
+    scenes = [_started(own, fields) for own in scenes]
     search = _search(scenes, rigs, fields, options, NewtonOptions() if newton is None else newton, progress)
-    found = settled(search, Held(np.ones(len(fields), dtype=bool), {}, {}))
-    return _result(search, scenes, found, folds)
+    outcome = settled(search, Held(np.ones(len(fields), dtype=bool), {}, {}))
+    return _result(search, scenes, outcome, folds)
 
 
 def _check_options(options: Options, folds: int) -> None:
@@ -145,11 +145,11 @@ def _resolved(scene: AbstractScene, data: Data, newton: NewtonOptions) -> tuple[
 
     **Raises:** `ValueError` for a name that is no result, and for a result that is named twice.
     """
-    found = labels_in(scene, list(data.measured), newton)
-    labels = dict(found.values())
-    if len(labels) < len(found):
-        raise ValueError(f"measured: found one result twice in {', '.join(found)}; expected each once")
-    by_path = lambda part: {found[name][0]: np.asarray(value, dtype=float) for name, value in part.items()}
+    resolved = labels_in(scene, list(data.measured), newton)
+    labels = dict(resolved.values())
+    if len(labels) < len(resolved):
+        raise ValueError(f"measured: found one result twice in {', '.join(resolved)}; expected each once")
+    by_path = lambda part: {resolved[name][0]: np.asarray(value, dtype=float) for name, value in part.items()}
     return labels, Data(data.conditions, by_path(data.measured), by_path(data.deviations), data.held_back, data.origin)
 
 
@@ -167,8 +167,8 @@ def _check_start(search: Search) -> None:
     raise ValueError(f"{data.origin}: found no {search.observed.name[lost[0]]} at operating point {point + 1}")
 
 
-def _result(search: Search, scenes: Sequence[AbstractScene], found: Settled, folds: int) -> Calibration:
-    problem, estimate, u, held, ended = found
+def _result(search: Search, scenes: Sequence[AbstractScene], outcome: Settled, folds: int) -> Calibration:
+    problem, estimate, u, held, ended = outcome
     coordinates = problem.natural(u)
     spread = search.spread(problem, u, held.free)
     values, slopes = search.predicted(coordinates[None])
@@ -186,11 +186,11 @@ def _result(search: Search, scenes: Sequence[AbstractScene], found: Settled, fol
     fitted = [i for i in range(len(held.free)) if held.free[i]]
     undetermined = not np.any(held.free) and not held.pinned and bool(np.all(np.isfinite(predicted[used])))
     reason = _failure(search, held, ended, bool(estimate.converged[best]), predicted[used], undetermined)
-    held_back = None if reason else held_back_of(search, found, spread, scale, folds)
+    held_back = None if reason else held_back_of(search, outcome, spread, scale, folds)
     misfits = _misfits(search, predicted, used)
     notes = [] if reason else _notes(search, held, spread, outlier, misfits, (agree, len(estimate.loss)))
     parameters = _parameters(search.fields, coordinates, spread, held)
-    at_end = {path: one.value for path, one in parameters.items()}
+    at_end = {path: parameter.value for path, parameter in parameters.items()}
     own = lambda scene: {path: at_end[path] for path in at_end if scenes_with([scene], path)}
     return Calibration(
         converged=not reason,
@@ -219,7 +219,7 @@ def _result(search: Search, scenes: Sequence[AbstractScene], found: Settled, fol
         options=search.options,
         scenes=tuple(scene.replace(own(scene)) for scene in scenes),
         search=search,
-        settled=found,
+        settled=outcome,
         undetermined=undetermined,
     )
 
@@ -229,8 +229,8 @@ def _failure(
 ) -> str:
     """Reason why the calibration failed, or an empty text."""
     if undetermined:
-        said = "; ".join(f"{search.fields[i].path}: {why}" for i, why in held.reasons.items())
-        return f"the measurements cannot tell any field ({said})"
+        reasons = "; ".join(f"{search.fields[i].path}: {why}" for i, why in held.reasons.items())
+        return f"the measurements cannot tell any field ({reasons})"
     if not np.all(np.isfinite(predicted)):
         return (
             f"{int(np.sum(~np.isfinite(predicted)))} of {len(predicted)} values cannot be predicted: the solve failed"
@@ -243,23 +243,23 @@ def _failure(
 def _parameters(
     fields: Sequence[FreeField], coordinates: np.ndarray, spread: Spread, held: Held
 ) -> dict[str, Parameter]:
-    found = {}
+    parameters = {}
     for i, field in enumerate(fields):
         value = float(field.value(coordinates[i]))
         deviation = float(np.sqrt(spread.covariance[i, i]))
         half = spread.quantile * deviation
         if not held.free[i] or not np.isfinite(half):
             reason = held.reasons.get(i, ALL_USED)
-            found[field.path] = Parameter(value, None, None, None, not bool(held.free[i]), reason)
+            parameters[field.path] = Parameter(value, None, None, None, not bool(held.free[i]), reason)
             continue
         low, high = (float(field.value(coordinates[i] + side * half)) for side in (-1.0, 1.0))
-        found[field.path] = Parameter(value, deviation * float(field.slope(coordinates[i])), low, high, False)
-    return found
+        parameters[field.path] = Parameter(value, deviation * float(field.slope(coordinates[i])), low, high, False)
+    return parameters
 
 
 def _misfits(search: Search, predicted: np.ndarray, used: np.ndarray) -> tuple[Misfit, ...]:
     """Differences between model and measurements, for each rig and quantity."""
-    found = []
+    misfits = []
     for number, evaluator in enumerate(search.evaluators):
         for name, label in evaluator.labels.items():
             mine = used & (search.observed.rig == number) & (search.observed.name == name)
@@ -269,8 +269,8 @@ def _misfits(search: Search, predicted: np.ndarray, used: np.ndarray) -> tuple[M
             rms, size = (float(np.sqrt(np.mean(np.square(part)))) for part in (difference, value))
             relative = rms / size if size > 0.0 else float("inf")
             mean = float(np.mean(difference))
-            found.append(Misfit(number, name, label.unit, int(np.sum(mine)), rms, mean, relative))
-    return tuple(found)
+            misfits.append(Misfit(number, name, label.unit, int(np.sum(mine)), rms, mean, relative))
+    return tuple(misfits)
 
 
 def _notes(
@@ -297,12 +297,13 @@ def _notes(
     if search.options.known_errors and assumed:
         size = f"{100.0 * search.options.relative_error:g} % of the value"
         notes.append(f"The errors of {', '.join(assumed)} are not in the data; as known ones {size} are taken.")
-    for one in misfits:
-        if one.points >= FEWEST and abs(one.mean) > BIAS * one.rms:
-            side = "above" if one.mean > 0.0 else "below"
-            where = f" of rig {one.rig + 1}" if len(search.rigs) > 1 else ""
+    for misfit in misfits:
+        if misfit.points >= FEWEST and abs(misfit.mean) > BIAS * misfit.rms:
+            side = "above" if misfit.mean > 0.0 else "below"
+            where = f" of rig {misfit.rig + 1}" if len(search.rigs) > 1 else ""
             notes.append(
-                f"Lack of fit: {one.name}{where} is {side} its measurements in the mean, by {one.mean:+.3g} {one.unit}."
+                f"Lack of fit: {misfit.name}{where} is {side} its measurements in the mean, "
+                f"by {misfit.mean:+.3g} {misfit.unit}."
             )
     if np.any(outlier):
         notes.append(f"{int(np.sum(outlier))} of {len(outlier)} values are outliers (beyond {OUTLIER:g} sigma).")

@@ -18,7 +18,7 @@ FROM_PRIOR = 0.9
 
 
 def why_undetermined(
-    found: Spread, jacobian: np.ndarray, free: np.ndarray, fields: Sequence[FreeField], coordinates: np.ndarray
+    uncertainty: Spread, jacobian: np.ndarray, free: np.ndarray, fields: Sequence[FreeField], coordinates: np.ndarray
 ) -> tuple[int, str] | None:
     """The field to hold next, and why: no measured value depends on it, only a combination with others is determined,
     or its interval is too wide; `None` if all are determined.
@@ -31,7 +31,7 @@ def why_undetermined(
     fields.
     """
     indices = np.flatnonzero(free)
-    deviation = np.sqrt(np.diag(found.covariance))
+    deviation = np.sqrt(np.diag(uncertainty.covariance))
     size = np.linalg.norm(jacobian, axis=0)
     lost = [int(i) for i in indices if not np.isfinite(deviation[i])]
     unseen = [i for i in lost if not size[i] > 0.0]
@@ -39,14 +39,14 @@ def why_undetermined(
         return unseen[-1], "no measured value changes with it"
     if lost:
         return lost[-1], f"only {_combination(jacobian, lost, fields)} is told"
-    if found.degrees < 0:
-        told = (
+    if uncertainty.degrees < 0:
+        reason = (
             f"{len(indices)} free fields change {informative(jacobian, free)} of {len(jacobian)} measured values only"
         )
-        return min(map(int, indices), key=lambda i: size[i]), told
-    if not np.isfinite(found.quantile):
+        return min(map(int, indices), key=lambda i: size[i]), reason
+    if not np.isfinite(uncertainty.quantile):
         return None
-    half = found.quantile * deviation
+    half = uncertainty.quantile * deviation
     share = np.zeros(len(fields))
     for i in map(int, indices):
         field = fields[i]
@@ -75,26 +75,26 @@ def _combination(jacobian: np.ndarray, lost: Sequence[int], fields: Sequence[Fre
     return f"the product {' * '.join(shown)}"
 
 
-def said_of(found: Spread, free: np.ndarray, fields: Sequence[FreeField]) -> list[str]:
+def said_of(uncertainty: Spread, free: np.ndarray, fields: Sequence[FreeField]) -> list[str]:
     """Sentences on fields that can hardly be separated, and on fields whose uncertainty is nearly that of the prior."""
-    said = []
-    together = correlation(found.covariance)
+    sentences = []
+    together = correlation(uncertainty.covariance)
     indices = [int(i) for i in np.flatnonzero(free)]
     for place, i in enumerate(indices):
         for j in indices[:place]:
             if abs(together[i, j]) >= TOGETHER:
-                told = "their product" if together[i, j] < 0.0 else "their ratio"
-                what = told if fields[i].positive and fields[j].positive else "a combination of them"
-                said.append(
+                relation = "their product" if together[i, j] < 0.0 else "their ratio"
+                combination = relation if fields[i].positive and fields[j].positive else "a combination of them"
+                sentences.append(
                     f"{fields[j].path} and {fields[i].path} are hardly told apart (correlation {together[i, j]:.3f}): "
-                    f"the measurements tell {what} better than each."
+                    f"the measurements tell {combination} better than each."
                 )
     for i in map(int, indices):
         prior = fields[i].normal_prior
-        error = float(np.sqrt(found.covariance[i, i]))
+        error = float(np.sqrt(uncertainty.covariance[i, i]))
         if prior is not None and error >= FROM_PRIOR * prior[1]:
-            said.append(
+            sentences.append(
                 f"{fields[i].path} comes from its prior: the measurements narrow it by "
                 f"{100.0 * (1.0 - error / prior[1]):.0f} % only."
             )
-    return said
+    return sentences

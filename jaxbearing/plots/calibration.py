@@ -31,28 +31,28 @@ def calibration(found: Any, title: str = "") -> "matplotlib.figure.Figure":
     write_below(figure, _caption(found))
     figure.suptitle("\n".join(textwrap.wrap(title, _LETTERS)), fontsize=10, parse_math=False)
     grid = figure.add_gridspec(len(found.misfits), 2)
-    for row, one in enumerate(found.misfits):
-        mine = (found.rigs == one.rig) & (np.asarray(found.names, dtype=object) == one.name)
-        name = f"{found.data[one.rig].origin}: {one.name}" if len(found.data) > 1 else one.name
-        _beside(figure.add_subplot(grid[row, 0]), found, mine, name, one.unit)
-        _left(figure.add_subplot(grid[row, 1]), found, mine, one.unit)
+    for row, misfit in enumerate(found.misfits):
+        mine = (found.rigs == misfit.rig) & (np.asarray(found.names, dtype=object) == misfit.name)
+        name = f"{found.data[misfit.rig].origin}: {misfit.name}" if len(found.data) > 1 else misfit.name
+        _beside(figure.add_subplot(grid[row, 0]), found, mine, name, misfit.unit)
+        _left(figure.add_subplot(grid[row, 1]), found, mine, misfit.unit)
     return figure
 
 
-def _caption(found: Any) -> str:
+def _caption(result: Any) -> str:
     text = "Left: calculated over measured values, with the standard deviation of a measurement. Right: differences in "
     text += "such deviations, in the order of the data."
-    if found.held_back is not None:
+    if result.held_back is not None:
         text += " Open circles: values that were not fitted."
     return text
 
 
-def _beside(axes: "matplotlib.axes.Axes", found: Any, mine: np.ndarray, name: str, unit: str) -> None:
-    measured, predicted = found.measured[mine], found.predicted[mine]
+def _beside(axes: "matplotlib.axes.Axes", result: Any, mine: np.ndarray, name: str, unit: str) -> None:
+    measured, predicted = result.measured[mine], result.predicted[mine]
     axis = axis_for(unit, np.concatenate([measured, predicted]))
-    held = found.search.observed.held_back[mine]
+    held = result.search.observed.held_back[mine]
     slope = float(axis.of(1.0) - axis.of(0.0))
-    error = slope * found.scale * found.deviation[mine]
+    error = slope * result.scale * result.deviation[mine]
     for part, face in ((~held, CURVES[0]), (held, "none")):
         if np.any(part):
             x, y = axis.of(measured[part]), axis.of(predicted[part])
@@ -64,9 +64,9 @@ def _beside(axes: "matplotlib.axes.Axes", found: Any, mine: np.ndarray, name: st
     grid_lines(axes)
 
 
-def _left(axes: "matplotlib.axes.Axes", found: Any, mine: np.ndarray, unit: str) -> None:
-    standard = (found.predicted - found.measured)[mine] / found.deviation[mine] / max(found.scale, 1e-300)
-    place, held = found.points[mine] + 1, found.search.observed.held_back[mine]
+def _left(axes: "matplotlib.axes.Axes", result: Any, mine: np.ndarray, unit: str) -> None:
+    standard = (result.predicted - result.measured)[mine] / result.deviation[mine] / max(result.scale, 1e-300)
+    place, held = result.points[mine] + 1, result.search.observed.held_back[mine]
     axes.plot(place[~held], standard[~held], "o", color=CURVES[0], ms=4)
     axes.plot(place[held], standard[held], "o", mfc="none", color=CURVES[0], ms=4)
     axes.axhline(0.0, color=FAINT, linewidth=0.9, zorder=0)

@@ -60,8 +60,8 @@ def posterior(
     return figure
 
 
-def _caption(found: Any, predictive: Any) -> str:
-    text = f"{found.in_words()}. Dashed: median and {100.0 * found.level:g} % interval."
+def _caption(result: Any, predictive: Any) -> str:
+    text = f"{result.in_words()}. Dashed: median and {100.0 * result.level:g} % interval."
     if predictive is None:
         return text
     return (
@@ -70,14 +70,14 @@ def _caption(found: Any, predictive: Any) -> str:
     )
 
 
-def _measured_again(panel: Any, one: Any) -> None:
+def _measured_again(panel: Any, predictive: Any) -> None:
     """Draws each measured value from its predicted median, with the interval of a new measurement."""
-    place = np.arange(1, len(one.measured) + 1)
-    of = lambda values: (values - one.median) / one.deviation
-    panel.vlines(place, of(one.lower), of(one.upper), color=CURVES[0], alpha=0.3, linewidth=4.0)
-    inside = (one.lower <= one.measured) & (one.measured <= one.upper)
-    panel.plot(place[inside], of(one.measured)[inside], "o", color=CURVES[0], ms=3.5)
-    panel.plot(place[~inside], of(one.measured)[~inside], "x", color=CURVES[1], ms=6.0)
+    place = np.arange(1, len(predictive.measured) + 1)
+    of = lambda values: (values - predictive.median) / predictive.deviation
+    panel.vlines(place, of(predictive.lower), of(predictive.upper), color=CURVES[0], alpha=0.3, linewidth=4.0)
+    inside = (predictive.lower <= predictive.measured) & (predictive.measured <= predictive.upper)
+    panel.plot(place[inside], of(predictive.measured)[inside], "o", color=CURVES[0], ms=3.5)
+    panel.plot(place[~inside], of(predictive.measured)[~inside], "x", color=CURVES[1], ms=6.0)
     panel.axhline(0.0, color=FAINT, linewidth=0.9, zorder=0)
     panel.xaxis.get_major_locator().set_params(integer=True)
     panel.set_xlabel("number of the measured value", fontsize=9)
@@ -85,8 +85,8 @@ def _measured_again(panel: Any, one: Any) -> None:
     grid_lines(panel)
 
 
-def _histogram(panel: "matplotlib.axes.Axes", one: Any, axis: Axis, values: np.ndarray) -> None:
+def _histogram(panel: "matplotlib.axes.Axes", parameter: Any, axis: Axis, values: np.ndarray) -> None:
     panel.hist(axis.of(values), bins=40, color=CURVES[0], alpha=0.6)
-    for value in (one.lower, one.median, one.upper):
+    for value in (parameter.lower, parameter.median, parameter.upper):
         panel.axvline(float(axis.of(value)), color=FAINT, linestyle="--", linewidth=0.9)
     panel.set_yticks([])

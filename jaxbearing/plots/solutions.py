@@ -129,11 +129,11 @@ def _guide(history: History) -> tuple[float, float, float]:
     ratio, zero = np.asarray(cage.eccentricity_ratio), np.zeros_like(np.asarray(cage.x))
     if not np.any(ratio > 0.0):
         return 0.0, 0.0, 0.0
-    found = []
+    guides = []
     for x, y in ((zero, zero), (-np.asarray(ring.lateral) + zero, np.asarray(ring.radial) + zero)):
         radius = np.hypot(np.asarray(cage.x) - x, np.asarray(cage.y) - y)[ratio > 0.0] / ratio[ratio > 0.0]
-        found.append((float(np.ptp(radius)), float(np.mean(x)), float(np.mean(y)), float(np.median(radius))))
-    return min(found)[1:]
+        guides.append((float(np.ptp(radius)), float(np.mean(x)), float(np.mean(y)), float(np.median(radius))))
+    return min(guides)[1:]
 
 
 def _round(

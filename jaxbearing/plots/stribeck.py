@@ -87,8 +87,8 @@ def _solved(scene: "AbstractScene", speeds: Sequence[float] | None) -> "xr.Datas
     own = scene.part_at(SPEED)
     if own is None:
         raise ValueError(f"stribeck: found a {type(scene).__name__} without {SPEED}, expected a bearing")
-    given = np.geomspace(SLOWEST, 1.0, COUNT) * float(own) if speeds is None else speeds
-    return sweep(scene, {SPEED: np.asarray(given, dtype=float)}, elements=False)
+    chosen = np.geomspace(SLOWEST, 1.0, COUNT) * float(own) if speeds is None else speeds
+    return sweep(scene, {SPEED: np.asarray(chosen, dtype=float)}, elements=False)
 
 
 def _speeds(data: "xr.Dataset") -> tuple[np.ndarray, np.ndarray]:

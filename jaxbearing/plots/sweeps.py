@@ -209,10 +209,10 @@ def raceway_control_map(
     **Raises:** `ValueError` where the sweep has no raceway control, or as `map_of`.
     """
     _there(sweep, "raceway_control")
-    one = sweep["raceway_control"]
-    one = one.isel(element=element) if "element" in one.dims else one.copy()
-    one.attrs = {"long_name": f"outer-race control of ball {element}", "units": "%"}
-    data = sweep.drop_vars("raceway_control").assign(raceway_control=one)
+    control = sweep["raceway_control"]
+    control = control.isel(element=element) if "element" in control.dims else control.copy()
+    control.attrs = {"long_name": f"outer-race control of ball {element}", "units": "%"}
+    data = sweep.drop_vars("raceway_control").assign(raceway_control=control)
     draw = map_of if len(swept(sweep)) == 2 else result_against
     return draw(data, "raceway_control", axes=axes)
 
@@ -256,8 +256,8 @@ def _require(sweep: "xr.Dataset", result: str) -> None:
     _there(sweep, result)
     dims = [str(name) for name in sweep[result].dims if name not in swept(sweep)]
     if dims or not np.issubdtype(sweep[result].dtype, np.number):
-        found = f"a value for each {', '.join(dims)}" if dims else "text"
-        raise ValueError(f"{result}: found {found}, expected one number a case (select one first)")
+        content = f"a value for each {', '.join(dims)}" if dims else "text"
+        raise ValueError(f"{result}: found {content}, expected one number a case (select one first)")
 
 
 def name_of(sweep: "xr.Dataset", result: str, unit: str = "") -> str:
@@ -334,13 +334,13 @@ def _mark(
     y_name: str | None = None,
 ) -> str:
     """Marks an operating point that lies within the sweep, and returns what the caption says of it."""
-    given = {path.replace(".", "_"): value for path, value in (point or {}).items()}
+    values = {path.replace(".", "_"): value for path, value in (point or {}).items()}
     names = [x_name] if y_name is None else [x_name, y_name]
-    if any(name not in given for name in names):
+    if any(name not in values for name in names):
         return ""
-    if not all(float(sweep[name].min()) <= given[name] <= float(sweep[name].max()) for name in names):
+    if not all(float(sweep[name].min()) <= values[name] <= float(sweep[name].max()) for name in names):
         return ""
-    place = [float(scale_of(sweep[name]).of(given[name])) for name in names]
+    place = [float(scale_of(sweep[name]).of(values[name])) for name in names]
     if y_name is None:
         axes.axvline(place[0], color=INK, linestyle="--", linewidth=1.1, label=OPERATING_POINT)
         return " Dashed: the operating point."

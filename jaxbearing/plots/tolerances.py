@@ -38,7 +38,7 @@ def tolerances(found: Any, results: "list[str] | None" = None, title: str = "") 
     from ..report.backends.matplotlib.page import Page
 
     names = (
-        [name for name, one in found.results.items() if one.moves and one.deviation > 0.0]
+        [name for name, own in found.results.items() if own.moves and own.deviation > 0.0]
         if results is None
         else list(results)
     )
@@ -56,11 +56,11 @@ def tolerances(found: Any, results: "list[str] | None" = None, title: str = "") 
     return figure
 
 
-def _caption(found: Any) -> str:
+def _caption(result: Any) -> str:
     text = "Curve: normal distribution of the delta method, with its limits at three standard deviations (dashed). "
-    if found.samples is not None:
-        text += f"Histogram: {found.samples.converged} random samples (seed {found.samples.seed}). "
-        failed = found.samples.count - found.samples.converged
+    if result.samples is not None:
+        text += f"Histogram: {result.samples.converged} random samples (seed {result.samples.seed}). "
+        failed = result.samples.count - result.samples.converged
         text += f"{failed} samples failed and are left out. " if failed else ""
     return text + "Bars: standard deviation of the result that each field alone makes, and its share in the variance."
 

@@ -35,12 +35,12 @@ def description(structure: Structure) -> str:
 
 
 def _structure(structure: Structure) -> Iterator[str]:
-    found = structure.node_data()
-    if found is None:
+    node = structure.node_data()
+    if node is None:
         # a leaf, or nothing at all
         yield "*" if structure.num_leaves else "-"
         return
-    kind, static = found
+    kind, static = node
     yield f"{_named(kind)}({static_description(static)}"
     for child in structure.children():
         yield ","
@@ -54,20 +54,20 @@ def static_description(value: object) -> str:
         return f"{_named(type(value))}.{value.name}"
     if value is None or isinstance(value, bool | int | float | complex | str | bytes):
         # repr of a float is exact; a subclass is told from its base
-        return f"{type(value).__name__}:{value!r}" if type(value).__module__ == "builtins" else _of_a_class(value)
+        return f"{type(value).__name__}:{value!r}" if type(value).__module__ == "builtins" else _described(value)
     if isinstance(value, type | types.FunctionType | types.BuiltinFunctionType):
         return _named(value)
     if isinstance(value, Mapping):
-        entries = (f"{static_description(key)}:{static_description(one)}" for key, one in value.items())
+        entries = (f"{static_description(key)}:{static_description(entry)}" for key, entry in value.items())
         return f"{_named(type(value))}{{{','.join(entries)}}}"
     if isinstance(value, tuple | list | frozenset | set):
-        parts = [static_description(one) for one in value]
+        parts = [static_description(entry) for entry in value]
         parts = sorted(parts) if isinstance(value, frozenset | set) else parts
         return f"{_named(type(value))}[{','.join(parts)}]"
-    return _of_a_class(value)
+    return _described(value)
 
 
-def _of_a_class(value: object) -> str:
+def _described(value: object) -> str:
     if isinstance(value, eqx.Module):
         leaves, structure = jax.tree.flatten(value)
         return f"{description(structure)}<{','.join(static_description(leaf) for leaf in leaves)}>"

@@ -27,20 +27,20 @@ _MOST_NUMBERS = 512
 """Most numbers that get a pass each: more would take seconds at every call, and JAX has one reverse pass for all."""
 
 
-def with_roots(compute: Callable[..., Any], *given: object) -> tuple[Any, tuple[Any, ...]]:
-    """The result of `compute(*given)`, and the roots that it found."""
+def with_roots(compute: Callable[..., Any], *inputs: object) -> tuple[Any, tuple[Any, ...]]:
+    """The result of `compute(*inputs)`, and the roots that it found."""
     with recorded_roots() as roots:
-        result = compute(*given)
+        result = compute(*inputs)
     return result, tuple(roots)
 
 
-def at_roots(compute: Callable[..., Any], roots: tuple[Any, ...], *given: object, stiffness: bool = True) -> Any:
-    """The result of `compute(*given)` from roots that are known.
+def at_roots(compute: Callable[..., Any], roots: tuple[Any, ...], *inputs: object, stiffness: bool = True) -> Any:
+    """The result of `compute(*inputs)` from roots that are known.
 
     **Arguments:** `stiffness`: of `known_roots`.
     """
     with known_roots(roots, stiffness):
-        return compute(*given)
+        return compute(*inputs)
 
 
 solved = KeptProgram(with_roots, quick=True)
@@ -53,28 +53,28 @@ def _rows(
     result: object,
     which: Int[Array, " row"],
     count: Int[Array, ""],
-    *given: object,
+    *inputs: object,
 ) -> Any:
-    """Derivatives of the result by some of the numbers in `given`, in front of every array of floats.
+    """Derivatives of the result by some of the numbers in `inputs`, in front of every array of floats.
 
-    **Arguments:** `result`: of `compute(*given)`; `which`: places of the numbers among all; `count`: how many of the
+    **Arguments:** `result`: of `compute(*inputs)`; `which`: places of the numbers among all; `count`: how many of the
     rows are wanted.
     """
-    numbers, rest = eqx.partition(given, eqx.is_inexact_array)
+    numbers, rest = eqx.partition(inputs, eqx.is_inexact_array)
     flat, unflat = ravel_pytree(numbers)
 
     def floats(flat: Float[Array, " number"]) -> Any:
-        found = at_roots(compute, roots, *eqx.combine(unflat(flat), rest))
-        return eqx.filter(found, eqx.is_inexact_array)
+        output = at_roots(compute, roots, *eqx.combine(unflat(flat), rest))
+        return eqx.filter(output, eqx.is_inexact_array)
 
-    def one(row: Int[Array, ""], rows: object) -> Any:
+    def fill_row(row: Int[Array, ""], rows: object) -> Any:
         direction = jnp.zeros_like(flat).at[which[row]].set(1.0)
         _, along = jax.jvp(floats, (flat,), (direction,))
         return jax.tree.map(lambda all_, new: all_.at[row].set(new), rows, along)
 
     like = eqx.filter(result, eqx.is_inexact_array)
     nothing = jax.tree.map(lambda leaf: jnp.zeros((which.shape[0], *leaf.shape)), like)
-    return jax.lax.fori_loop(0, count, one, nothing)
+    return jax.lax.fori_loop(0, count, fill_row, nothing)
 
 
 _kept_rows = KeptProgram(_rows, quick=True)
@@ -86,25 +86,25 @@ def _combined(rows: object, dots: list[Array]) -> Any:
     return jax.tree.map(lambda leaf: jnp.tensordot(flat, leaf[: flat.size], 1), rows)
 
 
-def differentiable(compute: Callable[..., Any], program: Callable[..., Any], *given: object) -> Any:
-    """The result of `compute(*given)` outside of programs, where some of the numbers are differentiated or batched.
+def differentiable(compute: Callable[..., Any], program: Callable[..., Any], *inputs: object) -> Any:
+    """The result of `compute(*inputs)` outside of programs, where some of the numbers are differentiated or batched.
 
     The programs of this module answer where numbers are differentiated once, and `program` in batches, for second
     derivatives and for more than `_MOST_NUMBERS` numbers.
 
     **Arguments:** `compute`: of a module, pure; `program`: the same under `jax.jit`.
     """
-    leaves, structure = jax.tree.flatten(given)
+    leaves, structure = jax.tree.flatten(inputs)
     traced = [isinstance(leaf, Tracer) for leaf in leaves]
 
     def filled(numbers: list[Any]) -> Any:
         own = iter(numbers)
-        mine = [next(own) if one else leaf for one, leaf in zip(traced, leaves, strict=True)]
+        mine = [next(own) if is_traced else leaf for is_traced, leaf in zip(traced, leaves, strict=True)]
         return jax.tree.unflatten(structure, mine)
 
-    numbers = [leaf for one, leaf in zip(traced, leaves, strict=True) if one]
+    numbers = [leaf for is_traced, leaf in zip(traced, leaves, strict=True) if is_traced]
     places = _places(leaves)
-    own_places = [place for one, place in zip(traced, places, strict=True) if one]
+    own_places = [place for is_traced, place in zip(traced, places, strict=True) if is_traced]
     return _answer(numbers, compute=compute, program=program, filled=filled, places=own_places)
 
 
@@ -124,18 +124,18 @@ def _answer(numbers: list[Array], *, compute: Any, program: Any, filled: Any, pl
 @_answer.def_jvp
 def _answer_jvp(primals: Any, tangents: Any, *, compute: Any, program: Any, filled: Any, places: Any) -> Any:
     (numbers,), (dots,) = primals, tangents
-    given = filled(numbers)
+    inputs = filled(numbers)
     moving = [dot is not None for dot in dots]
     wanted = np.concatenate([place for place, moves in zip(places, moving, strict=True) if moves])
-    if inside_a_program(given) or wanted.size > _MOST_NUMBERS:
+    if inside_a_program(inputs) or wanted.size > _MOST_NUMBERS:
         return eqx.filter_jvp(lambda numbers: program(*filled(numbers)), (numbers,), (dots,))
-    result, roots = solved(compute, *given)
+    result, roots = solved(compute, *inputs)
     size = _FEWEST_ROWS
     while size < wanted.size:
         size *= 8
     which = np.zeros(size, dtype=int)
     which[: wanted.size] = wanted
-    rows = _kept_rows(compute, roots, result, which, np.asarray(wanted.size), *given)
+    rows = _kept_rows(compute, roots, result, which, np.asarray(wanted.size), *inputs)
     # what depends on none of the numbers, as a residual, is no traced number
     rows = jax.tree.map(lambda leaf: leaf if np.any(leaf) else None, jax.device_get(rows))
     return result, _combined(rows, [dot for dot in dots if dot is not None])

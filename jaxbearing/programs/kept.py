@@ -72,12 +72,12 @@ class _Ready:
     def result(self) -> Any:
         """The result, with shapes for arrays."""
         shapes = self.compiled.out_info
-        filled = [shapes[one.place] if isinstance(one, _Slot) else one for one in self.others]
+        filled = [shapes[leaf.place] if isinstance(leaf, _Slot) else leaf for leaf in self.others]
         return jax.tree.unflatten(self.structure, filled)
 
     def __call__(self, leaves: list[object]) -> Any:
         arrays = self._run(_arrays(leaves)) if self.instead is None else self._first_run(_arrays(leaves))
-        filled = [arrays[one.place] if isinstance(one, _Slot) else one for one in self.others]
+        filled = [arrays[leaf.place] if isinstance(leaf, _Slot) else leaf for leaf in self.others]
         return jax.tree.unflatten(self.structure, filled)
 
     def _run(self, arrays: list[ArrayLeaf]) -> list[jax.Array]:
@@ -87,14 +87,14 @@ class _Ready:
         """Runs a loaded program for the first time. If it fails although its file was intact, it is compiled again."""
         instead = self.instead
         try:
-            found = jax.block_until_ready(self._run(arrays))
+            results = jax.block_until_ready(self._run(arrays))
         except (jax.errors.JaxRuntimeError, TypeError):
             if instead is not None:
                 made = instead()
                 self.compiled, self.structure, self.others = made.compiled, made.structure, made.others
-            found = self._run(arrays)
+            results = self._run(arrays)
         self.instead = None
-        return found
+        return results
 
 
 def _is_array(leaf: object) -> TypeGuard[ArrayLeaf]:
@@ -138,23 +138,23 @@ class KeptProgram(Generic[Result]):
 
     def result(self, structure: Structure, leaves: list[object]) -> Result | None:
         """Result of the program for such arguments, with shapes instead of arrays; `None` if there is none yet."""
-        found = self._found(structure, leaves, make=False)
-        return None if found is None else found.result
+        program = self._found(structure, leaves, make=False)
+        return None if program is None else program.result
 
     def _found(self, structure: Structure, leaves: list[object], make: bool) -> _Ready | None:
         folder = _folder()
         if folder is None:
             return None
         key = _key(structure, leaves)
-        found = self._ready.get(key)
-        if found is None and key not in self._never:
+        program = self._ready.get(key)
+        if program is None and key not in self._never:
             try:
-                found = self._prepared(structure, leaves, folder, make)
+                program = self._prepared(structure, leaves, folder, make)
             except NotKept:
                 self._never.add(key)
-            if found is not None:
-                self._ready[key] = found
-        return found
+            if program is not None:
+                self._ready[key] = program
+        return program
 
     @rare_garbage_collection()
     def _prepared(self, structure: Structure, leaves: list[object], folder: Path, make: bool) -> _Ready | None:
@@ -171,26 +171,26 @@ class KeptProgram(Generic[Result]):
         """The name of the file is a hash of all that the program depends on."""
         function = f"{self._function.__module__}.{self._function.__qualname__}"
         shapes = [(leaf.shape, str(leaf.dtype)) if _is_array(leaf) else static_description(leaf) for leaf in leaves]
-        parts = (function, self._quick, description(structure), shapes, _versions(), _told(), _files())
+        parts = (function, self._quick, description(structure), shapes, _versions(), _settings(), _files())
         return hashlib.sha256(repr(parts).encode()).hexdigest()[:40] + files.SUFFIX
 
     def _made(self, structure: Structure, leaves: list[object], path: Path) -> _Ready:
-        found: list[tuple[Structure, list[object]]] = []
+        outputs: list[tuple[Structure, list[object]]] = []
 
-        def flat(given: list[jax.Array]) -> list[jax.Array]:
-            arrays = iter(given)
+        def flat(inputs: list[jax.Array]) -> list[jax.Array]:
+            arrays = iter(inputs)
             filled = [next(arrays) if _is_array(leaf) else leaf for leaf in leaves]
             others, whole = jax.tree.flatten(self._function(*jax.tree.unflatten(structure, filled)))
             arrays = [leaf for leaf in others if eqx.is_array(leaf)]
             places = iter(range(len(arrays)))
-            found.append((whole, [_Slot(next(places)) if eqx.is_array(leaf) else leaf for leaf in others]))
+            outputs.append((whole, [_Slot(next(places)) if eqx.is_array(leaf) else leaf for leaf in others]))
             return arrays
 
         options = quick_options() if self._quick else None
         traced = jax.jit(flat, compiler_options=options).trace(_arrays(leaves))
         with _compiled_for_keeps():
             compiled = traced.lower().compile()
-        ready = _Ready(compiled, *found[-1])
+        ready = _Ready(compiled, *outputs[-1])
         if not _calls_host(traced.jaxpr.jaxpr):
             _keep(path, ready)
         return ready
@@ -199,7 +199,7 @@ class KeptProgram(Generic[Result]):
 def _key(structure: Structure, leaves: list[object]) -> Hashable:
     """The key of a program in the memory of this process. The hash in `_name` is the key of its file."""
     about = tuple((leaf.shape, leaf.dtype) if _is_array(leaf) else (type(leaf), leaf) for leaf in leaves)
-    return structure, about, _told()
+    return structure, about, _settings()
 
 
 def _setting(name: str) -> object:
@@ -249,9 +249,9 @@ def _calls_host(jaxpr: Jaxpr) -> bool:
 def _folder() -> Path | None:
     """The folder of the programs. `None` if caching is switched off, if the folder cannot be used, if JAX does not run
     on exactly one CPU device, or if a debugging setting is on (`_FOR_DEBUGGING`)."""
-    given = os.environ.get(VARIABLE, "")
+    setting = os.environ.get(VARIABLE, "")
     try:
-        folder = _known_folder(given)
+        folder = _known_folder(setting)
     except ValueError:
         return None
     alone = jax.default_backend() == "cpu" and len(jax.devices()) == 1
@@ -259,22 +259,22 @@ def _folder() -> Path | None:
 
 
 @functools.cache
-def _known_folder(given: str) -> Path | None:
+def _known_folder(setting: str) -> Path | None:
     folder = cache_folder()
     return folder if folder is not None and files.own_folder(folder) else None
 
 
 def _times() -> str | None:
     """Names, sizes and times of the files of the packages; `None` where there are none, as in an archive."""
-    found = hashlib.sha256()
+    digest = hashlib.sha256()
     try:
         paths = _paths()
         for path in paths:
             about = path.stat()
-            found.update(f"{path} {about.st_size} {about.st_mtime_ns}\n".encode())
+            digest.update(f"{path} {about.st_size} {about.st_mtime_ns}\n".encode())
     except OSError:
         return None
-    return found.hexdigest() if any(path.suffix == ".py" for path in paths) else None
+    return digest.hexdigest() if any(path.suffix == ".py" for path in paths) else None
 
 
 @functools.cache
@@ -283,32 +283,32 @@ def _files() -> str:
 
     **Raises:** `NotKept` if the files cannot be read or have changed since they were imported.
     """
-    found = hashlib.sha256()
+    digest = hashlib.sha256()
     try:
         for path in _paths():
-            found.update(f"{path.relative_to(ROOT)}\n".encode() + hashlib.sha256(path.read_bytes()).digest())
+            digest.update(f"{path.relative_to(ROOT)}\n".encode() + hashlib.sha256(path.read_bytes()).digest())
     except OSError:
         raise NotKept("files of the package") from None
     if _TIMES is None or _times() != _TIMES:
         raise NotKept("files that were changed after they were imported")
-    return found.hexdigest()
+    return digest.hexdigest()
 
 
 def _paths() -> list[Path]:
     """All files of the packages except compiled and hidden ones. Editors create hidden files."""
-    found: list[Path] = []
+    paths: list[Path] = []
     for package in OWN:
         for root, folders, names in os.walk(ROOT / package):
             folders[:] = [name for name in folders if name != "__pycache__" and not name.startswith(".")]
-            found += (Path(root) / name for name in names if not name.startswith("."))
-    return sorted(found)
+            paths += (Path(root) / name for name in names if not name.startswith("."))
+    return sorted(paths)
 
 
 _TIMES = _times()
 """State of the files when this package was imported. Files that change later may differ from the running code."""
 
 
-def _told() -> tuple[str | None, ...]:
+def _settings() -> tuple[str | None, ...]:
     """Values of the JAX settings and environment variables that change compiled programs; a part of the key."""
     settings = (str(_setting(name)) for name in _SETTINGS)
     return (*settings, *(os.environ.get(name) for name in _ENVIRONMENT))
@@ -316,13 +316,13 @@ def _told() -> tuple[str | None, ...]:
 
 @functools.cache
 def _versions() -> list[str | None]:
-    found: list[str | None] = []
+    versions: list[str | None] = []
     for name in _LIBRARIES:
         try:
-            found.append(importlib.metadata.version(name))
+            versions.append(importlib.metadata.version(name))
         except importlib.metadata.PackageNotFoundError:
-            found.append(None)
-    return found
+            versions.append(None)
+    return versions
 
 
 def _keep(path: Path, ready: _Ready) -> None:
@@ -350,10 +350,10 @@ def _loaded(path: Path) -> _Ready | None:
         program, count, skeleton, calls_lapack = pickle.loads(content)
         others, structure = jax.tree.flatten(skeleton, is_leaf=lambda leaf: isinstance(leaf, _Slot))
         arrays = sum(isinstance(leaf, _Slot) for leaf in others)
-        given, result = jax.tree.structure((([0] * count,), {})), jax.tree.structure([0] * arrays)
+        inputs, result = jax.tree.structure((([0] * count,), {})), jax.tree.structure([0] * arrays)
         with ThreadPoolExecutor(1) as beside:  # neither of the two tasks holds the GIL for long
             lapack = beside.submit(_initialise_lapack) if calls_lapack else None
-            loaded = deserialize_and_load(program, given, result)
+            loaded = deserialize_and_load(program, inputs, result)
             if lapack is not None:
                 lapack.result()
         return _Ready(loaded, structure, others)

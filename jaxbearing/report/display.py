@@ -134,7 +134,7 @@ def bar(fraction: float, width: int, ascii_only: bool = False) -> str:
 def typeset(text: str) -> str:
     """Replaces ASCII units by typeset ones, such as um by µm and m^2 by m². A terminal may lack these characters."""
     signs = re.sub(r"(?<=[ /])u(?=m\b)", "µ", re.sub(r" degC\b", " °C", text))
-    return re.sub(r"(?<=[a-zA-Z])\^([23])\b", lambda found: "²³"[int(found[1]) - 2], signs)
+    return re.sub(r"(?<=[a-zA-Z])\^([23])\b", lambda match: "²³"[int(match[1]) - 2], signs)
 
 
 def pretty(text: str) -> str:

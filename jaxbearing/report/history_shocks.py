@@ -106,8 +106,8 @@ def single_shocks(load: Float[np.ndarray, " time"], threshold: float) -> list[tu
     """Index and height of the peak of each uninterrupted interval above a threshold."""
     above = np.concatenate([[False], load > threshold, [False]])
     begins, ends = np.flatnonzero(above[1:] & ~above[:-1]), np.flatnonzero(above[:-1] & ~above[1:])
-    found = [int(begin) + int(np.argmax(load[begin:end])) for begin, end in zip(begins, ends, strict=True)]
-    return [(at, float(load[at])) for at in found]
+    peaks = [int(begin) + int(np.argmax(load[begin:end])) for begin, end in zip(begins, ends, strict=True)]
+    return [(at, float(load[at])) for at in peaks]
 
 
 def whirl_ratio(history: History) -> float | None:

@@ -30,5 +30,5 @@ def interval_lines(interval: PowerInterval) -> Iterator[str]:
     """The interval and the inputs behind it as a sentence."""
     name, limits = interval_headline(interval)
     paths = [part.path for part in interval.parts]
-    said = f"{name} {limits}, {'by' if len(paths) == 1 else 'mostly by'} {interval.by} ({interval.assumed})"
-    yield f"{said}; counted: only {', '.join(paths)}; {not_counted(paths)}"
+    text = f"{name} {limits}, {'by' if len(paths) == 1 else 'mostly by'} {interval.by} ({interval.assumed})"
+    yield f"{text}; counted: only {', '.join(paths)}; {not_counted(paths)}"

@@ -16,10 +16,10 @@ _NEEDED = ("centre", "positive", "covariance")
 
 def write_joint(joint: JointDistribution, units: Mapping[str, str], path: str | os.PathLike[str], title: str) -> None:
     """Writes a joint distribution. **Arguments:** `units`: SI unit of each field. **Raises:** `OSError`."""
-    said = lambda text: {"units": "see field_units", "long_name": text}
+    label = lambda text: {"units": "see field_units", "long_name": text}
     made = xr.Dataset(
         {
-            "centre": ("field", joint.centre, said("median of positive numbers, mean of others")),
+            "centre": ("field", joint.centre, label("median of positive numbers, mean of others")),
             "positive": ("field", joint.positive.astype(np.int8), {"units": "1", "long_name": "1: logarithm scatters"}),
             "covariance": (
                 ("field", "other_field"),
@@ -35,7 +35,7 @@ def write_joint(joint: JointDistribution, units: Mapping[str, str], path: str | 
         attrs={"title": title, "source": f"jaxbearing {__version__}", "jaxbearing_version": __version__},
     )
     if joint.samples is not None:
-        made["samples"] = (("sample", "field"), joint.samples, said("samples of the posterior"))
+        made["samples"] = (("sample", "field"), joint.samples, label("samples of the posterior"))
     write_netcdf(made, path)
 
 
@@ -48,12 +48,12 @@ def read_joint(path: str | os.PathLike[str]) -> JointDistribution:
     try:
         check_regular(name)
         with xr.open_dataset(name, engine="h5netcdf") as dataset:
-            missing = [one for one in (*_NEEDED, "field") if one not in dataset.variables]
+            missing = [needed for needed in (*_NEEDED, "field") if needed not in dataset.variables]
             if missing:
                 raise ValueError(f"found no {missing[0]}; expected the file that 'jaxbearing calibrate --out' writes")
             samples = np.asarray(dataset["samples"].values) if "samples" in dataset else None
             return JointDistribution(
-                tuple(str(one) for one in dataset["field"].values),
+                tuple(str(field) for field in dataset["field"].values),
                 np.asarray(dataset["centre"].values, dtype=np.float64),
                 np.asarray(dataset["positive"].values) != 0,
                 np.asarray(dataset["covariance"].values, dtype=np.float64),

@@ -53,7 +53,7 @@ def effects_to_dict(
     return {
         RESULTS[name]: {
             path: {"effect": plain(value), "tolerance": tolerances[path].size, "reason": tolerances[path].reason}
-            for path, value in sorted(found.items(), key=lambda one: -abs(one[1]))
+            for path, value in sorted(changes.items(), key=lambda change: -abs(change[1]))
         }
-        for name, found in effects.items()
+        for name, changes in effects.items()
     }

@@ -60,9 +60,9 @@ def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Mapping[str
     for name in derived_parts(type(part)):
         if (value := getattr(part, name)) is not None:
             yield from labelled(value, f"{above}{name}.")
-    for name, one in derived_results(type(part)).items():
+    for name, result in derived_results(type(part)).items():
         if (value := getattr(part, name)) is not None:
-            yield above + name, value, {**one.metadata, "dims": dimensions(one.annotation), "derived": True}
+            yield above + name, value, {**result.metadata, "dims": dimensions(result.annotation), "derived": True}
 
 
 def dimensions(annotation: object) -> tuple[str, ...]:
@@ -71,4 +71,4 @@ def dimensions(annotation: object) -> tuple[str, ...]:
     shape = getattr(annotation, "dim_str", None)
     if shape is not None:
         return tuple(name.partition("=")[0] for name in shape.split() if not name.startswith("*"))
-    return next((found for one in typing.get_args(annotation) if (found := dimensions(one))), ())
+    return next((names for argument in typing.get_args(annotation) if (names := dimensions(argument))), ())

@@ -31,15 +31,15 @@ NOTE = (
 )
 
 
-def print_comparison(found: Comparison, label: str, console: Console, full: bool = False) -> None:
+def print_comparison(comparison: Comparison, label: str, console: Console, full: bool = False) -> None:
     """Prints moments and losses of the physical model and of each formula, then assumptions and warnings.
 
     **Arguments:** `full`: all columns, even if they do not fit into the width of the terminal.
     """
-    covered = [one for one in found.laws if one.total is not None]
-    headline(label, "CONVERGED", "bold green", _duty(found), console)
+    covered = [law for law in comparison.laws if law.total is not None]
+    headline(label, "CONVERGED", "bold green", _duty(comparison), console)
     print_rule("Moments in N mm, power in W, ratio of the totals to the physical one", console)
-    rows = comparison_rows(found)
+    rows = comparison_rows(comparison)
     texts = {heading: [row[i] for row in rows] for i, heading in enumerate(HEADINGS)}
     names = {"": texts.pop("")}
     shown = {name: column for name, column in texts.items() if name not in PARTS or set(column) != {"-"}}
@@ -50,34 +50,34 @@ def print_comparison(found: Comparison, label: str, console: Console, full: bool
         for row in zip(*piece.values(), strict=True):
             table.add_row(*row)
         console.print(Padding(table, (0, 1)))
-    for one in covered:
-        if one.assumed:
-            print_line(NAMES[one.law], f"assumed: {'; '.join(one.assumed)}", console, 20)
-    print_warnings(comparison_notes(found), console, full)
+    for law in covered:
+        if law.assumed:
+            print_line(NAMES[law.law], f"assumed: {'; '.join(law.assumed)}", console, 20)
+    print_warnings(comparison_notes(comparison), console, full)
 
 
-def comparison_rows(found: Comparison) -> list[tuple[str, ...]]:
+def comparison_rows(comparison: Comparison) -> list[tuple[str, ...]]:
     """Rows of texts for the columns `HEADINGS`: the physical model, then each formula; "-" for a missing value."""
-    return [_row("physical model", found.physical), *(_row(NAMES[one.law], one) for one in found.laws)]
+    return [_row("physical model", comparison.physical), *(_row(NAMES[law.law], law) for law in comparison.laws)]
 
 
-def comparison_notes(found: Comparison) -> list[str]:
+def comparison_notes(comparison: Comparison) -> list[str]:
     """Notes in words: formulas used outside their range, missing inputs, and the notes of the comparison itself."""
-    return [*_of_laws(found), *found.notes]
+    return [*_law_notes(comparison), *comparison.notes]
 
 
-def comparison_listing(found: Comparison) -> Listing:
+def comparison_listing(comparison: Comparison) -> Listing:
     """The comparison as a table of the report page."""
-    assumed = [f"{NAMES[one.law]}: assumed: {'; '.join(one.assumed)}" for one in found.laws if one.assumed]
+    assumed = [f"{NAMES[law.law]}: assumed: {'; '.join(law.assumed)}" for law in comparison.laws if law.assumed]
     units = {"power": ", W", "ratio": " to the physical model", "": ""}
     headings = [f"{name}{units.get(name, ', N mm')}" for name in HEADINGS]
-    remarks = [NOTE, *comparison_notes(found), *assumed]
-    return Listing("Beside the makers' formulas", headings, comparison_rows(found), remarks)
+    remarks = [NOTE, *comparison_notes(comparison), *assumed]
+    return Listing("Beside the makers' formulas", headings, comparison_rows(comparison), remarks)
 
 
-def comparison_to_dict(found: Comparison) -> dict[str, Any]:
+def comparison_to_dict(comparison: Comparison) -> dict[str, Any]:
     """The comparison for JSON: numbers in SI units, `None` where they are not finite."""
-    physical = found.physical
+    physical = comparison.physical
     return {
         "converged": True,
         "status": "converged",
@@ -87,17 +87,17 @@ def comparison_to_dict(found: Comparison) -> dict[str, Any]:
             "parts": _moments(physical.parts),
             "power_loss": _moments(physical.locations),
         },
-        "laws": [_law(one) for one in found.laws],
-        "spread": _finite(found.spread),
-        "duty": {name: value if isinstance(value, str) else _finite(value) for name, value in found.duty.items()},
-        "warnings": comparison_notes(found),
+        "laws": [_law(law) for law in comparison.laws],
+        "spread": _finite(comparison.spread),
+        "duty": {name: value if isinstance(value, str) else _finite(value) for name, value in comparison.duty.items()},
+        "warnings": comparison_notes(comparison),
     }
 
 
-def _law(one: Law) -> dict[str, Any]:
-    numbers = {name: _finite(getattr(one, name)) for name in ("total", "power", "ratio")}
-    words = {name: list(getattr(one, name)) for name in ("flags", "assumed", "missing")}
-    return {"law": one.law, **numbers, "parts": _moments(one.parts), "inside_range": one.inside_range, **words}
+def _law(law: Law) -> dict[str, Any]:
+    numbers = {name: _finite(getattr(law, name)) for name in ("total", "power", "ratio")}
+    words = {name: list(getattr(law, name)) for name in ("flags", "assumed", "missing")}
+    return {"law": law.law, **numbers, "parts": _moments(law.parts), "inside_range": law.inside_range, **words}
 
 
 def _moments(values: Mapping[str, float | None]) -> dict[str, float | None]:
@@ -108,32 +108,32 @@ def _finite(value: float | None) -> float | None:
     return None if value is None else finite(value)
 
 
-def _row(name: str, one: Law | Physical) -> tuple[str, ...]:
-    ratio = "1" if isinstance(one, Physical) and one.total else _text(getattr(one, "ratio", None), 1.0, 3)
-    parts = (_text(one.parts.get(part), 1e3) for part in PARTS)
-    return (name, _text(one.total, 1e3), _text(one.power, 1.0), ratio, *parts)
+def _row(name: str, model: Law | Physical) -> tuple[str, ...]:
+    ratio = "1" if isinstance(model, Physical) and model.total else _text(getattr(model, "ratio", None), 1.0, 3)
+    parts = (_text(model.parts.get(part), 1e3) for part in PARTS)
+    return (name, _text(model.total, 1e3), _text(model.power, 1.0), ratio, *parts)
 
 
 def _text(value: float | None, factor: float, significant: int = 4) -> str:
     return "-" if value is None else digits(factor * value, significant)
 
 
-def _of_laws(found: Comparison) -> Iterator[str]:
-    for one in found.laws:
-        if one.total is None:
-            yield f"{NAMES[one.law]}: no moment; {'; '.join(one.missing)}"
+def _law_notes(comparison: Comparison) -> Iterator[str]:
+    for law in comparison.laws:
+        if law.total is None:
+            yield f"{NAMES[law.law]}: no moment; {'; '.join(law.missing)}"
             continue
-        yield from (f"{NAMES[one.law]}: outside its range: {text}" for text in one.flags)
-        yield from (f"{NAMES[one.law]}: left out: {text}" for text in one.missing)
+        yield from (f"{NAMES[law.law]}: outside its range: {text}" for text in law.flags)
+        yield from (f"{NAMES[law.law]}: left out: {text}" for text in law.missing)
 
 
-def _duty(found: Comparison) -> str:
-    duty, said = found.duty, []
+def _duty(comparison: Comparison) -> str:
+    duty, texts = comparison.duty, []
     if duty["family"]:
-        said.append(f"{duty['family'].replace('_', ' ')}, series {duty['series'] or 'not given'}")
-    said.append(f"{digits(duty['speed'] * 30.0 / np.pi)} rpm")
-    said.append(f"Fr {digits(duty['radial'])} N, Fa {digits(duty['axial'])} N")
+        texts.append(f"{duty['family'].replace('_', ' ')}, series {duty['series'] or 'not given'}")
+    texts.append(f"{digits(duty['speed'] * 30.0 / np.pi)} rpm")
+    texts.append(f"Fr {digits(duty['radial'])} N, Fa {digits(duty['axial'])} N")
     if duty["viscosity"] is not None:
-        said.append(f"{digits(1e6 * duty['viscosity'])} mm^2/s")
-    said.append(f"dm {digits(1e3 * duty['mean_diameter'])} mm")
-    return ", ".join(said)
+        texts.append(f"{digits(1e6 * duty['viscosity'])} mm^2/s")
+    texts.append(f"dm {digits(1e3 * duty['mean_diameter'])} mm")
+    return ", ".join(texts)

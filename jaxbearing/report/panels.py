@@ -135,7 +135,7 @@ SAME = 5e-4
 
 def constant(panel: Polar | Curves) -> bool:
     """True if the relative spread of each curve of the panel is at most `SAME`."""
-    return all(_spread(np.asarray(one.y, dtype=float)) <= SAME for one in panel.series)
+    return all(_spread(np.asarray(curve.y, dtype=float)) <= SAME for curve in panel.series)
 
 
 def _spread(values: np.ndarray) -> float:

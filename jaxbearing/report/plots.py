@@ -63,5 +63,5 @@ def check_suffix(path: str | os.PathLike[str]) -> None:
     """
     suffix = Path(path).suffix.lower()
     if suffix not in SUFFIXES:
-        found = f"{os.fspath(path)} has {f'the suffix {suffix!r}' if suffix else 'no suffix'}"
-        raise ValueError(f"a plot is written as {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}; {found}")
+        actual = f"{os.fspath(path)} has {f'the suffix {suffix!r}' if suffix else 'no suffix'}"
+        raise ValueError(f"a plot is written as {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}; {actual}")

@@ -51,8 +51,10 @@ def output(result: object, module: str, called: str, kinds: dict[str, str] = FOL
     folder = next((kinds[name] for name in names if name in kinds), None)
     if folder is None:
         raise TypeError(f"no {called} of a {type(result).__name__}")
-    found: Callable[..., Any] = getattr(importlib.import_module(f".{folder}.{module}", __package__), _FUNCTIONS[module])
-    return found
+    function: Callable[..., Any] = getattr(
+        importlib.import_module(f".{folder}.{module}", __package__), _FUNCTIONS[module]
+    )
+    return function
 
 
 def check_converged(solution: "AbstractSolution") -> None:

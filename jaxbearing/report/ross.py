@@ -104,7 +104,7 @@ def ross_text(
     **Arguments:** `scene_label`: name of the bearing, for a comment of the file.
     """
     element = ross_bearing(table, load_direction=load_direction, node=node, tag=tag, version=version)
-    said = [
+    lines = [
         f"Stiffness over shaft speed for ROSS {version}: rs.BearingElement.load(file). Written by jaxbearing "
         f"{__version__}.",
         *([f"Scene: {one_line(scene_label)}"] if scene_label else []),
@@ -116,7 +116,7 @@ def ross_text(
         f"Load line of the bearing: {math.degrees(load_direction):.6g} deg from x towards y; z along the shaft.",
         "ROSS goes on beyond the first and the last speed without a word.",
     ]
-    comments = "".join(f"# {line}\n" for line in said)
+    comments = "".join(f"# {line}\n" for line in lines)
     return f"{comments}\n{tomli_w.dumps({f'BearingElement_{tag}': element})}"
 
 

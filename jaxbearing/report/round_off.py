@@ -56,7 +56,10 @@ def without_round_off(result: Result) -> Result:
     for part in _parts(result):
         for _, value, metadata in labelled(part):
             largest[metadata["unit"]] = max(_largest(np.asarray(value)), largest.get(metadata["unit"], 0.0))
-    floors = {unit: max(one.absolute, one.relative * largest.get(unit, 0.0)) for unit, one in RESOLUTIONS.items()}
+    floors = {
+        unit: max(resolution.absolute, resolution.relative * largest.get(unit, 0.0))
+        for unit, resolution in RESOLUTIONS.items()
+    }
     return _cleaned(result, floors)
 
 
@@ -71,7 +74,9 @@ def _parts(result: Any) -> Iterator[Any]:
     for field in dataclasses.fields(result):
         inner = getattr(result, field.name)
         if isinstance(inner, Mapping):
-            yield from (part for one in inner.values() if dataclasses.is_dataclass(one) for part in _parts(one))
+            yield from (
+                part for member in inner.values() if dataclasses.is_dataclass(member) for part in _parts(member)
+            )
 
 
 def _cleaned(part: Any, floors: Mapping[str, float]) -> Any:
@@ -84,25 +89,28 @@ def _cleaned(part: Any, floors: Mapping[str, float]) -> Any:
         elif dataclasses.is_dataclass(value) and not isinstance(value, type):
             new = _cleaned(value, floors)
         elif isinstance(value, Mapping):
-            new = {name: _cleaned(one, floors) if dataclasses.is_dataclass(one) else one for name, one in value.items()}
-            new = value if all(new[name] is one for name, one in value.items()) else new
+            new = {
+                name: _cleaned(member, floors) if dataclasses.is_dataclass(member) else member
+                for name, member in value.items()
+            }
+            new = value if all(new[name] is member for name, member in value.items()) else new
         elif field.name in _DIAGNOSTICS:
             new = value
         elif field.name in _FORCES:
-            new = _without(value, RELATIVE * _largest(np.asarray(value)[..., :3]))
+            new = _zeroed(value, RELATIVE * _largest(np.asarray(value)[..., :3]))
         elif field.name == "stiffness":
             # of a failed solve it may not be finite
             diagonal = np.abs(np.diagonal(np.asarray(value), axis1=-2, axis2=-1))
             diagonal = np.sqrt(np.where(np.isfinite(diagonal), diagonal, 0.0))
-            new = _without(value, RELATIVE * diagonal[..., :, None] * diagonal[..., None, :])
+            new = _zeroed(value, RELATIVE * diagonal[..., :, None] * diagonal[..., None, :])
         else:
-            new = _without(value, floors.get(field.metadata.get("unit", "")))
+            new = _zeroed(value, floors.get(field.metadata.get("unit", "")))
         if new is not value:
             changes[field.name] = new
     return dataclasses.replace(part, **changes) if changes else part
 
 
-def _without(value: Any, floor: float | np.ndarray | None) -> Any:
+def _zeroed(value: Any, floor: float | np.ndarray | None) -> Any:
     if floor is None or value is None:
         return value
     numbers = np.asarray(value)

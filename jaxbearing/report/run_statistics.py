@@ -76,10 +76,10 @@ def speed_variation(history: History) -> dict[str, float] | None:
     of all elements at one instant; both over the mean speed. `excursion`: largest displacement of an element along the
     pitch circle from its mean place in the row, m.
     """
-    found = getattr(history.instants.elements, "orbital_speed", None)
-    if found is None:
+    speeds = getattr(history.instants.elements, "orbital_speed", None)
+    if speeds is None:
         return None
-    speed = np.asarray(found)
+    speed = np.asarray(speeds)
     along = np.asarray(history.instants.state_elements)[:, 0]
     along = along - along.mean(axis=1, keepdims=True)
     along = along - along.mean(axis=0, keepdims=True)
@@ -96,16 +96,16 @@ def speed_variation(history: History) -> dict[str, float] | None:
 def sliding_power(history: History) -> dict[str, Float[np.ndarray, "time element"]]:
     """Power loss by sliding of each element, W: on the raceways and in the pocket, as far as the run has them."""
     instants, elements = history.instants, history.instants.elements
-    found = {}
+    powers = {}
     for side in SIDES:
         own = getattr(instants, f"sliding_power_{side}", None)
         if own is None:
             force, speed = (getattr(elements, f"{name}_{side}", None) for name in ("traction", "sliding"))
             own = None if force is None or speed is None else np.abs(np.asarray(force) * np.asarray(speed))
         if own is not None:
-            found[side] = np.asarray(own)
+            powers[side] = np.asarray(own)
     pocket = getattr(instants, "pocket_power", None)
-    return found if pocket is None else found | {"pocket": np.asarray(pocket)}
+    return powers if pocket is None else powers | {"pocket": np.asarray(pocket)}
 
 
 def sliding_energy(history: History) -> dict[str, Float[np.ndarray, " element"]]:
@@ -139,7 +139,7 @@ def skidding(history: History) -> dict[str, dict[str, Any]]:
     share by azimuth (`SECTORS` sectors from the load line), and time intervals, s, in which more than half of the
     elements skid.
     """
-    instants, found = history.instants, {}
+    instants, results = history.instants, {}
     time = np.asarray(history.time)
     azimuth = np.mod(np.asarray(instants.elements.azimuth), 2.0 * math.pi)
     sector = np.minimum((azimuth / (2.0 * math.pi) * SECTORS).astype(int), SECTORS - 1)
@@ -149,15 +149,15 @@ def skidding(history: History) -> dict[str, dict[str, Any]]:
             continue
         size = np.abs(np.asarray(values))
         over = size > SKID
-        shares = [float(over[sector == one].mean()) if np.any(sector == one) else None for one in range(SECTORS)]
-        found[side] = {
+        shares = [float(over[sector == index].mean()) if np.any(sector == index) else None for index in range(SECTORS)]
+        results[side] = {
             "share": float(over.mean()),
             "mean": float(size.mean()),
             "max": float(size.max()),
             "by_sector": shares,
             "times": _stretches(time, over.mean(axis=1) > 0.5),
         }
-    return found
+    return results
 
 
 def _stretches(time: np.ndarray, on: np.ndarray) -> list[tuple[float, float]]:

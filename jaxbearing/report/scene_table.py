@@ -90,12 +90,12 @@ def _is_table(value: eqx.Module, model: type[BaseModel], path: tuple[str, ...]) 
     return any(is_known(model, (*path, field.name)) for field in dataclasses.fields(value))
 
 
-def _text(value: Any, said: Mapping[str, Any]) -> str:
-    """Text of a value with its unit. **Arguments:** `said`: metadata of the field."""
+def _text(value: Any, metadata: Mapping[str, Any]) -> str:
+    """Text of a value with its unit. **Arguments:** `metadata`: of the field."""
     if isinstance(value, str | bool | int):
         return str(value).lower() if isinstance(value, bool) else str(value)
-    number, si = float(value), said.get("unit", "1")
-    if si == "K" and not said.get("difference"):
+    number, si = float(value), metadata.get("unit", "1")
+    if si == "K" and not metadata.get("difference"):
         return f"{number - ZERO_CELSIUS:.6g} degC"
     sizes = _SIZES.get(si, ())
     unit, factor = next(((name, by) for least, name, by in sizes if abs(number) >= least), ("", 0.0))

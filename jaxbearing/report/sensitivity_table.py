@@ -77,8 +77,8 @@ def print_effects(
     `sensitivity.effects`."""
     units = {path: _unit_of(scene, path) for path in tolerances}
     console.print(Rule("Sensitivities, by usual tolerances", align="left", style="dim"))
-    for name, found in effects.items():
-        console.print(Padding(_effects_table(name, found, tolerances, units), (0, 1)))
+    for name, changes in effects.items():
+        console.print(Padding(_effects_table(name, changes, tolerances, units), (0, 1)))
     text = (
         "Change of the result for one tolerance of the input, to first order. Inputs without a usual tolerance are "
         "left out: --sensitivities-by percent has them all."
@@ -88,17 +88,17 @@ def print_effects(
 
 
 def _effects_table(
-    name: str, found: Mapping[str, float], tolerances: Mapping[str, UsualTolerance], units: Mapping[str, str]
+    name: str, changes: Mapping[str, float], tolerances: Mapping[str, UsualTolerance], units: Mapping[str, str]
 ) -> Table:
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
     table.add_column("input", no_wrap=True)
     table.add_column(NAMES[name], justify="right", no_wrap=True)
     table.add_column("for", justify="right", no_wrap=True)
     table.add_column("", overflow="fold")
-    for path in ranked(found)[:SHOWN]:
-        one = tolerances[path]
-        size = with_unit(one.size, units.get(path, "1"), 3)
-        table.add_row(path, _effect(name, found[path]), f"+{size}", one.reason)
+    for path in ranked(changes)[:SHOWN]:
+        tolerance = tolerances[path]
+        size = with_unit(tolerance.size, units.get(path, "1"), 3)
+        table.add_row(path, _effect(name, changes[path]), f"+{size}", tolerance.reason)
     return table
 
 
@@ -109,10 +109,10 @@ def _unit_of(scene: AbstractScene, path: str) -> str:
     return type(part).__dataclass_fields__[last].metadata.get("unit", "1")
 
 
-def ranked(found: Mapping[str, float]) -> list[str]:
+def ranked(changes: Mapping[str, float]) -> list[str]:
     """Paths in descending order of the modulus of their effects, without those of zero or non-finite effect."""
-    there = [path for path, value in found.items() if value and math.isfinite(value)]
-    return sorted(there, key=lambda path: -abs(found[path]))
+    there = [path for path, value in changes.items() if value and math.isfinite(value)]
+    return sorted(there, key=lambda path: -abs(changes[path]))
 
 
 def _effect(name: str, value: float) -> str:
@@ -127,18 +127,18 @@ def _effect(name: str, value: float) -> str:
 def _print_interval(interval: PowerInterval | None, console: Console) -> None:
     if interval is None:
         return
-    limits = " and ".join(with_unit(one, "W") for one in (interval.low, interval.high))
+    limits = " and ".join(with_unit(limit, "W") for limit in (interval.low, interval.high))
     text = f"Power loss {with_unit(interval.value, 'W')}, 90 % between {limits}"
     left_out = not_counted(part.path for part in interval.parts)
     if len(interval.parts) == 1:
         console.print(Padding(Text(f"{text}, by {interval.by} alone ({interval.assumed}); {left_out}."), (0, 2)))
         return
-    said = f"{text} (counted: only the inputs below; {left_out}), mostly by {interval.by}. By each input alone:"
-    console.print(Padding(Text(said), (0, 2)))
+    sentence = f"{text} (counted: only the inputs below; {left_out}), mostly by {interval.by}. By each input alone:"
+    console.print(Padding(Text(sentence), (0, 2)))
     width = lambda part: part.high - part.low
     small = [part.path for part in interval.parts if width(part) < SMALL * width(interval.parts[0])]
     for part in interval.parts[: len(interval.parts) - len(small)]:
-        ends = " and ".join(with_unit(one, "W") for one in (part.low, part.high))
+        ends = " and ".join(with_unit(limit, "W") for limit in (part.low, part.high))
         console.print(Padding(Text(f"{part.path}: between {ends} ({part.assumed})", style="dim"), (0, 4)))
     if small:
         text = f"{', '.join(small)}: less than {digits(100.0 * SMALL)} % of the first of these"

@@ -77,10 +77,10 @@ def stiffness_over_speed(
         raise ValueError("speeds must hold at least one speed")
     solve = jit_solver(scenes[0]) if solver is None else solver
     solutions = []
-    for one in scenes:
-        solution = solve(one)
+    for bearing in scenes:
+        solution = solve(bearing)
         if not bool(solution.converged):
-            speed = float(one.operation.inner_speed)
+            speed = float(bearing.operation.inner_speed)
             raise SolveError(f"at {speed:.6g} rad/s ({with_unit(speed, 'rad/s', 5)}): {solution.failure()}")
         solutions.append(solution)
     return StiffnessTable(
@@ -95,5 +95,5 @@ def stiffness_over_speed(
 def stiffness_to_dict(table: StiffnessTable) -> dict[str, Any]:
     """The table for JSON, in SI units and radians; `None` for numbers that are not finite and for entries of degrees of
     freedom that are not modelled."""
-    found = {name: plain(value) for name, value in table._asdict().items()}
-    return found | {"stiffness": modelled_only(table.stiffness, table.modelled)}
+    entries = {name: plain(value) for name, value in table._asdict().items()}
+    return entries | {"stiffness": modelled_only(table.stiffness, table.modelled)}

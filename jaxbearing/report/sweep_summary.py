@@ -77,11 +77,11 @@ def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: fl
 
 
 def _reasons(failure: np.ndarray) -> Iterator[str]:
-    found = collections.Counter(text for text in failure.tolist() if text)
-    for text, count in found.most_common(_REASONS):
+    counts = collections.Counter(text for text in failure.tolist() if text)
+    for text, count in counts.most_common(_REASONS):
         yield f"{counted(count, 'case')} failed: {text}"
-    if len(found) > _REASONS:
-        others = sum(count for _, count in found.most_common()[_REASONS:])
+    if len(counts) > _REASONS:
+        others = sum(count for _, count in counts.most_common()[_REASONS:])
         yield f"{counted(others, 'case')} failed otherwise"
 
 
@@ -93,14 +93,14 @@ def _yield(dataset: xr.Dataset) -> Iterator[str]:
 
 def _held(dataset: xr.Dataset) -> dict[str, str]:
     """Name -> range of the load that results for each prescribed displacement."""
-    found = {}
+    ranges = {}
     for freedom, load in LOAD_FIELDS.items():
-        given = f"operation_{HELD_FIELDS[freedom].replace('.', '_')}"
-        if "force" in dataset and given in dataset:
+        held = f"operation_{HELD_FIELDS[freedom].replace('.', '_')}"
+        if "force" in dataset and held in dataset:
             force = dataset["force"].sel(freedom=freedom)
             unit = str(dataset["force_units"].sel(freedom=freedom).values)
-            found[f"force, {load}"] = _spread(force.assign_attrs(units=unit))
-    return found
+            ranges[f"force, {load}"] = _spread(force.assign_attrs(units=unit))
+    return ranges
 
 
 def _spread(values: xr.DataArray) -> str:

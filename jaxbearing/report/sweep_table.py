@@ -56,7 +56,9 @@ def yielding(dataset: xr.Dataset) -> xr.DataArray:
 def without_lives_that_yield(dataset: xr.Dataset) -> xr.Dataset:
     """The sweep with NaN for the lives of cases that yield, for which `solve` gives no life either."""
     good = ~yielding(dataset)
-    return dataset.assign({name: one.where(good) for name, one in dataset.data_vars.items() if _LIFE.match(str(name))})
+    return dataset.assign(
+        {name: array.where(good) for name, array in dataset.data_vars.items() if _LIFE.match(str(name))}
+    )
 
 
 def ends(dataset: xr.Dataset) -> list[str]:
@@ -85,10 +87,14 @@ def results(dataset: xr.Dataset, names: Iterable[str] | None = None) -> list[Col
 def print_cases(dataset: xr.Dataset, names: Iterable[str], console: Console) -> None:
     """Prints the varied fields, the state of each case unless all are `CONVERGED`, and results not all 0."""
     own = fields(dataset)
-    shown = [*own, *(one for one in results(dataset, names) if np.nansum(np.abs(one.values)))]
-    last = [one.name.rpartition(".")[2] for one in shown]
-    short = {one.name: name if last.count(name) == 1 else one.name for one, name in zip(shown, last, strict=True)}
-    columns = {f"{short[one.name]}\n{one.unit}": [digits(float(value)) for value in one.values] for one in shown}
+    shown = [*own, *(column for column in results(dataset, names) if np.nansum(np.abs(column.values)))]
+    last = [column.name.rpartition(".")[2] for column in shown]
+    short = {
+        column.name: name if last.count(name) == 1 else column.name for column, name in zip(shown, last, strict=True)
+    }
+    columns = {
+        f"{short[column.name]}\n{column.unit}": [digits(float(value)) for value in column.values] for column in shown
+    }
     first = {title: columns.pop(title) for title in list(columns)[: len(own)]}
     words = ["" if end == CONVERGED else end if end == YIELDS else "failed" for end in ends(dataset)]
     if any(words):
@@ -110,10 +116,10 @@ def write_table(path: Path, file: str | os.PathLike[str]) -> None:
         columns = [*fields(dataset), *results(dataset)]
         with temporary.open("w", encoding="utf-8", newline="") as stream:
             writer = csv.writer(stream, lineterminator="\n")
-            writer.writerow([*(one.header for one in columns), "status"])
+            writer.writerow([*(column.header for column in columns), "status"])
             for case, end in enumerate(ends(dataset)):
-                numbers = (float(one.values[case]) for one in columns)
-                cells = [f"{one:.{_EXACT}g}" if np.isfinite(one) else "" for one in numbers]
+                numbers = (float(column.values[case]) for column in columns)
+                cells = [f"{number:.{_EXACT}g}" if np.isfinite(number) else "" for number in numbers]
                 writer.writerow([*cells, end])
 
 

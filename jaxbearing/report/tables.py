@@ -60,7 +60,7 @@ def _columns(solution: AbstractSolution) -> Iterator[Column]:
         array, unit = np.asarray(value), metadata["unit"]
         texts = column(np.where(np.isfinite(array), array, 0.0), unit)
         # a roller that touches nothing has no film
-        shown = [text if np.isfinite(one) else "-" for text, one in zip(texts, array, strict=True)]
+        shown = [text if np.isfinite(entry) else "-" for text, entry in zip(texts, array, strict=True)]
         yield Column(path.removeprefix("elements."), display_unit(unit), metadata["description"], shown)
 
 

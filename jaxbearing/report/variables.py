@@ -63,10 +63,10 @@ def common(values: np.ndarray, own: int, name: str) -> np.ndarray:
     """
     lanes = values.reshape(-1, *values.shape[values.ndim - own :])
     # fmax and fmin pass over NaN
-    found = np.fmax.reduce(lanes, axis=0)
-    if not np.array_equal(found, np.fmin.reduce(lanes, axis=0), equal_nan=True):
+    shared = np.fmax.reduce(lanes, axis=0)
+    if not np.array_equal(shared, np.fmin.reduce(lanes, axis=0), equal_nan=True):
         raise ValueError(f"{name}: the lanes of the batch have different ones")
-    return found
+    return shared
 
 
 def without_fill(dataset: xr.Dataset) -> xr.Dataset:

@@ -18,7 +18,7 @@ def print_over(
     path: str,
     unit: str,
     values: Sequence[float],
-    found: Sequence[Spectrum],
+    spectra: Sequence[Spectrum],
     label: str,
     seconds: float,
     console: Console,
@@ -29,65 +29,75 @@ def print_over(
     **Arguments:** `path`: of the field; `unit`: its SI unit, "" for a plain number; `values`, in SI, and the spectrum
     of each; `label`: of the scene; `seconds`: that it took; `full`: with all columns of the table.
     """
-    failed = sum(bool(one.failures) for one in found)
+    failed = sum(bool(spectrum.failures) for spectrum in spectra)
     status, style = (f"{failed} FAILED", "bold red") if failed else ("CONVERGED", "bold green")
-    words = f"{counted(len(found), 'value')} of {path}, {counted(len(found[0].names), 'state')} each, {seconds:.1f} s"
+    words = (
+        f"{counted(len(spectra), 'value')} of {path}, {counted(len(spectra[0].names), 'state')} each, {seconds:.1f} s"
+    )
     headline(label, status, style, words, console)
     print_rule("Life under the load spectrum", console)
-    columns = over_columns(path, unit, values, found)
+    columns = over_columns(path, unit, values, spectra)
     own = next(iter(columns))
     print_columns({own: columns.pop(own)}, columns, console, full, named=_GOVERNS)
-    said = [
+    failures = [
         f"{with_unit(value, unit)}, {name}: {text}"
-        for value, one in zip(values, found, strict=True)
-        for name, text in one.failures.items()
+        for value, spectrum in zip(values, spectra, strict=True)
+        for name, text in spectrum.failures.items()
     ]
-    print_warnings(said or list(dict.fromkeys(text for one in found for text in one.warnings)), console)
+    print_warnings(failures or list(dict.fromkeys(text for spectrum in spectra for text in spectrum.warnings)), console)
 
 
 _GOVERNS = "governed by"
 
 
-def over_columns(path: str, unit: str, values: Sequence[float], found: Sequence[Spectrum]) -> dict[str, list[str]]:
+def over_columns(path: str, unit: str, values: Sequence[float], spectra: Sequence[Spectrum]) -> dict[str, list[str]]:
     """Heading, with the unit on a second line -> texts, one a value; lives that no value has are left out.
 
     A spectrum with a state that yields has no life."""
     own = path.rpartition(".")[2].replace("_", " ")
     largest = max(map(abs, values))
     columns = {f"{own}\n{display_unit(unit, largest)}": [number(value, unit, largest=largest) for value in values]}
-    kinds = {"Lnmr": found[0].life.reliability, "L10r": 0.90, "L10m": 0.90, "L10": 0.90}
-    endings = ["-" if one.failures else "yields" if overloads(one) else "" for one in found]
+    kinds = {"Lnmr": spectra[0].life.reliability, "L10r": 0.90, "L10m": 0.90, "L10": 0.90}
+    endings = ["-" if spectrum.failures else "yields" if overloads(spectrum) else "" for spectrum in spectra]
     for kind, reliability in kinds.items():
-        lives = [getattr(one.life, IN_HOURS[kind]) for one in found]
+        lives = [getattr(spectrum.life, IN_HOURS[kind]) for spectrum in spectra]
         texts = ["-" if life is None else why or _text(life) for why, life in zip(endings, lives, strict=True)]
         if set(texts) != {"-"}:
             columns[f"{kind}\nh, {percent(reliability)}"] = texts
-    loads = ["-" if one.failures else _text(1e-3 * np.asarray(one.life.equivalent_load)) for one in found]
-    safety = [_text(_least(one), 3) for one in found]
-    most = [f"{one.governing}, {_most(one)} %" if one.governing is not None else "-" for one in found]
+    loads = [
+        "-" if spectrum.failures else _text(1e-3 * np.asarray(spectrum.life.equivalent_load)) for spectrum in spectra
+    ]
+    safety = [_text(_least(spectrum), 3) for spectrum in spectra]
+    most = [
+        f"{spectrum.governing}, {_most(spectrum)} %" if spectrum.governing is not None else "-" for spectrum in spectra
+    ]
     return columns | {"load\nkN": loads, "least\nC0/P0": safety, _GOVERNS: most}
 
 
-def over_to_dict(path: str, unit: str, values: Sequence[float], found: Sequence[Spectrum]) -> dict[str, Any]:
+def over_to_dict(path: str, unit: str, values: Sequence[float], spectra: Sequence[Spectrum]) -> dict[str, Any]:
     """The field, its values in SI, and the object of each spectrum; arguments as those of `print_over`."""
-    spectra = [spectrum_to_dict(one) for one in found]
+    entries = [spectrum_to_dict(spectrum) for spectrum in spectra]
     return {
-        "converged": all(one["converged"] for one in spectra),
+        "converged": all(entry["converged"] for entry in entries),
         "over": path,
         "unit": unit,
         "values": [float(value) for value in values],
-        "spectra": spectra,
+        "spectra": entries,
     }
 
 
-def _least(found: Spectrum) -> float:
+def _least(spectrum: Spectrum) -> float:
     """The least static safety of all states; NaN where the catalogue's formula is not for one of them."""
-    known = [one.life.static_safety for one in found.solutions]
-    return float("nan") if any(one is None for one in known) else float(np.min([np.asarray(one) for one in known]))
+    known = [solution.life.static_safety for solution in spectrum.solutions]
+    return (
+        float("nan")
+        if any(safety is None for safety in known)
+        else float(np.min([np.asarray(safety) for safety in known]))
+    )
 
 
-def _most(found: Spectrum) -> str:
-    return digits(100.0 * float(np.max(np.asarray(found.life.damage))), 3)
+def _most(spectrum: Spectrum) -> str:
+    return digits(100.0 * float(np.max(np.asarray(spectrum.life.damage))), 3)
 
 
 def _text(value: object, significant: int = 4) -> str:

@@ -38,10 +38,10 @@ class Spectrum(eqx.Module):
     @property
     def converged(self) -> Bool[Array, ""]:
         """True if all states converged."""
-        found = self.solutions[0].converged
-        for one in self.solutions[1:]:
-            found = found & one.converged
-        return found
+        converged = self.solutions[0].converged
+        for solution in self.solutions[1:]:
+            converged = converged & solution.converged
+        return converged
 
     @property
     def governing(self) -> str | None:
@@ -53,19 +53,19 @@ class Spectrum(eqx.Module):
     def failures(self) -> dict[str, str]:
         """Name of each state that failed -> why, in a sentence."""
         states = zip(self.names, self.solutions, strict=True)
-        return {name: one.failure() for name, one in states if not bool(one.converged)}
+        return {name: solution.failure() for name, solution in states if not bool(solution.converged)}
 
     @property
     def warnings(self) -> list[str]:
         """The warnings of the states, where what only some of them have names these, and the notes on the scene, in the
         groups of `AbstractSolution.warnings`."""
-        found: dict[str, list[str]] = {}
-        for name, one in zip(self.names, self.solutions, strict=True):
-            for text in one.warnings:
-                found.setdefault(text, []).append(name)
+        by_text: dict[str, list[str]] = {}
+        for name, solution in zip(self.names, self.solutions, strict=True):
+            for text in solution.warnings:
+                by_text.setdefault(text, []).append(name)
         every = len(self.names)
-        said = [text if len(names) == every else about(", ".join(names), text) for text, names in found.items()]
-        act, assumed, information = in_groups([*said, *map(as_note, self.notes)])
+        texts = [text if len(names) == every else about(", ".join(names), text) for text, names in by_text.items()]
+        act, assumed, information = in_groups([*texts, *map(as_note, self.notes)])
         return [*act, *assumed, *information]
 
     def raise_if_failed(self) -> None:
@@ -78,7 +78,7 @@ class Spectrum(eqx.Module):
         except jax.errors.ConcretizationTypeError:
             return
         if failed:
-            found = jax.lax.stop_gradient(self).failures
-            status = max(int(one.status) for one in self.solutions)
-            said = "; ".join(f"state '{name}': {text}" for name, text in found.items())
-            raise SolveError(said, Status(status))
+            failures = jax.lax.stop_gradient(self).failures
+            status = max(int(solution.status) for solution in self.solutions)
+            reasons = "; ".join(f"state '{name}': {text}" for name, text in failures.items())
+            raise SolveError(reasons, Status(status))

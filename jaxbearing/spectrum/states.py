@@ -37,15 +37,15 @@ def require_states(states: Sequence[State]) -> None:
     **Raises:** `ValueError` if there is no state, if two states have the same name or a state has none, or if a share
     is out of range or the shares do not add up to 1.
     """
-    if not states or not all(isinstance(one, State) for one in states):
+    if not states or not all(isinstance(state, State) for state in states):
         raise ValueError(f"states must be one or more of State(name, share, changes), got {states!r}")
-    names = [one.name for one in states]
+    names = [state.name for state in states]
     for name in names:
         if not isinstance(name, str) or not name.strip() or names.count(name) > 1:
             raise ValueError(f"states must have a name of their own each, got {name!r} {names.count(name)} times")
-    for one in states:
-        require_numbers("above 0 and at most 1", **{f"share of state {one.name!r}": one.share})
-    shares = known(*(one.share for one in states))
+    for state in states:
+        require_numbers("above 0 and at most 1", **{f"share of state {state.name!r}": state.share})
+    shares = known(*(state.share for state in states))
     if shares is not None and abs(sum(shares) - 1.0) > SUM_TOLERANCE:
         raise ValueError(f"share must add up to 1 over the states, got {sum(shares):.7g}")
 
@@ -70,12 +70,12 @@ def require_rated(scenes: Mapping[str, AbstractScene]) -> None:
     states = list(scenes.items())
     for name, scene in states[1:]:
         first, bearing = states[0]
-        for path in _of_another(bearing, scene):
-            found = f"found one value in state '{first}' and another in state '{name}'"
-            raise ValueError(f"{path}: {found}, expected states of one bearing")
+        for path in _differing_fields(bearing, scene):
+            problem = f"found one value in state '{first}' and another in state '{name}'"
+            raise ValueError(f"{path}: {problem}, expected states of one bearing")
 
 
-def _of_another(bearing: AbstractScene, other: AbstractScene) -> Iterator[str]:
+def _differing_fields(bearing: AbstractScene, other: AbstractScene) -> Iterator[str]:
     """Dotted paths of the fields of geometry and materials whose values make the other scene another bearing. Traced
     numbers are not compared."""
     assert isinstance(bearing, AbstractBearing), "other scenes are refused"
@@ -84,13 +84,13 @@ def _of_another(bearing: AbstractScene, other: AbstractScene) -> Iterator[str]:
         yield from _differences(getattr(bearing, part), getattr(other, part), part)
 
 
-def _differences(one: object, other: object, path: str) -> Iterator[str]:
-    if isinstance(one, eqx.Module) and type(one) is type(other):
-        for field in dataclasses.fields(one):
+def _differences(first: object, other: object, path: str) -> Iterator[str]:
+    if isinstance(first, eqx.Module) and type(first) is type(other):
+        for field in dataclasses.fields(first):
             if field.name not in RUNNING_SIZES:
-                yield from _differences(getattr(one, field.name), getattr(other, field.name), f"{path}.{field.name}")
-    elif numbers_or_none(one, other) is None:
-        if one != other:
+                yield from _differences(getattr(first, field.name), getattr(other, field.name), f"{path}.{field.name}")
+    elif numbers_or_none(first, other) is None:
+        if first != other:
             yield path
-    elif (numbers := known(one, other)) is not None and numbers[0] != numbers[1]:
+    elif (numbers := known(first, other)) is not None and numbers[0] != numbers[1]:
         yield path

@@ -22,7 +22,7 @@ TITLE = "Load spectrum"
 
 
 def print_spectrum(
-    found: Spectrum,
+    spectrum: Spectrum,
     changes: Mapping[str, Mapping[str, str]],
     label: str,
     seconds: float,
@@ -33,111 +33,111 @@ def print_spectrum(
 
     **Arguments:** `changes`: of each state, as they were typed; `full`: with all columns of the table.
     """
-    failures = found.failures
+    failures = spectrum.failures
     failed = f"{len(failures)} {'STATE' if len(failures) == 1 else 'STATES'} FAILED"
     status, style = (failed, "bold red") if failures else ("CONVERGED", "bold green")
-    headline(label, status, style, f"{counted(len(found.names), 'state')}, {seconds:.1f} s", console)
+    headline(label, status, style, f"{counted(len(spectrum.names), 'state')}, {seconds:.1f} s", console)
     print_rule("States", console)
-    for name, given in changes.items():
-        print_line(name, ", ".join(f"{path} = {text}" for path, text in given.items()) or "no change", console)
-    headings, rows = spectrum_rows(found)
+    for name, texts in changes.items():
+        print_line(name, ", ".join(f"{path} = {text}" for path, text in texts.items()) or "no change", console)
+    headings, rows = spectrum_rows(spectrum)
     columns = {heading: [row[i] for row in rows] for i, heading in enumerate(headings)}
     first = {"state": columns.pop("state")}
     print_columns(first, columns, console, full, named="state")
-    for name, text in spectrum_facts(found):
+    for name, text in spectrum_facts(spectrum):
         print_line(name, text, console)
-    print_warnings([*(f"{name}: {text}" for name, text in failures.items()), *_warnings(found)], console, full)
+    print_warnings([*(f"{name}: {text}" for name, text in failures.items()), *_warnings(spectrum)], console, full)
 
 
-def _warnings(found: Spectrum) -> list[str]:
-    return [] if found.failures else found.warnings
+def _warnings(spectrum: Spectrum) -> list[str]:
+    return [] if spectrum.failures else spectrum.warnings
 
 
-def spectrum_rows(found: Spectrum) -> tuple[list[str], list[list[str]]]:
+def spectrum_rows(spectrum: Spectrum) -> tuple[list[str], list[list[str]]]:
     """Headings, their units on a second line, and a row of texts for each state; "-" for what it does not have."""
-    life = found.life
+    life = spectrum.life
     all_modified = life.Lnmr is not None
     words = f"Lnmr\nh, {percent(life.reliability)}" if all_modified else "L10r\nh, 90 %"
     name_of_life = "Lnmr_hours" if all_modified else "L10r_hours"
     columns: dict[str, list[str]] = {
-        "state": list(found.names),
-        "time\n%": [_percent(one) for one in np.asarray(found.shares)],
-        "turns\n%": [_percent(one) for one in np.asarray(life.revolutions)],
-        "damage\n%": [_percent(one) for one in np.asarray(life.damage)],
-        words: [_number(getattr(one.life, name_of_life)) for one in found.solutions],
-        "loss\nW": [_number(one.power_loss.total) for one in found.solutions],
-        "pressure\nGPa": [digits(1e-9 * _pressure(one)) for one in found.solutions],
-        "kappa": [_number(one.life.viscosity_ratio, 3) for one in found.solutions],
-        "safety\nC0/P0": [_number(one.life.static_safety, 3) for one in found.solutions],
-        "safety\ncontact": [_number(one.life.contact_static_safety, 3) for one in found.solutions],
+        "state": list(spectrum.names),
+        "time\n%": [_percent(share) for share in np.asarray(spectrum.shares)],
+        "turns\n%": [_percent(share) for share in np.asarray(life.revolutions)],
+        "damage\n%": [_percent(share) for share in np.asarray(life.damage)],
+        words: [_number(getattr(solution.life, name_of_life)) for solution in spectrum.solutions],
+        "loss\nW": [_number(solution.power_loss.total) for solution in spectrum.solutions],
+        "pressure\nGPa": [digits(1e-9 * _pressure(solution)) for solution in spectrum.solutions],
+        "kappa": [_number(solution.life.viscosity_ratio, 3) for solution in spectrum.solutions],
+        "safety\nC0/P0": [_number(solution.life.static_safety, 3) for solution in spectrum.solutions],
+        "safety\ncontact": [_number(solution.life.contact_static_safety, 3) for solution in spectrum.solutions],
     }
     kept = {heading: texts for heading, texts in columns.items() if heading == "state" or set(texts) != {"-"}}
     return list(kept), [list(row) for row in zip(*kept.values(), strict=True)]
 
 
-def overloads(found: Spectrum) -> str:
+def overloads(spectrum: Spectrum) -> str:
     """The states in which elements and races yield, in words; "" where none does."""
-    by_state = zip(found.names, map(overload, found.solutions), strict=True)
+    by_state = zip(spectrum.names, map(overload, spectrum.solutions), strict=True)
     return "; ".join(f"{name}: {text}" for name, text in by_state if text)
 
 
-def spectrum_facts(found: Spectrum) -> Iterator[tuple[str, str]]:
+def spectrum_facts(spectrum: Spectrum) -> Iterator[tuple[str, str]]:
     """Name and text of what is known of the whole spectrum; nothing but the failed states where one failed."""
-    life = found.life
-    if found.failures:
-        yield "Life", f"none: {', '.join(found.failures)} failed, and its damage is not known"
+    life = spectrum.life
+    if spectrum.failures:
+        yield "Life", f"none: {', '.join(spectrum.failures)} failed, and its damage is not known"
         return
-    yields = overloads(found)
+    yields = overloads(spectrum)
     if yields:
         yield OVERLOAD, f"elements and races yield, so that there is no life: {yields}"
     for text in lives_in_words(life):
         yield "Life", f"{NO_LIFE}: {text}" if yields else text
-    said = [f"equivalent to the contacts' loads {with_unit(float(life.equivalent_load), 'N')}"]
+    loads = [f"equivalent to the contacts' loads {with_unit(float(life.equivalent_load), 'N')}"]
     if _there(life.catalogue_load):
-        said.append(f"by ISO 281 P {with_unit(float(np.asarray(life.catalogue_load)), 'N')}")
-    yield "Constant load", f"{', '.join(said)}, at {with_unit(float(life.mean_speed), 'rad/s')}"
-    if found.governing is not None:
+        loads.append(f"by ISO 281 P {with_unit(float(np.asarray(life.catalogue_load)), 'N')}")
+    yield "Constant load", f"{', '.join(loads)}, at {with_unit(float(life.mean_speed), 'rad/s')}"
+    if spectrum.governing is not None:
         most = float(np.max(np.asarray(life.damage)))
-        yield "Governed by", f"{found.governing}: {_percent(most)} % of the damage"
+        yield "Governed by", f"{spectrum.governing}: {_percent(most)} % of the damage"
 
 
-def spectrum_listing(found: Spectrum) -> Listing:
+def spectrum_listing(spectrum: Spectrum) -> Listing:
     """The table of a page, with the life below it."""
-    headings, rows = spectrum_rows(found)
+    headings, rows = spectrum_rows(spectrum)
     headings = [heading.replace("\n", ", ") for heading in headings]
-    remarks = [f"{name}: {text}." for name, text in spectrum_facts(found)]
-    remarks += [f"State {name} failed: {text}" for name, text in found.failures.items()]
+    remarks = [f"{name}: {text}." for name, text in spectrum_facts(spectrum)]
+    remarks += [f"State {name} failed: {text}" for name, text in spectrum.failures.items()]
     remarks.append(
         "Damages of the states are added (Palmgren and Miner). Safety is static: C0/P0, and of the most loaded contact."
     )
     return Listing(TITLE, headings, rows, remarks)
 
 
-def spectrum_to_dict(found: Spectrum, changes: Mapping[str, Mapping[str, str]] | None = None) -> dict[str, Any]:
+def spectrum_to_dict(spectrum: Spectrum, changes: Mapping[str, Mapping[str, str]] | None = None) -> dict[str, Any]:
     """All numbers in SI units; those that are not finite are `None`. `life` is `None` where a state failed.
 
     **Arguments:** `changes`: of each state, as they were typed; left out: they are not in the object.
     """
-    failures = found.failures
-    life = found.life
-    statuses = [Status(int(one.status)) for one in found.solutions]
-    first = next((one for one in statuses if one != Status.CONVERGED), Status.CONVERGED)
+    failures = spectrum.failures
+    life = spectrum.life
+    statuses = [Status(int(state.status)) for state in spectrum.solutions]
+    first = next((status for status in statuses if status != Status.CONVERGED), Status.CONVERGED)
     per_state = {"revolutions", "damage", "reference_damage"}
     numbers = {path: plain(value) for path, value, _ in labelled(life) if path not in per_state}
     states = []
-    for place, (name, solution) in enumerate(zip(found.names, found.solutions, strict=True)):
-        said: dict[str, Any] = {"name": name, "share": float(found.shares[place])}
-        said |= {path: finite(float(getattr(life, path)[place])) for path in sorted(per_state)}
+    for place, (name, solution) in enumerate(zip(spectrum.names, spectrum.solutions, strict=True)):
+        entry: dict[str, Any] = {"name": name, "share": float(spectrum.shares[place])}
+        entry |= {path: finite(float(getattr(life, path)[place])) for path in sorted(per_state)}
         if changes is not None:
-            said["changes"] = dict(changes[name])
-        states.append(said | {"failure": failures.get(name), "solution": solution_to_dict(solution)})
+            entry["changes"] = dict(changes[name])
+        states.append(entry | {"failure": failures.get(name), "solution": solution_to_dict(solution)})
     return {
         "converged": not failures,
         "status": first.name.lower(),
-        "warnings": _warnings(found),
+        "warnings": _warnings(spectrum),
         "states": states,
         "life": None if failures else numbers,
-        "governing_state": found.governing,
+        "governing_state": spectrum.governing,
     }
 
 

@@ -70,26 +70,26 @@ def solve_spectrum(
         if states is None:
             raise ValueError("states must be given beside a scene; a scene file has them in its [[state]] tables")
         require_states(states)
-        scenes = {one.name: scene.replace(one.changes) for one in states}
-        shares = [one.share for one in states]
+        scenes = {state.name: scene.replace(state.changes) for state in states}
+        shares = [state.share for state in states]
     else:
-        shares, scenes = _of_file(os.fspath(scene), states)
-    found = solve_states(scenes, shares, options)
+        shares, scenes = _shares_and_scenes(os.fspath(scene), states)
+    spectrum = solve_states(scenes, shares, options)
     if throw:
-        found.raise_if_failed()
-    return found
+        spectrum.raise_if_failed()
+    return spectrum
 
 
-def _of_file(source: str, states: Sequence[State] | None) -> tuple[list[Scalar], dict[str, AbstractScene]]:
+def _shares_and_scenes(source: str, states: Sequence[State] | None) -> tuple[list[Scalar], dict[str, AbstractScene]]:
     """Shares and scenes of the states: those of the file, or the given ones of its scene."""
     from ..scenes.states import base_scene, load_states
 
     if states is None:
         read = load_states(source)
-        return [one.share for one in read], {one.name: one.scene for one in read}
+        return [state.share for state in read], {state.name: state.scene for state in read}
     require_states(states)
     scene = base_scene(source)
-    return [one.share for one in states], {one.name: scene.replace(one.changes) for one in states}
+    return [state.share for state in states], {state.name: scene.replace(state.changes) for state in states}
 
 
 def solve_states(
@@ -119,8 +119,8 @@ def solve_cases(
 
 
 def _spectrum(names: tuple[str, ...], shares: Array, solutions: tuple[Solution, ...]) -> Spectrum:
-    speeds = jnp.stack([_speed(one) for one in solutions])
-    lives = [_life(one) for one in solutions]
+    speeds = jnp.stack([_speed(solution) for solution in solutions])
+    lives = [_life(solution) for solution in solutions]
     # shares that are traced are judged here
     fine = jnp.all((shares > 0) & (shares <= 1)) & (jnp.abs(jnp.sum(shares) - 1.0) <= SUM_TOLERANCE)
     return Spectrum(names, shares, solutions, spectrum_life(lives, jnp.where(fine, shares, jnp.nan), speeds))
@@ -144,10 +144,10 @@ def _solved(scenes: list[AbstractScene], options: NewtonOptions) -> list[Solutio
     for place, scene in enumerate(scenes):
         shapes = tuple(np.shape(leaf) for leaf in jax.tree.leaves(scene))
         groups.setdefault((jax.tree.structure(scene), shapes), []).append(place)
-    found: dict[int, Solution] = {}
+    solutions: dict[int, Solution] = {}
     for places in groups.values():
-        found |= dict(zip(places, _alike([scenes[place] for place in places], options), strict=True))
-    return [found[place] for place in range(len(scenes))]
+        solutions |= dict(zip(places, _alike([scenes[place] for place in places], options), strict=True))
+    return [solutions[place] for place in range(len(scenes))]
 
 
 def _alike(scenes: list[AbstractScene], options: NewtonOptions) -> list[Solution]:

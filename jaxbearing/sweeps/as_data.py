@@ -85,12 +85,12 @@ def _decode(data: object, arrays: Mapping[str, np.ndarray]) -> object:
         return {key: _decode(value, arrays) for key, value in data["dict"].items()}
     if set(data) != {"class", "fields"}:
         raise ValueError(f"not the data of a part: {', '.join(sorted(data))[:80]}")
-    kind, given = _kind(data["class"]), data["fields"]
+    kind, fields = _kind(data["class"]), data["fields"]
     if kind is None:
         raise ValueError(f"no class of this package: {data['class']!r}"[:160])
-    if set(given) != set(_fields(kind)):
+    if set(fields) != set(_fields(kind)):
         raise ValueError(f"{data['class']} of another version: its fields differ")
-    values = {field: _decode(given[field], arrays) for field in _fields(kind)}
+    values = {field: _decode(fields[field], arrays) for field in _fields(kind)}
     if issubclass(kind, tuple):
         return tuple.__new__(kind, values.values())
     made = object.__new__(kind)
@@ -119,12 +119,12 @@ def _kind(name: str) -> type | None:
     ):
         with suppress(ImportError):
             importlib.import_module(module)
-    found: Any = sys.modules.get(module)
+    kind: Any = sys.modules.get(module)
     for part in path.split("."):
-        found = None if found is None else vars(found).get(part)
-    if not isinstance(found, type) or found.__module__ != module:
+        kind = None if kind is None else vars(kind).get(part)
+    if not isinstance(kind, type) or kind.__module__ != module:
         return None
-    named_tuple = issubclass(found, tuple) and hasattr(found, "_fields")
-    parameters = vars(found).get("__dataclass_params__")
-    fields_alone = parameters is not None and (issubclass(found, eqx.Module) or parameters.frozen)
-    return found if named_tuple or fields_alone else None
+    named_tuple = issubclass(kind, tuple) and hasattr(kind, "_fields")
+    parameters = vars(kind).get("__dataclass_params__")
+    fields_alone = parameters is not None and (issubclass(kind, eqx.Module) or parameters.frozen)
+    return kind if named_tuple or fields_alone else None

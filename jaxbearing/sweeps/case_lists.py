@@ -30,10 +30,10 @@ def list_of(file: Path, source: SceneSource) -> tuple[dict[str, Field], Cases]:
             raise SceneError(_header(table), path, "this field twice", "each field once, here or in --set")
     if not table.rows:
         raise SceneError(table.file, "", "no rows", _EXPECTED)
-    given = np.asarray(table.numbers(paths)).T
+    numbers = np.asarray(table.numbers(paths)).T
     columns = {
         field.path: in_si(field, unit, values, table)
-        for field, (_, unit), values in zip(fields, parted, given, strict=True)
+        for field, (_, unit), values in zip(fields, parted, numbers, strict=True)
     }
     return dict(zip(paths, fields, strict=True)), listed(columns)
 

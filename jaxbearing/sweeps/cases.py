@@ -77,13 +77,13 @@ def _columns(over: Mapping[str, object]) -> tuple[tuple[str, ...], tuple[np.ndar
     return tuple(over), tuple(_numbers(path, values) for path, values in over.items())
 
 
-def _mapping(name: str, given: object) -> None:
+def _mapping(name: str, argument: object) -> None:
     """Checks that an argument maps paths of fields to values.
 
     **Raises:** `ValueError` if it does not.
     """
-    if not isinstance(given, Mapping) or not all(isinstance(path, str) for path in given):
-        raise ValueError(f"{name} must map dotted paths of fields to values, got {given!r}")
+    if not isinstance(argument, Mapping) or not all(isinstance(path, str) for path in argument):
+        raise ValueError(f"{name} must map dotted paths of fields to values, got {argument!r}")
 
 
 def _numbers(path: str, values: object) -> np.ndarray:
@@ -92,12 +92,12 @@ def _numbers(path: str, values: object) -> np.ndarray:
     **Raises:** `ValueError` for values that are not real numbers.
     """
     try:
-        found = np.atleast_1d(np.asarray(values))
+        array = np.atleast_1d(np.asarray(values))
     except (TypeError, ValueError):  # lists of lists of different lengths, and the like
-        found = np.empty(0, object)
-    if found.dtype.kind not in "iuf":
+        array = np.empty(0, object)
+    if array.dtype.kind not in "iuf":
         raise ValueError(f"{path}: expected one or more finite numbers, got {values!r}")
-    return found.astype(np.float64)
+    return array.astype(np.float64)
 
 
 def grid(over: Mapping[str, object]) -> Cases:
@@ -139,10 +139,10 @@ def _positive(count: int) -> None:
 
 def _within(kind: Kind, bounds: Mapping[str, Sequence[object]], unit: np.ndarray) -> Cases:
     values = {}
-    for (path, given), part in zip(bounds.items(), unit.T, strict=False):
-        ends = list(given) if isinstance(given, list | tuple | np.ndarray) else []
+    for (path, bound), part in zip(bounds.items(), unit.T, strict=False):
+        ends = list(bound) if isinstance(bound, list | tuple | np.ndarray) else []
         if not 2 <= len(ends) <= 3 or ends[2:] not in ([], ["log"]):
-            raise ValueError(f"{path}: expected lowest and highest value, and 'log' where wanted, got {given!r}")
+            raise ValueError(f"{path}: expected lowest and highest value, and 'log' where wanted, got {bound!r}")
         (low, high), spacing = _numbers(path, ends[:2]), ends[2:]
         values[path] = between(float(low), float(high), part, "log" in spacing, path)
     return Cases(kind, *_columns(values))

@@ -69,7 +69,7 @@ def compute_chunk(
     active = np.asarray([not reason for reason in reasons])
     solution = program(inputs, active, progress)
     good = converged(solution)
-    kept = columns(solution, labels) | {FAILURE: failures(solution, _said(plan, reasons, good, start))}
+    kept = columns(solution, labels) | {FAILURE: failures(solution, _completed_reasons(plan, reasons, good, start))}
     arrays: dict[str, Any] = {**kept, KEY: np.asarray(plan.key), GOOD: np.asarray(good.sum())}
     made = io.BytesIO()
     np.savez(made, **arrays)
@@ -113,17 +113,17 @@ def labels_of(plan: Plan) -> xr.Dataset:
     return template(plan.program().structure, plan.elements, plan.cases.paths)
 
 
-def _said(plan: Plan, reasons: list[str], good: np.ndarray, start: int) -> list[str]:
+def _completed_reasons(plan: Plan, reasons: list[str], good: np.ndarray, start: int) -> list[str]:
     """Reasons of failure, completed for failed cases whose values are refused when their scene is built."""
-    said = list(reasons)
+    completed = list(reasons)
     for lane in np.flatnonzero(~good).tolist():
-        if not said[lane]:
+        if not completed[lane]:
             values = plan.cases.part(start + lane, start + lane + 1)
             try:
                 plan.recipe.scene({path: float(value[0]) for path, value in values.items()})
             except ValueError as error:
-                said[lane] = str(error)
-    return said
+                completed[lane] = str(error)
+    return completed
 
 
 def read_chunk(folder: Path, index: int, key: str, names: list[str] | None = None) -> dict[str, Any]:
@@ -136,11 +136,11 @@ def read_chunk(folder: Path, index: int, key: str, names: list[str] | None = Non
         check_regular(path)
         # opened here: numpy leaves a file open that it cannot read
         with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
-            found = {name: file[name] for name in (file.files if names is None else [KEY, *names])}
+            variables = {name: file[name] for name in (file.files if names is None else [KEY, *names])}
     except FileNotFoundError:
         raise
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error, NotImplementedError) as error:
         raise DamagedChunkError(f"{path}: {error}") from None
-    if str(found.get(KEY)) != key:
+    if str(variables.get(KEY)) != key:
         raise DamagedChunkError(f"{path}: it is of another sweep")
-    return found
+    return variables

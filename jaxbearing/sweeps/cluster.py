@@ -69,8 +69,8 @@ def _run_remotely(folder: str, index: int, plan: Plan, key: str) -> tuple[int, i
         jax.config.update("jax_persistent_cache_min_entry_size_bytes", -1)
     with contextlib.suppress(OSError):
         # the chunk of a worker that died after writing it
-        found = read_chunk(Path(folder), index, key)
-        return int(found[GOOD]), len(found[FAILURE])
+        chunk = read_chunk(Path(folder), index, key)
+        return int(chunk[GOOD]), len(chunk[FAILURE])
     return compute_chunk(Path(folder), index, plan)
 
 

@@ -133,16 +133,16 @@ def _there_already(plan: Plan, target: Path, overwrite: bool, watcher: Watcher) 
     its place."""
     if target.exists() and not (target.is_file() or target.is_dir()):
         raise SweepError(f"found '{target}', no ordinary file; expected a new name")
-    found = _finished(target)
-    if found is not None and found[0] == plan.key:
+    finished = _finished(target)
+    if finished is not None and finished[0] == plan.key:
         shutil.rmtree(chunk_folder(target), ignore_errors=True)
         watcher.note(f"{target} has this sweep already: nothing is computed")
         watcher.cases(len(plan.cases))
-        return Outcome(len(plan.cases), found[1], len(plan.cases))
+        return Outcome(len(plan.cases), finished[1], len(plan.cases))
     if os.path.lexists(target) and not overwrite:
-        what = "another sweep" if found is not None else "which is there already and is not this sweep's"
-        raise SweepError(f"found '{target}', {what}; expected a new name, or --overwrite")
-    if overwrite and os.path.lexists(target) and found is None and target.is_dir():
+        problem = "another sweep" if finished is not None else "which is there already and is not this sweep's"
+        raise SweepError(f"found '{target}', {problem}; expected a new name, or --overwrite")
+    if overwrite and os.path.lexists(target) and finished is None and target.is_dir():
         raise SweepError(f"found '{target}', a folder that is no sweep; expected a new name")
     return None
 

@@ -43,12 +43,12 @@ class Field:
 
     def read(self, text: str, where: str) -> float:
         """SI value of a text, within the bounds of the field. **Raises:** `SceneError`."""
-        given = text.strip() if self.dimension is not None else parse_value(text.strip())
+        value = text.strip() if self.dimension is not None else parse_value(text.strip())
         try:
-            return float(TypeAdapter(self.kind).validate_python(given))
+            return float(TypeAdapter(self.kind).validate_python(value))
         except ValidationError as error:
             context = error.errors(include_url=False)[0].get("ctx", {})
-            found, expected = context.get("found", describe(given)), context.get("expected", "a number")
+            found, expected = context.get("found", describe(value)), context.get("expected", "a number")
             raise SceneError(where, self.path, found, expected) from None
 
 
@@ -83,9 +83,9 @@ class SceneSource:
             known = next((n for n in range(1, len(names) + 1) if not is_known(self.model, names[:n])), len(names))
             raise in_words(where, ".".join(names[:known]), unknown_name(names[:known], self.model))
         kind = type_at(self.model, names)
-        what = no_number(kind)
-        if what:
-            raise SceneError(where, path, what, structural(path).partition("expected ")[2])
+        problem = no_number(kind)
+        if problem:
+            raise SceneError(where, path, problem, structural(path).partition("expected ")[2])
         return Field(path, dimension_of(kind), kind)
 
     def warn_of_means(self, cases: Cases, fields: Mapping[str, Field]) -> None:
@@ -184,6 +184,6 @@ def label_of(scene: AbstractScene, path: str) -> dict[str, str]:
     """Unit and description of a field, from the class that declares it, as attributes of a coordinate."""
     names = path.split(".")
     words, owner = names[-1].replace("_", " "), owner_of(scene, names)
-    said = {} if owner is None else owner[0].__dataclass_fields__[owner[1]].metadata
-    flat = re.sub(r"/\((.+?)\)", lambda under: "/" + under[1].replace(" ", "/"), said.get("unit", "1"))
-    return {"units": udunits(flat), "long_name": said.get("description") or words}
+    metadata = {} if owner is None else owner[0].__dataclass_fields__[owner[1]].metadata
+    flat = re.sub(r"/\((.+?)\)", lambda under: "/" + under[1].replace(" ", "/"), metadata.get("unit", "1"))
+    return {"units": udunits(flat), "long_name": metadata.get("description") or words}

@@ -81,8 +81,8 @@ def _pieces(plan: Plan, folder: Path, labels: xr.Dataset) -> Iterator[tuple[xr.D
     yield xr.Dataset({FAILURE: xr.Variable(dims, failure, words)}, attrs=shared.attrs), total
     for name in results:
         variable = labels[name].variable
-        one = xr.Variable((*dims, *variable.dims[1:]), whole(name), variable.attrs)
-        yield xr.Dataset({name: one}, attrs=shared.attrs), total
+        full = xr.Variable((*dims, *variable.dims[1:]), whole(name), variable.attrs)
+        yield xr.Dataset({name: full}, attrs=shared.attrs), total
 
 
 def _lacking(plan: Plan, folder: Path, shared: xr.Dataset) -> list[str]:

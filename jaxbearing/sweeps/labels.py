@@ -28,10 +28,10 @@ def template(structure: AbstractSolution, elements: bool, paths: Sequence[str] =
 
     **Raises:** `ValueError` for a swept field whose name in the data set is that of a result.
     """
-    one = jax.tree.map(lambda leaf: np.zeros((1, *leaf.shape), leaf.dtype), structure)
+    case = jax.tree.map(lambda leaf: np.zeros((1, *leaf.shape), leaf.dtype), structure)
     # derived results such as shares divide by the zeros that stand for results here
     with np.errstate(all="ignore"):
-        dataset = solution_to_dataset(one, (CASE,))
+        dataset = solution_to_dataset(case, (CASE,))
     for path in paths:
         result = dataset.variables.get(path.replace(".", "_"))
         if result is not None and result.attrs["path"] != path:
@@ -54,24 +54,24 @@ def columns(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.ndar
     template does not have."""
     if any(MANY in variable.attrs.get("path", "") for variable in labels.variables.values()):
         return _by_name(solution, labels)
-    found = {}
+    arrays = {}
     for name, variable in labels.variables.items():
         path = variable.attrs.get("path", "")
         if path == "checks":
-            found[str(name)] = checks(solution, (CASE,)).values
+            arrays[str(name)] = checks(solution, (CASE,)).values
         elif path:
             values = np.asarray(functools.reduce(getattr, path.split("."), solution))
             if CASE in variable.dims:
                 # the scene's own number stands for all lanes
-                found[str(name)] = np.broadcast_to(values, (len(converged(solution)), *values.shape[1:]))
+                arrays[str(name)] = np.broadcast_to(values, (len(converged(solution)), *values.shape[1:]))
             elif values.ndim > variable.ndim:
-                found[str(name)] = common(values, variable.ndim, str(name))
-    return found
+                arrays[str(name)] = common(values, variable.ndim, str(name))
+    return arrays
 
 
 def _by_name(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.ndarray]:
     """The result of `columns` for a solution whose variables are assembled from many parts."""
-    lanes, found = len(converged(solution)), {}
+    lanes, arrays = len(converged(solution)), {}
     with np.errstate(all="ignore"):
         dataset = solution_to_dataset(solution, (CASE,))
     for name, variable in labels.variables.items():
@@ -79,10 +79,10 @@ def _by_name(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.nda
             continue
         values = dataset[name].values
         if CASE in variable.dims:
-            found[str(name)] = np.broadcast_to(values, (lanes, *values.shape[1:]))
+            arrays[str(name)] = np.broadcast_to(values, (lanes, *values.shape[1:]))
         elif values.ndim > variable.ndim:
-            found[str(name)] = common(values, variable.ndim, str(name))
-    return found
+            arrays[str(name)] = common(values, variable.ndim, str(name))
+    return arrays
 
 
 def converged(solution: AbstractSolution) -> np.ndarray:

@@ -79,8 +79,8 @@ class Plan:
         """Hash of scene, cases, options and versions: two sweeps with the same key have the same numbers."""
         digest = hashlib.sha256()
         scene = self.recipe.example_scene
-        told = [__version__, _source(), jax.__version__, self.platform, self.method, self.quick]
-        told += [
+        parts = [__version__, _source(), jax.__version__, self.platform, self.method, self.quick]
+        parts += [
             self.chunk,
             self.lanes,
             self.elements,
@@ -89,8 +89,8 @@ class Plan:
             self.cases.paths,
             self.cases.shape,
         ]
-        told += [type(self.recipe).__name__, _structure(scene)]
-        digest.update(repr(told).encode())
+        parts += [type(self.recipe).__name__, _structure(scene)]
+        digest.update(repr(parts).encode())
         for array in (*jax.tree.leaves((scene, self.options)), *self.cases.values):
             digest.update(np.asarray(array, dtype=np.float64).tobytes())
         return digest.hexdigest()[:32]
@@ -136,14 +136,14 @@ def compilation_cache() -> str | None:
 
 def write_plan(plan: Plan, folder: Path) -> None:
     """Writes the plan as data for other processes. **Raises:** `OSError`."""
-    said: dict[str, Any] = {"format": FORMAT, "key": plan.key, "version": __version__, "plan": None, "lacking": None}
+    content: dict[str, Any] = {"format": FORMAT, "key": plan.key, "version": __version__, "plan": None, "lacking": None}
     arrays: dict[str, np.ndarray] = {}
     try:
-        said["plan"], arrays = encoded(_as_fields(plan))
+        content["plan"], arrays = encoded(_plan_fields(plan))
     except ForeignPartError as error:
-        said["lacking"] = str(error)
+        content["lacking"] = str(error)
     with atomic_file(folder / PLAN) as temporary, temporary.open("wb") as file:
-        kept: dict[str, Any] = {"said": np.asarray(json.dumps(said)), **arrays}
+        kept: dict[str, Any] = {"said": np.asarray(json.dumps(content)), **arrays}
         np.savez(file, **kept)
 
 
@@ -159,15 +159,15 @@ def read_plan(folder: str | os.PathLike[str]) -> tuple[str, Plan]:
     **Raises:** `OSError`; `ValueError` for a damaged file, a file of another version, or the plan of a scene with
     classes of the user's own, which cannot be written as data.
     """
-    said, arrays = _read(folder)
+    content, arrays = _read(folder)
     path = Path(folder) / PLAN
-    if said["plan"] is None:
+    if content["plan"] is None:
         raise ValueError(
-            f"{path} holds no scene, because the scene has {said['lacking']}, no part of this package; expected "
+            f"{path} holds no scene, because the scene has {content['lacking']}, no part of this package; expected "
             "workers of the same sweep (--workers, --scheduler), which are sent the scene"
         )
     try:
-        return str(said["key"]), _of_fields(decoded(said["plan"], arrays))
+        return str(content["key"]), _plan_from_fields(decoded(content["plan"], arrays))
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"{path} is no plan of this version: {error}") from None
 
@@ -179,14 +179,14 @@ def _read(folder: str | os.PathLike[str]) -> tuple[dict[str, Any], dict[str, np.
         # opened here: numpy leaves a file open that it cannot read
         with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
-        said = json.loads(str(arrays.pop("said")))
+        content = json.loads(str(arrays.pop("said")))
     except OSError:
         raise
     except Exception as error:
         raise ValueError(f"{path} cannot be read: {error}") from None
-    if not isinstance(said, dict) or said.get("format") != FORMAT or not isinstance(said.get("key"), str):
+    if not isinstance(content, dict) or content.get("format") != FORMAT or not isinstance(content.get("key"), str):
         raise ValueError(f"{path} is no plan of this version")
-    return said, arrays
+    return content, arrays
 
 
 _PLAIN = ("chunk", "lanes", "elements", "platform", "method", "quick", "label", "metadata", "options")
@@ -194,12 +194,12 @@ _PLAIN = ("chunk", "lanes", "elements", "platform", "method", "quick", "label", 
 in that folder."""
 
 
-def _as_fields(plan: Plan) -> dict[str, Any]:
+def _plan_fields(plan: Plan) -> dict[str, Any]:
     cases = {"kind": plan.cases.kind, "paths": plan.cases.paths, "values": plan.cases.values}
     return {name: getattr(plan, name) for name in _PLAIN} | {"cases": cases, "recipe": plan.recipe.as_data()}
 
 
-def _of_fields(fields: dict[str, Any]) -> Plan:
+def _plan_from_fields(fields: dict[str, Any]) -> Plan:
     """The plan from its data.
 
     **Raises:** `ValueError`, `KeyError` or `TypeError` for data that are not a plan.

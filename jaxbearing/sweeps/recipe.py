@@ -236,7 +236,7 @@ def _quietly(read: Callable[[dict[str, float]], AbstractScene], values: dict[str
         return []
 
 
-def _same(one: AbstractScene, other: AbstractScene) -> bool:
-    return jax.tree.structure(one) == jax.tree.structure(other) and all(
-        np.array_equal(a, b) for a, b in zip(jax.tree.leaves(one), jax.tree.leaves(other), strict=True)
+def _same(first: AbstractScene, other: AbstractScene) -> bool:
+    return jax.tree.structure(first) == jax.tree.structure(other) and all(
+        np.array_equal(a, b) for a, b in zip(jax.tree.leaves(first), jax.tree.leaves(other), strict=True)
     )

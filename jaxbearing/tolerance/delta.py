@@ -69,24 +69,24 @@ class _Lines:
 
 
 def spreads_of(
-    scatter: Scatter, names: tuple[str, ...], found: Slopes, evaluated: Evaluated
+    scatter: Scatter, names: tuple[str, ...], at_means: Slopes, evaluated: Evaluated
 ) -> tuple[dict[str, Spread], list[str]]:
     """Scatter of each result, and notes in words.
 
-    **Arguments:** `found`: results and derivatives at the means, from a solve that converged; `evaluated`: gives them
-    at other numbers, or `None` for numbers that the scene refuses.
+    **Arguments:** `at_means`: results and derivatives at the means, from a solve that converged; `evaluated`: gives
+    them at other numbers, or `None` for numbers that the scene refuses.
     """
-    seats = _seats(scatter, found)
-    at_tight = found
+    seats = _seats(scatter, at_means)
+    at_tight = at_means
     if any(seat.slope == 0.0 for seat in seats.values()):
         at_tight = evaluated(scatter.means | {name_of(seat.name): seat.tight for seat in seats.values()})
         assert at_tight is not None  # every interference is a number of the scene
-    lines = {name: _lines(name, scatter, seats, found, at_tight) for name in names}
-    corners = {name: _corners(name, scatter, seats, one, found, at_tight) for name, one in lines.items()}
-    solved = (evaluated(one) for pair in corners.values() for one in pair)
-    cases = [found, *(one for one in solved if one is not None and _good(one))]
-    labels = labels_of(found.solution, names)
-    gains = {seat: one.slope for seat, one in seats.items()}
+    lines = {name: _lines(name, scatter, seats, at_means, at_tight) for name in names}
+    corners = {name: _corners(name, scatter, seats, line, at_means, at_tight) for name, line in lines.items()}
+    solved = (evaluated(numbers) for pair in corners.values() for numbers in pair)
+    cases = [at_means, *(case for case in solved if case is not None and _good(case))]
+    labels = labels_of(at_means.solution, names)
+    gains = {name: seat.slope for name, seat in seats.items()}
     curves, along = _curves(scatter, evaluated), _along_axes(scatter, evaluated)
     spreads = {}
     for name, own in lines.items():
@@ -94,14 +94,14 @@ def spreads_of(
         variance = sum(shares.values())
         ends = [float(case.values[name]) for case in cases]
         spreads[name] = Spread(
-            value=float(found.values[name]),
-            mean=float(found.values[name]) + shift,
+            value=float(at_means.values[name]),
+            mean=float(at_means.values[name]) + shift,
             deviation=float(np.sqrt(variance)),
             likely=_likely(
                 own,
                 gains,
                 scatter,
-                float(found.values[name]),
+                float(at_means.values[name]),
                 shift,
                 variance,
                 {path: np.array([float(case.values[name]) for case in solved]) for path, solved in curves.items()},
@@ -118,18 +118,18 @@ def spreads_of(
     return spreads, [*_loose_notes(seats), *_bent_notes(spreads, scatter, at_ends)]
 
 
-def _good(found: Slopes) -> bool:
-    return bool(np.all(found.solution.converged))
+def _good(case: Slopes) -> bool:
+    return bool(np.all(case.solution.converged))
 
 
-def _seats(scatter: Scatter, found: Slopes) -> dict[str, Seat]:
+def _seats(scatter: Scatter, at_means: Slopes) -> dict[str, Seat]:
     """The seats whose pressing interference may have a bend within the scatter."""
     seats = {}
     for name in scatter.seats:
         assert scatter.fits is not None
-        running = found.slopes[_OF_SEAT[name]]
+        running = at_means.slopes[_OF_SEAT[name]]
         slopes = {path: 1.0 if path == name_of(name) else float(running[path]) for path in scatter.fields}
-        interference, now = scatter.means[name_of(name)], float(found.values[_OF_SEAT[name]])
+        interference, now = scatter.means[name_of(name)], float(at_means.values[_OF_SEAT[name]])
         deviation = float(np.sqrt(max(sum(_parts(slopes, scatter).values()), 0.0)))
         seat = seat_of(scatter.fits, name, interference, now, deviation)
         if seat.bends_within:
@@ -137,17 +137,17 @@ def _seats(scatter: Scatter, found: Slopes) -> dict[str, Seat]:
     return seats
 
 
-def _lines(name: str, scatter: Scatter, seats: Mapping[str, Seat], found: Slopes, at_tight: Slopes) -> _Lines:
-    slopes = {path: float(found.slopes[name][path]) for path in scatter.fields}
+def _lines(name: str, scatter: Scatter, seats: Mapping[str, Seat], at_means: Slopes, at_tight: Slopes) -> _Lines:
+    slopes = {path: float(at_means.slopes[name][path]) for path in scatter.fields}
     if name in _OF_SEAT.values():
         # the interference itself has no bend
         return _Lines(slopes, {}, {})
     pressed = {seat: float(at_tight.slopes[name][name_of(seat)]) for seat in seats}
-    running = {seat: {p: float(found.slopes[_OF_SEAT[seat]][p]) for p in scatter.fields} for seat in seats}
-    for seat, one in seats.items():
+    running = {seat: {p: float(at_means.slopes[_OF_SEAT[seat]][p]) for p in scatter.fields} for seat in seats}
+    for seat, own in seats.items():
         running[seat][name_of(seat)] = 1.0
         for path in scatter.fields:
-            slopes[path] -= pressed[seat] * one.slope * running[seat][path]
+            slopes[path] -= pressed[seat] * own.slope * running[seat][path]
         if name_of(seat) in slopes:
             # an interference acts only by its part that presses the rings
             slopes[name_of(seat)] = 0.0
@@ -156,7 +156,7 @@ def _lines(name: str, scatter: Scatter, seats: Mapping[str, Seat], found: Slopes
 
 def _parts(slopes: Mapping[str, float], scatter: Scatter) -> dict[str, float]:
     """Part of each field in the variance of a linear result; fields that scatter together share their covariance."""
-    parts = {path: (slopes[path] * one.deviation) ** 2 for path, one in scatter.fields.items()}
+    parts = {path: (slopes[path] * field.deviation) ** 2 for path, field in scatter.fields.items()}
     for (path, other), covariance in scatter.covariances.items():
         parts[path] += slopes[path] * slopes[other] * covariance
     return parts
@@ -164,30 +164,30 @@ def _parts(slopes: Mapping[str, float], scatter: Scatter) -> dict[str, float]:
 
 def _moments(lines: _Lines, scatter: Scatter, seats: Mapping[str, Seat]) -> tuple[float, dict[str, float]]:
     """Shift of the mean, and the part of each field in the variance."""
-    gains = {seat: one.gain for seat, one in seats.items()}
+    gains = {seat: fit.gain for seat, fit in seats.items()}
     shares = _parts({path: lines.by(path, gains) for path in scatter.fields}, scatter)
-    shift = sum(lines.by(path, gains) * (one.mean - one.nominal) for path, one in scatter.fields.items())
+    shift = sum(lines.by(path, gains) * (field.mean - field.nominal) for path, field in scatter.fields.items())
     for seat, slope in lines.pressed.items():
-        one = seats[seat]
-        mean, variance = one.moments()
-        shift += slope * (mean - one.pressing)
-        rest = slope**2 * max(variance - (one.gain * one.deviation) ** 2, 0.0)
+        own = seats[seat]
+        mean, variance = own.moments()
+        shift += slope * (mean - own.pressing)
+        rest = slope**2 * max(variance - (own.gain * own.deviation) ** 2, 0.0)
         for path, part in _parts(lines.running[seat], scatter).items():
-            shares[path] += rest * part / one.deviation**2 if one.deviation > 0.0 else 0.0
+            shares[path] += rest * part / own.deviation**2 if own.deviation > 0.0 else 0.0
     return shift, shares
 
 
 def _curves(scatter: Scatter, evaluated: Evaluated) -> dict[str, list[Slopes]]:
     """Solves over the distribution of each lognormal field, at `SHARES` of it, the others at their nominal values: such
     a field scatters too far for a straight line. Fields for which a solve fails are left out."""
-    found = {}
-    for path, one in scatter.fields.items():
-        if one.shape == "lognormal" and path not in scatter.together:
-            cases = [evaluated(scatter.means | {path: float(x)}) for x in one.quantiles(SHARES)]
+    curves = {}
+    for path, field in scatter.fields.items():
+        if field.shape == "lognormal" and path not in scatter.together:
+            cases = [evaluated(scatter.means | {path: float(x)}) for x in field.quantiles(SHARES)]
             solved = [case for case in cases if case is not None and _good(case)]
             if len(solved) == len(cases):
-                found[path] = solved
-    return found
+                curves[path] = solved
+    return curves
 
 
 _AXIS = Distribution(0.0, 1.0)
@@ -199,12 +199,12 @@ def _along_axes(scatter: Scatter, evaluated: Evaluated) -> list[list[Slopes] | N
     which a solve fails."""
     if scatter.joint is None:
         return []
-    found: list[list[Slopes] | None] = []
+    along: list[list[Slopes] | None] = []
     for axis in scatter.joint.axes:
         cases = [evaluated(scatter.means | scatter.joint.at(far * axis)) for far in _AXIS.quantiles(SHARES)]
         solved = [case for case in cases if case is not None and _good(case)]
-        found.append(solved if len(solved) == len(cases) else None)
-    return found
+        along.append(solved if len(solved) == len(cases) else None)
+    return along
 
 
 def _axis_steps(
@@ -245,12 +245,12 @@ def _likely(
     for path in scatter.together:
         mean -= slopes[path] * (scatter.fields[path].mean - scatter.fields[path].nominal)
     for path in bent:
-        one = scatter.fields[path]
+        field = scatter.fields[path]
         if path in curves:
-            mean -= slopes[path] * (one.mean - one.nominal)
-            steps[path] = at_shares(one, curves[path], _SHARES) - value
+            mean -= slopes[path] * (field.mean - field.nominal)
+            steps[path] = at_shares(field, curves[path], _SHARES) - value
         else:
-            steps[path] = slopes[path] * (one.quantiles(_SHARES) - one.mean)
+            steps[path] = slopes[path] * (field.quantiles(_SHARES) - field.mean)
     parts = _parts(slopes, scatter)
     rest = variance - sum(parts[path] for path in (*bent, *scatter.together))
     normal = float(np.sqrt(max(rest, 0.0))) if rest > _ROUND_OFF * variance else 0.0
@@ -258,7 +258,7 @@ def _likely(
     if len(steps) > 1:
         # each field takes its values in an order of its own
         order, total = np.random.default_rng(0), Distribution(mean, normal).quantiles(_SHARES)
-        total = sum((order.permutation(one) for one in steps.values()), total)
+        total = sum((order.permutation(step) for step in steps.values()), total)
         low, high = np.quantile(total, ends)
         return float(low), float(high)
     around = mean + (np.sort(next(iter(steps.values()))) if steps else np.zeros(1))
@@ -272,10 +272,10 @@ def _mixed_quantile(around: np.ndarray, deviation: float, share: float) -> float
         return float(np.quantile(around, share))
     step = max(1, around.size // _MIXED)
     every = around[step // 2 :: step]
-    one = Distribution(0.0, deviation)
+    normal = Distribution(0.0, deviation)
     low, high = (
-        float(every[0] + one.quantiles(np.array(_TAIL))),
-        float(every[-1] + one.quantiles(np.array(1.0 - _TAIL))),
+        float(every[0] + normal.quantiles(np.array(_TAIL))),
+        float(every[-1] + normal.quantiles(np.array(1.0 - _TAIL))),
     )
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
@@ -285,19 +285,21 @@ def _mixed_quantile(around: np.ndarray, deviation: float, share: float) -> float
 
 
 def _corners(
-    name: str, scatter: Scatter, seats: Mapping[str, Seat], lines: _Lines, found: Slopes, at_tight: Slopes
+    name: str, scatter: Scatter, seats: Mapping[str, Seat], lines: _Lines, at_means: Slopes, at_tight: Slopes
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Numbers of the scene in both worst cases of a result: all fields at the limits that make it smallest,
     and largest, by its derivatives."""
     if name == "fit.contact_angle" and not any((*lines.direct.values(), *lines.pressed.values())):
         # without clearance the angle is 0, and so is its slope: its worst cases are those of the clearance
-        lines = _lines("fit.clearance", scatter, seats, found, at_tight)
+        lines = _lines("fit.clearance", scatter, seats, at_means, at_tight)
     low, high = dict(scatter.means), dict(scatter.means)
     tight = dict.fromkeys(seats, 1.0)
     slopes = {path: lines.by(path, tight) for path in scatter.fields}
-    for path, one in scatter.fields.items():
+    for path, field in scatter.fields.items():
         if slopes[path]:
-            low[path], high[path] = (one.lowest, one.highest) if slopes[path] > 0.0 else (one.highest, one.lowest)
+            low[path], high[path] = (
+                (field.lowest, field.highest) if slopes[path] > 0.0 else (field.highest, field.lowest)
+            )
     if scatter.joint is not None:
         # all of them at their own limits at once would be outside of their joint distribution
         offset, _ = scatter.joint.steepest(slopes)
@@ -311,15 +313,15 @@ _WHERE = {"shaft": "the inner ring may be loose on the shaft", "housing": "the o
 
 def _loose_notes(seats: Mapping[str, Seat]) -> list[str]:
     """Notes on seats that are loose in some bearings and tight in others."""
-    found = []
+    notes = []
     for name, seat in seats.items():
         if any(abs(seat.mean - bend) < 3.0 * seat.deviation for _, bend in seat.bends):
             share = seat.loose_share
-            found.append(
+            notes.append(
                 f"{_WHERE[name]} within the limits ({_percent(share)} of the bearings): the delta method takes what "
                 "presses the rings as a rectified normal variable; compare with Monte Carlo (samples)"
             )
-    return found
+    return notes
 
 
 def _percent(share: float) -> str:
@@ -334,11 +336,11 @@ def _bent_notes(
     for name, spread in spreads.items():
         if not spread.moves:
             continue
-        ends = [one for one in at_ends[name] if one is not None and _good(one)]
+        ends = [case for case in at_ends[name] if case is not None and _good(case)]
         if len(ends) < 2:
             failed.append(name)
             continue
-        low, high = (float(one.values[name]) for one in ends)
+        low, high = (float(case.values[name]) for case in ends)
         below, above = (_reach(spread, scatter, end) for end in (False, True))
         width = max(spread.worst_high - spread.worst_low, below + above)
         off = max(abs(spread.value - below - low), abs(spread.value + above - high))
@@ -361,7 +363,7 @@ def _reach(spread: Spread, scatter: Scatter, high: bool) -> float:
     for path, slope in spread.derivatives.items():
         if path in scatter.together:
             continue
-        one = scatter.fields[path]
-        end = one.highest if (slope > 0.0) == high else one.lowest
-        reach += abs(slope * (end - one.nominal))
+        field = scatter.fields[path]
+        end = field.highest if (slope > 0.0) == high else field.lowest
+        reach += abs(slope * (end - field.nominal))
     return reach

@@ -72,8 +72,8 @@ def slopes_at(
     **Raises:** `ValueError` for a name that is no result; a failed solve raises nothing, its solution has a status.
     """
     names = None if wanted is None else tuple(wanted)
-    given = {path: jnp.asarray(value, jnp.float64) for path, value in numbers.items()}
+    arrays = {path: jnp.asarray(value, jnp.float64) for path, value in numbers.items()}
     own = jax.tree.map(as_float, scene)
-    solution, roots = solve_with_roots(jax.tree.map(as_float, scene.replace(given)), options)
+    solution, roots = solve_with_roots(jax.tree.map(as_float, scene.replace(arrays)), options)
     values = values_of(solution, computed(solution, names))
-    return Slopes(solution, values, _kept_slopes(roots, own, given, names, options))
+    return Slopes(solution, values, _kept_slopes(roots, own, arrays, names, options))

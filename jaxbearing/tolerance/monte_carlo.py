@@ -32,7 +32,7 @@ def cases_of(scatter: Scatter, count: int, seed: int) -> Cases:
     several = np.random.default_rng(seed).spawn(3)
     normal = several[0].standard_normal((count, len(scatter.fields)))
     uniform = several[1].random((count, len(scatter.fields)))
-    columns = [one.samples(normal[:, i], uniform[:, i]) for i, one in enumerate(scatter.fields.values())]
+    columns = [field.samples(normal[:, i], uniform[:, i]) for i, field in enumerate(scatter.fields.values())]
     if scatter.joint is not None:
         drawn = dict(zip(scatter.joint.fields, scatter.joint.draws(several[2], count).T, strict=True))
         columns = [drawn.get(path, column) for path, column in zip(scatter.fields, columns, strict=True)]
@@ -42,18 +42,18 @@ def cases_of(scatter: Scatter, count: int, seed: int) -> Cases:
 def sampled(dataset: xr.Dataset, labels: Mapping[str, Label]) -> dict[str, Sampled]:
     """Statistics of each result over the samples that converged."""
     good = dataset["failure"].values == ""
-    found = {}
+    statistics = {}
     for name, label in labels.items():
         data = dataset[label.variable]
         if label.along is not None:
-            dimension, one = label.along
-            data = data.sel({dimension: one})
+            dimension, entry = label.along
+            data = data.sel({dimension: entry})
         values = np.asarray(data.values, dtype=np.float64)
         if values.shape[:1] != good.shape:
             # all samples share it
             values = np.broadcast_to(values, (good.size, *values.shape))
-        found[name] = _statistics(values[(slice(None), *label.place)].reshape(good.size)[good])
-    return found
+        statistics[name] = _statistics(values[(slice(None), *label.place)].reshape(good.size)[good])
+    return statistics
 
 
 def failures_in(dataset: xr.Dataset) -> dict[str, int]:

@@ -67,29 +67,31 @@ def names_in(solution: AbstractSolution, wanted: Sequence[str] | None) -> tuple[
     """
     known = dict(_known(solution))
     if wanted is None:
-        usual = (*DEFAULT, *_forces(solution), *_of_entries(solution))
-        found = tuple(name for name in usual if _there(solution, name, known))
-        if not found:
+        usual = (*DEFAULT, *_forces(solution), *_entry_results(solution))
+        chosen = tuple(name for name in usual if _there(solution, name, known))
+        if not chosen:
             raise ValueError("results: found none of those that are usual in this scene; expected names of results")
-        return found
+        return chosen
     return tuple(dict.fromkeys(_resolved(solution, text, known) for text in wanted))
 
 
 def labels_of(solution: AbstractSolution, names: Sequence[str]) -> dict[str, Label]:
     """Labels of results that a solution has."""
-    known, found = dict(_known(solution)), {}
+    known, labels = dict(_known(solution)), {}
     for name in names:
         path, place = _parted(name)
-        said = known[path]
-        words = ", ".join((said["description"], *(f"{_place_in_words(said, *one)}" for one in enumerate(place))))
-        variable, along = _in_data(solution, path)
-        found[name] = Label(_unit(path, said, place), words, variable, place, along)
-    return found
+        metadata = known[path]
+        words = ", ".join(
+            (metadata["description"], *(f"{_place_in_words(metadata, *pair)}" for pair in enumerate(place)))
+        )
+        variable, along = _data_name(solution, path)
+        labels[name] = Label(_unit(path, metadata, place), words, variable, place, along)
+    return labels
 
 
-def _place_in_words(said: Mapping[str, Any], axis: int, place: int) -> str:
-    along = said["dims"][axis]
-    if said["unit"] == MIXED and along != "node":
+def _place_in_words(metadata: Mapping[str, Any], axis: int, place: int) -> str:
+    along = metadata["dims"][axis]
+    if metadata["unit"] == MIXED and along != "node":
         return RING_FREEDOMS[place].replace("_", " ")
     return f"{along} {place}"
 
@@ -100,11 +102,11 @@ def _entry_of(solution: AbstractSolution, path: str) -> tuple[str, str, str] | N
     entries = getattr(solution, table, None)
     if table not in _ALONG or not isinstance(entries, Mapping):
         return None
-    name = max((one for one in entries if rest.startswith(f"{one}.")), key=len, default=None)
+    name = max((entry for entry in entries if rest.startswith(f"{entry}.")), key=len, default=None)
     return None if name is None else (table, name, rest.removeprefix(f"{name}."))
 
 
-def _in_data(solution: AbstractSolution, path: str) -> tuple[str, tuple[str, str] | None]:
+def _data_name(solution: AbstractSolution, path: str) -> tuple[str, tuple[str, str] | None]:
     """Name of a result in data sets, and the dimension and name of its bearing or set."""
     entry = _entry_of(solution, path)
     if entry is not None:
@@ -137,9 +139,9 @@ def paths_of(solution: AbstractSolution) -> tuple[str, ...]:
     return tuple(path for path, _ in _known(solution))
 
 
-def _unit(path: str, said: Mapping[str, Any], place: tuple[int, ...]) -> str:
-    if not place or said["unit"] != MIXED:
-        return said["unit"]
+def _unit(path: str, metadata: Mapping[str, Any], place: tuple[int, ...]) -> str:
+    if not place or metadata["unit"] != MIXED:
+        return metadata["unit"]
     name = path.rpartition(".")[2]
     if name == "stiffness":
         return stiffness_units()[place[0]][place[1]]
@@ -153,21 +155,21 @@ def _known(part: Any, above: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
         if dataclasses.is_dataclass(value):
             yield from _known(value, f"{above}{field.name}.")
         elif field.name in _ALONG and isinstance(value, Mapping):
-            for name, one in value.items():
-                yield from _known(one, f"{above}{field.name}.{name}.")
+            for name, entry in value.items():
+                yield from _known(entry, f"{above}{field.name}.{name}.")
         elif value is not None and field.metadata.get("description"):
             yield above + field.name, {**field.metadata, "dims": dimensions(field.type)}
-    for name, one in derived_parts(type(part)).items():
-        for field in dataclasses.fields(one.kind):
+    for name, entry in derived_parts(type(part)).items():
+        for field in dataclasses.fields(entry.kind):
             yield f"{above}{name}.{field.name}", {**field.metadata, "dims": dimensions(field.type)}
-    for name, one in derived_results(type(part)).items():
-        yield above + name, {**one.metadata, "dims": dimensions(one.annotation)}
+    for name, entry in derived_results(type(part)).items():
+        yield above + name, {**entry.metadata, "dims": dimensions(entry.annotation)}
 
 
 def _parted(name: str) -> tuple[str, tuple[int, ...]]:
     parted = _NAME.fullmatch(name)
     assert parted is not None, name
-    return parted["name"], tuple(int(one) for one in re.findall("[0-9]+", parted["places"]))
+    return parted["name"], tuple(int(digits) for digits in re.findall("[0-9]+", parted["places"]))
 
 
 def _value(solution: AbstractSolution, path: str, place: tuple[int, ...]) -> Any:
@@ -198,7 +200,7 @@ def _forces(solution: AbstractSolution) -> Iterator[str]:
             yield f"force[{place}]"
 
 
-def _of_entries(solution: AbstractSolution) -> Iterator[str]:
+def _entry_results(solution: AbstractSolution) -> Iterator[str]:
     """Usual results of the bearings and sets of a shaft."""
     for table, names in _OF_ENTRIES.items():
         entries = getattr(solution, table, None)
@@ -210,7 +212,7 @@ def _path_of(text: str, known: Mapping[str, object]) -> str | None:
     """Path of the result that a text names, without its places; `None` for any other text."""
     parted = _NAME.fullmatch(text.strip())
     name = "" if parted is None else parted["name"]
-    return next((one for one in known if name in (one, variable_name(one), one.replace(".", "_"))), None)
+    return next((path for path in known if name in (path, variable_name(path), path.replace(".", "_"))), None)
 
 
 def is_result(solution: AbstractSolution, text: str) -> bool:
@@ -243,7 +245,9 @@ def _resolved(solution: AbstractSolution, text: str, known: Mapping[str, Mapping
     path = _path_of(text, known)
     value = None if path is None else _at(solution, path)
     if path is None or value is None:
-        near = nearest(text.strip().partition("[")[0], {one for path in known for one in (path, variable_name(path))})
+        near = nearest(
+            text.strip().partition("[")[0], {spelling for path in known for spelling in (path, variable_name(path))}
+        )
         hint = f"; did you mean '{near}'?" if near else ""
         raise ValueError(f"results: found '{text}', which this scene does not have; expected a result{hint}")
     if not _varies(value):
@@ -254,7 +258,7 @@ def _resolved(solution: AbstractSolution, text: str, known: Mapping[str, Mapping
         raise ValueError(f"results: found '{text}', {value.size} numbers; expected one of them, '{entry}'")
     if place and len(place) != value.ndim:
         raise ValueError(f"results: found '{text}'; expected {value.ndim or 'no'} place{'s' * (value.ndim != 1)}")
-    for one, size in zip(place, value.shape, strict=True) if place else ():
-        if one >= size:
+    for index, size in zip(place, value.shape, strict=True) if place else ():
+        if index >= size:
             raise ValueError(f"results: found '{text}'; expected a place from 0 to {size - 1}")
-    return path + "".join(f"[{one}]" for one in place)
+    return path + "".join(f"[{number}]" for number in place)

@@ -75,14 +75,14 @@ class Scatter:
     @property
     def seats(self) -> tuple[str, ...]:
         """The seats of the bearing that have an interference."""
-        given = lambda seat: getattr(self.fits, interference_of(seat), None) is not None
-        return tuple(seat for seat in SEATS if given(seat))
+        fitted = lambda seat: getattr(self.fits, interference_of(seat), None) is not None
+        return tuple(seat for seat in SEATS if fitted(seat))
 
     @property
     def means(self) -> dict[str, float]:
         """Means of all fields that scatter, medians of lognormal ones, and the interference of each seat."""
         seats = {name_of(seat): float(getattr(self.fits, interference_of(seat))) for seat in self.seats}
-        return seats | {path: one.nominal for path, one in self.fields.items()}
+        return seats | {path: field.nominal for path, field in self.fields.items()}
 
     def recipe(self, cases: Cases) -> Direct:
         """Recipe for the scenes of the samples. **Raises:** as `scatter_of`."""
@@ -117,10 +117,10 @@ def scatter_of(
     two distributions, for a posterior without a field of the scene, and where nothing scatters; `AttributeError` for a
     field that is not there.
     """
-    given = {} if over is None else over
-    if not isinstance(given, Mapping) or not all(isinstance(path, str) for path in given):
+    distributions = {} if over is None else over
+    if not isinstance(distributions, Mapping) or not all(isinstance(path, str) for path in distributions):
         raise ValueError(f"over must map dotted paths of fields to distributions, got {over!r}")
-    fields = {path: _distribution(path, value) for path, value in given.items()}
+    fields = {path: _distribution(path, value) for path, value in distributions.items()}
     scene = jax.tree.map(as_float, scene)
     joint, left_out = _joint(scene, posterior, fields)
     if joint is not None:
@@ -130,11 +130,11 @@ def scatter_of(
     notes = [*left_out, *_unscattered(scene)]
     if joint is not None:
         origins |= dict.fromkeys(joint.fields, "posterior")
-    origins |= {path: said for path in fields if (said := priors.meaning(scene, path))}
+    origins |= {path: meaning for path in fields if (meaning := priors.meaning(scene, path))}
     prior = priors.drag_prior(scene) if drag_prior else None
     if prior is not None and fields.setdefault(priors.DRAG_FIELD, prior) == prior:
         origins[priors.DRAG_FIELD] = priors.prior_in_words(prior)
-        notes += _of_prior(scene, prior)
+        notes += _prior_note(scene, prior)
     elif drag_prior and priors.DRAG_FIELD not in fields and priors.isolated(scene):
         notes.append(_ISOLATED)
     changes: dict[str, object] = {f"fits.{seat}_tolerance": None for seat in seats}
@@ -144,13 +144,13 @@ def scatter_of(
         changes[priors.LEVEL_FIELD] = None
         if fields.setdefault(priors.SUPPLY_FIELD, supply) == supply:
             origins[priors.SUPPLY_FIELD] = priors.prior_in_words(supply)
-    changes |= {name_of(seat): one.mean for seat, one in seats.items()}
-    changes |= {path: one.nominal for path, one in fields.items()}
-    fields |= {name_of(seat): one for seat, one in seats.items()}
-    fields = {path: one for path, one in fields.items() if one.deviation > 0.0 or one.lowest < one.highest}
+    changes |= {name_of(seat): own.mean for seat, own in seats.items()}
+    changes |= {path: field.nominal for path, field in fields.items()}
+    fields |= {name_of(seat): own for seat, own in seats.items()}
+    fields = {path: field for path, field in fields.items() if field.deviation > 0.0 or field.lowest < field.highest}
     if not fields:
         raise ValueError(_NOTHING)
-    ends = listed({path: [one.nominal, one.lowest, one.highest] for path, one in fields.items()})
+    ends = listed({path: [field.nominal, field.lowest, field.highest] for path, field in fields.items()})
     scene = jax.tree.map(as_float, scene.replace(changes))
     in_scene(scene, ends)
     return Scatter(scene, fields, origins, tuple(notes), joint)
@@ -176,12 +176,12 @@ def _joint(
     return posterior.only(own), notes
 
 
-def _of_prior(scene: Any, prior: Distribution) -> Iterator[str]:
+def _prior_note(scene: Any, prior: Distribution) -> Iterator[str]:
     """Yields a note if the assumed distribution replaces the drag coefficient of the scene."""
-    given = float(scene.drag.coefficient)
-    if not math.isclose(given, prior.nominal, rel_tol=1e-9):
+    coefficient = float(scene.drag.coefficient)
+    if not math.isclose(coefficient, prior.nominal, rel_tol=1e-9):
         yield (
-            f"{priors.DRAG_FIELD}: the scene's {given:g} gives way to the assumed distribution, whose median is "
+            f"{priors.DRAG_FIELD}: the scene's {coefficient:g} gives way to the assumed distribution, whose median is "
             f"{prior.nominal:g}; give your own distribution, or switch it off (--no-drag-prior, drag_prior=False)"
         )
 
@@ -198,19 +198,19 @@ def scatter_of_source(
     **Raises:** `SceneError`; `ValueError` where nothing scatters.
     """
     read = SceneSource.of(source, overrides)
-    found = distributions_in(read.tables, read.label, read.overrides, priors=True)
+    distributions = distributions_in(read.tables, read.label, read.overrides, priors=True)
     scene = scene_from_tables(read.tables, read.label, read.overrides)
     warn_of_preset(read.tables, read.label, read.overrides)
-    for path, one in found.items():
-        _require_plain(read, path, one)
+    for path, distribution in distributions.items():
+        _require_plain(read, path, distribution)
     if posterior is not None:
-        found = {path: one for path, one in found.items() if path not in posterior.fields}
-    return read.label, scatter_of(scene, found, drag_prior, posterior)
+        distributions = {path: own for path, own in distributions.items() if path not in posterior.fields}
+    return read.label, scatter_of(scene, distributions, drag_prior, posterior)
 
 
-def _require_plain(read: SceneSource, path: str, one: Distribution) -> None:
+def _require_plain(read: SceneSource, path: str, distribution: Distribution) -> None:
     """Checks that the scene holds a field as the file gives it. **Raises:** `SceneError`."""
-    cases = listed({path: [one.nominal, one.lowest, one.highest]})
+    cases = listed({path: [distribution.nominal, distribution.lowest, distribution.highest]})
     try:
         plain = isinstance(read.recipe(cases, {path: read.field(path, read.label)}), Direct)
     except SceneError:
@@ -222,24 +222,24 @@ def _require_plain(read: SceneSource, path: str, one: Distribution) -> None:
         raise SceneError(read.label, path, "a distribution", expected)
 
 
-def _distribution(path: str, given: Any) -> Distribution:
+def _distribution(path: str, value: Any) -> Distribution:
     """The distribution that is given for a field. **Raises:** `ValueError` that names the field."""
-    if isinstance(given, Distribution):
-        return given
-    names = set(given) if isinstance(given, Mapping) else set()
+    if isinstance(value, Distribution):
+        return value
+    names = set(value) if isinstance(value, Mapping) else set()
     forms = {"mean", "deviation"}, {"low", "high"}
     lognormal = {"median", "log_deviation"} <= names <= {"median", "log_deviation", "low", "high"}
     if names - {"shape"} not in forms and not lognormal:
         raise ValueError(
-            f"{path}: found {given!r}; expected a Distribution, or a mapping with either mean and deviation, or low "
+            f"{path}: found {value!r}; expected a Distribution, or a mapping with either mean and deviation, or low "
             "and high, or median and log_deviation"
         )
     try:
         if lognormal:
-            return Distribution.lognormal(**given)
+            return Distribution.lognormal(**value)
         if "mean" in names:
-            return Distribution(**given)
-        return Distribution.between(**given)
+            return Distribution(**value)
+        return Distribution.between(**value)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{path}: {error}") from None
 

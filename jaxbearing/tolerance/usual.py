@@ -108,40 +108,41 @@ def usual_tolerances(
     """
     if isinstance(scene, ShaftSystem):
         return _on_shaft(scene, given or {})
-    found = {}
+    tolerances = {}
     for path, value in _numbers(scene).items():
         own = (given or {}).get(path)
         if own is not None:
-            found[path] = UsualTolerance(0.5 * (own.highest - own.lowest), "as the scene says")
+            tolerances[path] = UsualTolerance(0.5 * (own.highest - own.lowest), "as the scene says")
             continue
-        one = _of_standard(scene, path, value) or _assumed(path, value)
-        if one is not None and math.isfinite(one.size) and one.size > 0.0:
-            found[path] = one
-    return found
+        usual = _standard_tolerance(scene, path, value) or _assumed(path, value)
+        if usual is not None and math.isfinite(usual.size) and usual.size > 0.0:
+            tolerances[path] = usual
+    return tolerances
 
 
-def _on_shaft(scene: ShaftSystem, given: Mapping[str, Distribution]) -> dict[str, UsualTolerance]:
+def _on_shaft(scene: ShaftSystem, distributions: Mapping[str, Distribution]) -> dict[str, UsualTolerance]:
     """Tolerances of a shaft, and of each of its bearings without the operating point of that bearing alone."""
-    found: dict[str, UsualTolerance] = {}
+    tolerances: dict[str, UsualTolerance] = {}
     for path, value in _numbers(scene).items():
         named = scene.path_in_file(path)
-        one = _assumed(named, value, ON_SHAFTS)
-        if one is not None and one.size > 0.0:
-            found[named] = one
+        usual = _assumed(named, value, ON_SHAFTS)
+        if usual is not None and usual.size > 0.0:
+            tolerances[named] = usual
     for word, entries in (("bearing", scene.bearings), ("set", scene.sets)):
         for entry in entries:
             above = f"{word}.{entry.name}"
             each = {above: entry.scene}
             if isinstance(entry.scene, tuple):
-                each = {f"{above}.{NUMBERED}.{place + 1}": one for place, one in enumerate(entry.scene)}
+                each = {f"{above}.{NUMBERED}.{place + 1}": part for place, part in enumerate(entry.scene)}
             for name, bearing in each.items():
                 inner = usual_tolerances(bearing) if isinstance(bearing, AbstractScene) else {}
-                kept = {path: one for path, one in inner.items() if not path.startswith("operation.")}
-                found |= {f"{name}.{path}": one for path, one in kept.items()}
-    found |= {
-        path: UsualTolerance(0.5 * (one.highest - one.lowest), "as the scene says") for path, one in given.items()
+                kept = {path: tolerance for path, tolerance in inner.items() if not path.startswith("operation.")}
+                tolerances |= {f"{name}.{path}": tolerance for path, tolerance in kept.items()}
+    tolerances |= {
+        path: UsualTolerance(0.5 * (distribution.highest - distribution.lowest), "as the scene says")
+        for path, distribution in distributions.items()
     }
-    return found
+    return tolerances
 
 
 def _numbers(scene: AbstractScene) -> dict[str, float]:
@@ -156,15 +157,17 @@ def _numbers(scene: AbstractScene) -> dict[str, float]:
 
 def _assumed(path: str, value: float, among: tuple[Assumed, ...] = ASSUMED) -> UsualTolerance | None:
     """The first assumed tolerance that fits a path; `None` if none fits."""
-    for one in among:
-        if any(fnmatch.fnmatchcase(path, pattern) for pattern in one.paths):
-            size = one.size or one.part * abs(value)
-            reason = f"{one.reason}: {100.0 * one.part:g} %" if one.part and one.reason == "assumed" else one.reason
+    for rule in among:
+        if any(fnmatch.fnmatchcase(path, pattern) for pattern in rule.paths):
+            size = rule.size or rule.part * abs(value)
+            reason = (
+                f"{rule.reason}: {100.0 * rule.part:g} %" if rule.part and rule.reason == "assumed" else rule.reason
+            )
             return UsualTolerance(size, reason)
     return None
 
 
-def _of_standard(scene: AbstractScene, path: str, value: float) -> UsualTolerance | None:
+def _standard_tolerance(scene: AbstractScene, path: str, value: float) -> UsualTolerance | None:
     """Tolerances that follow from a table, or from the size of the bearing."""
     rule = _STANDARDS.get(path)
     return None if rule is None or not isinstance(scene, AbstractBearing) else rule(scene, value)

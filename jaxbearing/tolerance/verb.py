@@ -88,23 +88,23 @@ def tolerances(
     else:
         label, scatter = scatter_of_source(os.fspath(scene), drag_prior=drag_prior, posterior=joint)
         if over:
-            alone = {path: one for path, one in scatter.fields.items() if path not in scatter.together}
+            alone = {path: field for path, field in scatter.fields.items() if path not in scatter.together}
             scatter = scatter_of(scatter.scene, alone | dict(over), drag_prior, scatter.joint)
     analysis = Analysis(scatter, label, NewtonOptions() if options is None else options)
-    found = analysis.tolerances(results)
+    outcome = analysis.tolerances(results)
     if samples:
-        plan = analysis.plan(found, samples, seed, chunk)
-        found = _with_samples(analysis, found, plan, seed, out, devices, workers, scheduler, overwrite, progress)
-    return found
+        plan = analysis.plan(outcome, samples, seed, chunk)
+        outcome = _with_samples(analysis, outcome, plan, seed, out, devices, workers, scheduler, overwrite, progress)
+    return outcome
 
 
-def posterior_of(given: JointDistribution | str | os.PathLike[str] | None) -> JointDistribution | None:
+def posterior_of(posterior: JointDistribution | str | os.PathLike[str] | None) -> JointDistribution | None:
     """The posterior, read from its file if a file is given. **Raises:** `ValueError` for another file."""
-    if given is None or isinstance(given, JointDistribution):
-        return given
+    if posterior is None or isinstance(posterior, JointDistribution):
+        return posterior
     from ..report.joint_file import read_joint
 
-    return read_joint(given)
+    return read_joint(posterior)
 
 
 @dataclass(frozen=True)
@@ -119,41 +119,41 @@ class Analysis:
         """Scatter by the delta method. **Raises:** `SolveError`; `ValueError` for an unknown result."""
         from ..sweeps.fields import label_of
 
-        found = self._at(self.scatter.means, results)
-        found.solution.raise_if_failed()
+        at_means = self._at(self.scatter.means, results)
+        at_means.solution.raise_if_failed()
         known: dict[tuple[float, ...], Slopes | None] = {}
 
         def evaluated(numbers: Mapping[str, float]) -> Slopes | None:
             key = tuple(numbers[path] for path in self.scatter.means)
             if key not in known:
-                given = {path: numbers[path] for path in self.scatter.means}
+                values = {path: numbers[path] for path in self.scatter.means}
                 try:
-                    self.scatter.scene.replace(given)
+                    self.scatter.scene.replace(values)
                 except ValueError:
                     known[key] = None  # a worst case that the scene refuses, such as a groove narrower than its ball
                 else:
-                    known[key] = self._at(given, results)
+                    known[key] = self._at(values, results)
             return known[key]
 
-        names = names_in(found.solution, results)
-        spreads, notes = spreads_of(self.scatter, names, found, evaluated)
-        still = [name for name, one in spreads.items() if not one.moves]
+        names = names_in(at_means.solution, results)
+        spreads, notes = spreads_of(self.scatter, names, at_means, evaluated)
+        still = [name for name, spread in spreads.items() if not spread.moves]
         if still:
             notes.append(f"these fields do not change {', '.join(still)}")
         if results is None:
             # of the usual results, keep those that these fields change
-            spreads = {name: one for name, one in spreads.items() if one.moves} or spreads
+            spreads = {name: spread for name, spread in spreads.items() if spread.moves} or spreads
         return Tolerances(
             fields=self.scatter.fields,
             units={path: label_of(self.scatter.scene, path)["units"] for path in self.scatter.fields},
             origins=self.scatter.origins,
             results=spreads,
             samples=None,
-            warnings=(*self.scatter.notes, *notes, *found.solution.warnings),
-            solution=found.solution,
+            warnings=(*self.scatter.notes, *notes, *at_means.solution.warnings),
+            solution=at_means.solution,
         )
 
-    def plan(self, found: Tolerances, count: int, seed: int, chunk: int | None) -> "Plan":
+    def plan(self, outcome: Tolerances, count: int, seed: int, chunk: int | None) -> "Plan":
         """The samples as a sweep. **Raises:** `ValueError` for counts that are not possible."""
         from ..sweeps.fields import label_of
         from ..sweeps.verb import make_plan
@@ -161,7 +161,7 @@ class Analysis:
 
         cases = cases_of(self.scatter, count, seed)
         metadata = {path: label_of(self.scatter.scene, path) for path in cases.paths}
-        elements = any("[" in name for name in found.results)
+        elements = any("[" in name for name in outcome.results)
         return make_plan(
             *(self.scatter.recipe(cases), cases, metadata, self.label),
             options=self.options,
@@ -169,16 +169,16 @@ class Analysis:
             chunk=chunk,
         )
 
-    def with_samples(self, found: Tolerances, dataset: "xr.Dataset", seed: int, file: str | None) -> Tolerances:
+    def with_samples(self, outcome: Tolerances, dataset: "xr.Dataset", seed: int, file: str | None) -> Tolerances:
         """Adds the statistics of samples that a sweep has solved."""
         from .monte_carlo import failures_in, sampled
 
-        statistics = sampled(dataset, labels_of(found.solution, tuple(found.results)))
-        spreads = {name: replace(one, sampled=statistics[name]) for name, one in found.results.items()}
+        statistics = sampled(dataset, labels_of(outcome.solution, tuple(outcome.results)))
+        spreads = {name: replace(spread, sampled=statistics[name]) for name, spread in outcome.results.items()}
         failures = failures_in(dataset)
         count = int(dataset["failure"].size)
         samples = Samples(count, count - sum(failures.values()), seed, failures, file)
-        return replace(found, results=spreads, samples=samples)
+        return replace(outcome, results=spreads, samples=samples)
 
     def _at(self, numbers: Mapping[str, float], results: Sequence[str] | None) -> Slopes:
         return slopes_at(self.scatter.scene, numbers, results, self.options)
@@ -186,7 +186,7 @@ class Analysis:
 
 def _with_samples(
     analysis: Analysis,
-    found: Tolerances,
+    outcome: Tolerances,
     plan: "Plan",
     seed: int,
     out: str | os.PathLike[str] | None,
@@ -206,4 +206,4 @@ def _with_samples(
         target = Path(folder) / "samples.nc" if out is None else Path(out)
         run(plan, target, runner=runner, overwrite=overwrite, watcher=watcher)
         with opened(target) as dataset:
-            return analysis.with_samples(found, dataset, seed, None if out is None else os.fspath(out))
+            return analysis.with_samples(outcome, dataset, seed, None if out is None else os.fspath(out))

@@ -88,5 +88,5 @@ def spin_coefficient(
     sliding = Sliding(jnp.zeros_like(spin), jnp.zeros_like(spin), spin)
     law = DistributedTraction(resolution=RESOLUTION, elastic=elastic)
     speed = ROLL_RATE * RADIUS
-    found = law.traction(patch, film_thickness(pressure), speed, sliding, temperature, lubricant)
-    return np.asarray(found.moment / (patch.load * jnp.sqrt(patch.half_width * patch.half_length)))
+    traction = law.traction(patch, film_thickness(pressure), speed, sliding, temperature, lubricant)
+    return np.asarray(traction.moment / (patch.load * jnp.sqrt(patch.half_width * patch.half_length)))

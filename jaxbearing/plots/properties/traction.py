@@ -137,5 +137,5 @@ def traction_at(lubricant: Lubricant, percent: object, line: bool = False, resol
     if line:
         patch = ContactPatch(patch.pressure, patch.half_width, patch.half_length, line=True)
     sliding = Sliding(jnp.asarray(percent, dtype=float) / 100.0 * SPEED)
-    found = DistributedTraction(resolution=resolution).traction(patch, film, SPEED, sliding, TEMPERATURE, lubricant)
-    return np.asarray(found.rolling / patch.load)
+    traction = DistributedTraction(resolution=resolution).traction(patch, film, SPEED, sliding, TEMPERATURE, lubricant)
+    return np.asarray(traction.rolling / patch.load)

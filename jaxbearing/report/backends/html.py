@@ -45,8 +45,8 @@ def page(
         page=dataclasses.replace(content, checks=ordered),
         inputs=inputs,
         results=results,
-        sketches=[(one.title, Markup(one.markup), one.caption) for one in content.sketches],
-        diagrams=[(one.title, Markup(diagram_markup(one)), one.caption) for one in content.diagrams],
+        sketches=[(sketch.title, Markup(sketch.markup), sketch.caption) for sketch in content.sketches],
+        diagrams=[(diagram.title, Markup(diagram_markup(diagram)), diagram.caption) for diagram in content.diagrams],
         panels=[_panel(panel) for panel in content.charts],
         library=Markup(library()) if any(isinstance(panel, Polar | Curves) for panel in content.charts) else "",
         versions=versions(),
@@ -67,5 +67,5 @@ def _panel(panel: Panel) -> tuple[str, object]:
 
 def versions() -> dict[str, str]:
     """Versions of the packages and the system on which the results depend."""
-    found = {"jaxbearing": __version__} | {name: version(name) for name in _OF_PACKAGES}
-    return found | {"Python": platform.python_version(), "system": f"{platform.system()} {platform.machine()}"}
+    packages = {"jaxbearing": __version__} | {name: version(name) for name in _OF_PACKAGES}
+    return packages | {"Python": platform.python_version(), "system": f"{platform.system()} {platform.machine()}"}

@@ -123,9 +123,9 @@ class _TakesAll(io.RawIOBase):
         view = memoryview(buffer).cast("B")
         begin = self._position
         count = max(0, min(len(view), self._size - begin))
-        found = os.pread(self._descriptor, count, begin)
-        view[: len(found)] = found
-        view[len(found) : count] = bytes(count - len(found))
+        stored = os.pread(self._descriptor, count, begin)
+        view[: len(stored)] = stored
+        view[len(stored) : count] = bytes(count - len(stored))
         for place, content in self._kept:
             first, last = max(place, begin), min(place + len(content), begin + count)
             if first < last:

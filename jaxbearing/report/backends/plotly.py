@@ -70,17 +70,17 @@ def _polar(panel: Polar) -> "go.Figure":
     import plotly.graph_objects as go
 
     traces = []
-    for one in panel.series:
-        degrees = displayed(1.0, "rad") * np.asarray(one.x)
+    for curve in panel.series:
+        degrees = displayed(1.0, "rad") * np.asarray(curve.x)
         traces.append(
             go.Scatterpolar(
                 theta=np.append(degrees, degrees[0] + 360.0).tolist(),
-                r=np.append(one.y, one.y[0]).tolist(),
-                name=one.name,
-                mode="lines+markers" if one.marker else "lines",
-                line={"color": one.colour, "width": 1.6} | ({} if one.dash == "solid" else {"dash": one.dash}),
-                marker={"symbol": one.marker, "size": 6} if one.marker else None,
-                hovertemplate=f"{one.name} at %{{theta:.1f}}°: %{{r:.4g}} {panel.unit}<extra></extra>",
+                r=np.append(curve.y, curve.y[0]).tolist(),
+                name=curve.name,
+                mode="lines+markers" if curve.marker else "lines",
+                line={"color": curve.colour, "width": 1.6} | ({} if curve.dash == "solid" else {"dash": curve.dash}),
+                marker={"symbol": curve.marker, "size": 6} if curve.marker else None,
+                hovertemplate=f"{curve.name} at %{{theta:.1f}}°: %{{r:.4g}} {panel.unit}<extra></extra>",
             )
         )
     polar = {
@@ -94,35 +94,35 @@ def _polar(panel: Polar) -> "go.Figure":
 
 
 def _curves(panel: Curves) -> "go.Figure":
-    traces = [_curve(one, panel) for one in panel.series]
+    traces = [_curve(curve, panel) for curve in panel.series]
     return _figure(*traces, xaxis=_axis(panel.x, ""), yaxis=_axis(panel.y, panel.unit))
 
 
-def _curve(one: Series, panel: Curves) -> "go.Scatter":
+def _curve(curve: Series, panel: Curves) -> "go.Scatter":
     import plotly.graph_objects as go
 
-    line = {"color": one.colour, "width": 1.4 if one.faint else 1.8}
-    if one.dash != "solid":
-        line["dash"] = one.dash
+    line = {"color": curve.colour, "width": 1.4 if curve.faint else 1.8}
+    if curve.dash != "solid":
+        line["dash"] = curve.dash
     style: dict[str, Any] = {"mode": "lines"}
     if panel.of_elements:
-        hover = f"{one.name} at %{{x:.1f}}°: %{{y:.4g}} {panel.unit}<extra></extra>"
-        style = {"mode": "lines+markers", "marker": {"symbol": one.marker, "size": 6}, "hovertemplate": hover}
-    values = [float(value) if np.isfinite(value) else None for value in np.asarray(one.y)]
-    return go.Scatter(x=np.asarray(one.x).tolist(), y=values, name=one.name, line=line, **style)
+        hover = f"{curve.name} at %{{x:.1f}}°: %{{y:.4g}} {panel.unit}<extra></extra>"
+        style = {"mode": "lines+markers", "marker": {"symbol": curve.marker, "size": 6}, "hovertemplate": hover}
+    values = [float(value) if np.isfinite(value) else None for value in np.asarray(curve.y)]
+    return go.Scatter(x=np.asarray(curve.x).tolist(), y=values, name=curve.name, line=line, **style)
 
 
 def _axis(axis: Axis, unit: str) -> dict[str, Any]:
-    found: dict[str, Any] = {"title": {"text": axis.title or unit, "font": {"size": 13}}}
+    layout: dict[str, Any] = {"title": {"text": axis.title or unit, "font": {"size": 13}}}
     if axis.ticks:
-        found["tickvals"] = list(axis.ticks)
+        layout["tickvals"] = list(axis.ticks)
     if axis.from_zero:
-        found["rangemode"] = "tozero"
+        layout["rangemode"] = "tozero"
     if axis.logarithmic:
-        found |= {"type": "log", "ticktext": [f"{tick:g}" for tick in axis.ticks]}
+        layout |= {"type": "log", "ticktext": [f"{tick:g}" for tick in axis.ticks]}
     if axis.limits is not None:
-        found["range"] = [math.log10(end) for end in axis.limits] if axis.logarithmic else list(axis.limits)
-    return found
+        layout["range"] = [math.log10(end) for end in axis.limits] if axis.logarithmic else list(axis.limits)
+    return layout
 
 
 @functools.cache

@@ -47,8 +47,8 @@ def to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Dataset:
     dims = tuple(dims)
     batch = np.shape(solution.status)
     if len(dims) != len(batch):
-        found = f"{len(batch)} leading dimensions {batch}"
-        raise ValueError(f"dims: got {len(dims)} names {dims}; the solution has {found}")
+        leading = f"{len(batch)} leading dimensions {batch}"
+        raise ValueError(f"dims: got {len(dims)} names {dims}; the solution has {leading}")
     if not dims:
         check_converged(solution)
     words = attributes(solution, "Steady state of a rolling bearing")
@@ -88,12 +88,12 @@ def _with_coordinates(dataset: xr.Dataset, solution: Solution, dims: tuple[str, 
         name: xr.Variable((name,), values, {"units": "1", "long_name": long_name})
         for name, (values, long_name) in names.items()
     }
-    coordinates |= _of_stiffness(solution)
+    coordinates |= _stiffness_coordinates(solution)
     dataset = dataset.drop_vars("azimuth").assign_coords(coordinates | {"azimuth": azimuth})
     return without_fill(dataset.set_coords([n for n in dataset.data_vars if str(n).startswith("operation_")]))
 
 
-def _of_stiffness(solution: Solution) -> dict[str, xr.Variable]:
+def _stiffness_coordinates(solution: Solution) -> dict[str, xr.Variable]:
     """Coordinates with the units of force and stiffness and the degrees of freedom that are modelled."""
     units = [[udunits(unit) for unit in row] for row in stiffness_units()]
     modelled = np.asarray([name in solution.freedoms_of_stiffness for name in RING_FREEDOMS], dtype=np.int8)

@@ -42,14 +42,14 @@ def overload(solution: Solution) -> str:
     a bearing that carries its load. For several stacked states the worst values are used."""
     limit = BALL_PRESSURE if solution.element_name == "ball" else ROLLER_PRESSURE
     elements, life = on_heavier_flanks(solution.elements), solution.life
-    said = []
+    texts = []
     for side in ("inner", "outer"):
         largest = float(np.nanmax(np.asarray(getattr(elements, f"pressure_{side}")), initial=0.0))
         if largest > limit:
-            said.append(f"{with_unit(largest, 'Pa')} on the {side} raceway ({1e-9 * limit:g} GPa is the limit)")
+            texts.append(f"{with_unit(largest, 'Pa')} on the {side} raceway ({1e-9 * limit:g} GPa is the limit)")
     if life is not None and life.static_safety is not None and np.any(np.asarray(life.static_safety) < 1.0):
-        said.append(f"static load {with_unit(float(np.max(np.asarray(life.static_load))), 'N')} beyond C0")
-    return ", ".join(said)
+        texts.append(f"static load {with_unit(float(np.max(np.asarray(life.static_load))), 'N')} beyond C0")
+    return ", ".join(texts)
 
 
 def facts(solution: Solution) -> Iterator[tuple[str, str]]:
@@ -131,9 +131,9 @@ def _frequencies(solution: Solution) -> Iterator[tuple[str, str]]:
         "inner_pass": "inner ring (BPFI)",
         "element_spin": "element's spin (BSF)",
     }
-    for title, found in (("Frequencies", solution.frequencies), ("Textbook's", solution.textbook_frequencies)):
-        said = (f"{words} {digits(float(np.asarray(getattr(found, name))))}" for name, words in names.items())
-        yield title, f"{', '.join(said)} Hz"
+    for title, frequencies in (("Frequencies", solution.frequencies), ("Textbook's", solution.textbook_frequencies)):
+        texts = (f"{words} {digits(float(np.asarray(getattr(frequencies, name))))}" for name, words in names.items())
+        yield title, f"{', '.join(texts)} Hz"
 
 
 def _supply(solution: Solution) -> Iterator[tuple[str, str]]:
@@ -192,13 +192,13 @@ def _tapered_facts(solution: Solution) -> Iterator[tuple[str, str]]:
     if elements.film_flange is None or load[j] <= 0.0:
         return
     of = lambda name: np.asarray(getattr(elements, name))[j]
-    said = [
+    texts = [
         f"film {with_unit(float(of('film_flange')), 'm')}",
         f"sliding {with_unit(float(of('sliding_flange')), 'm/s')}",
     ]
     if elements.traction_flange is not None:
-        said.append(f"traction {digits(float(of('traction_flange')), 3)} N")
-    yield "", ", ".join(said)
+        texts.append(f"traction {digits(float(of('traction_flange')), 3)} N")
+    yield "", ", ".join(texts)
 
 
 _KINDS = {

@@ -19,12 +19,12 @@ def fit_facts(fit: FitResult, outer_speed: float) -> Iterator[tuple[str, str]]:
     outer ring becomes loose."""
     um = lambda value, sign="": f"{1e6 * float(np.asarray(value)):{sign}.1f}"
     parts = {"fits": fit.by_fits, "temperatures": fit.by_temperatures, "speed": fit.by_speed}
-    said = ", ".join(f"{name} {um(value, '+')}" for name, value in parts.items())
+    changes = ", ".join(f"{name} {um(value, '+')}" for name, value in parts.items())
     if fit.clearance is not None:
         angle = "" if fit.contact_angle is None else f"; contact angle {with_unit(float(fit.contact_angle), 'rad', 4)}"
-        yield "Clearance", f"{um(fit.drawn)} -> {um(fit.clearance)} um: {said}{angle}"
+        yield "Clearance", f"{um(fit.drawn)} -> {um(fit.clearance)} um: {changes}{angle}"
     elif fit.axial_shift is not None:
-        yield "First contact", f"moves the inner ring axially by {um(fit.axial_shift, '+')} um: {said}"
+        yield "First contact", f"moves the inner ring axially by {um(fit.axial_shift, '+')} um: {changes}"
     seats = list(_seats(fit, {"inner": fit.loose_speed, "outer": fit.loose_speed_outer if outer_speed else None}))
     if seats:
         yield "Seats", ", ".join(seats)

@@ -59,14 +59,14 @@ def repeated_lives(life: AtReliability | None) -> set[str]:
 def lives_in_words(life: AtReliability) -> Iterator[str]:
     """One text for each reliability at which lives are known, with hours before revolutions."""
     for share, names in known_lives(life).items():
-        said = [f"{words} {_lasting(life, hours, name)}" for name, (hours, words) in names.items()]
-        yield f"at {percent(share)} reliability: {'; '.join(said)}"
+        texts = [f"{words} {_lasting(life, hours, name)}" for name, (hours, words) in names.items()]
+        yield f"at {percent(share)} reliability: {'; '.join(texts)}"
 
 
 def _lasting(life: AtReliability | CatalogueLife, hours: str, name: str) -> str:
     """A life in hours and revolutions as text: without hours for a bearing at rest, "unlimited" if the life is
     infinite."""
-    time, turns = (float(np.asarray(getattr(life, one))) for one in (hours, name))
+    time, turns = (float(np.asarray(getattr(life, field))) for field in (hours, name))
     if not math.isfinite(turns):
         return "unlimited"
     counted = f"{digits(turns)} million revolutions"
@@ -86,7 +86,7 @@ def life_headlines(life: AtReliability) -> Iterator[tuple[str, str]]:
 
 def catalogue_fact(life: CatalogueLife) -> tuple[str, str]:
     """Name and text of the catalogue life, for loads without an equilibrium."""
-    load, capacity = (f"{digits(1e-3 * float(one))} kN" for one in (life.catalogue_load, life.dynamic_capacity))
+    load, capacity = (f"{digits(1e-3 * float(newtons))} kN" for newtons in (life.catalogue_load, life.dynamic_capacity))
     lasting = _lasting(life, "L10h", "L10")
     return "Catalogue life", f"needs no equilibrium: ISO 281 L10 {lasting} at 90 % reliability, P {load}, C {capacity}"
 
@@ -102,27 +102,27 @@ def life_facts(solution: Solution) -> Iterator[tuple[str, str]]:
     for text in lives_in_words(life):
         yield "Life", text
     yield "Rating", f"C {kilonewton('dynamic_capacity')}, C0 {kilonewton('static_capacity')}"
-    said = [f"equivalent to the contacts' loads {kilonewton('equivalent_load')}"]
+    texts = [f"equivalent to the contacts' loads {kilonewton('equivalent_load')}"]
     if there("catalogue_load"):
-        said += [f"by ISO 281 P {kilonewton('catalogue_load')}", f"by ISO 76 P0 {kilonewton('static_load')}"]
-    yield "Load", ", ".join(said)
-    said = [] if not there("static_safety") else [f"C0/P0 {digits(of('static_safety'), 3)}"]
+        texts += [f"by ISO 281 P {kilonewton('catalogue_load')}", f"by ISO 76 P0 {kilonewton('static_load')}"]
+    yield "Load", ", ".join(texts)
+    texts = [] if not there("static_safety") else [f"C0/P0 {digits(of('static_safety'), 3)}"]
     if life.contact_static_safety is not None:
-        said.append(f"of the most loaded contact {digits(of('contact_static_safety'), 3)} (Hertz's pressure)")
-    if said:
-        yield "Static safety", ", ".join(said)
+        texts.append(f"of the most loaded contact {digits(of('contact_static_safety'), 3)} (Hertz's pressure)")
+    if texts:
+        yield "Static safety", ", ".join(texts)
     yield "Least load", _least_load(solution, of("minimum_load"))
-    said = [] if life.viscosity_ratio is None else [f"kappa {digits(of('viscosity_ratio'), 3)}"]
+    texts = [] if life.viscosity_ratio is None else [f"kappa {digits(of('viscosity_ratio'), 3)}"]
     if life.film_ratio_inner is not None:
         ratios = [np.asarray(getattr(life, f"film_ratio_{side}")) for side in ("inner", "outer")]
         thinnest = float(np.nanmin(ratios))  # NaN: a rolling element without contact
-        said.append(f"smallest lambda ratio {digits(thinnest, 3)}")
+        texts.append(f"smallest lambda ratio {digits(thinnest, 3)}")
     if life.Lnmr is not None:
-        said.append(f"a_ISO {digits(of('modification_factor'), 3)} with e_C {digits(of('contamination_factor'), 3)}")
+        texts.append(f"a_ISO {digits(of('modification_factor'), 3)} with e_C {digits(of('contamination_factor'), 3)}")
     elif life.viscosity_ratio is not None:
-        said.append("no a_ISO without rating.cleanliness or rating.contamination_factor")
-    if said:
-        yield "Lubrication", ", ".join(said)
+        texts.append("no a_ISO without rating.cleanliness or rating.contamination_factor")
+    if texts:
+        yield "Lubrication", ", ".join(texts)
 
 
 def _least_load(solution: Solution, least: float) -> str:

@@ -35,9 +35,9 @@ def operating_point(solution: Solution) -> str:
     """The operating point in words: "inner ring speed 10500 rpm, radial load 25 kN". The speed of a stationary outer
     ring is left out."""
     hidden, operation = unused_operation(solution), solution.operation
-    said = []
-    for part, field, given in _numbers(operation):
-        value = float(np.asarray(given))
+    texts = []
+    for part, field, number in _numbers(operation):
+        value = float(np.asarray(number))
         words, own = field.metadata["description"], getattr(solution.ring, field.name, None)
         moved = np.nan if own is None else float(np.asarray(own))
         if part is operation.displacement and np.isfinite(moved) and not math.isclose(moved, value, rel_tol=1e-9):
@@ -45,18 +45,18 @@ def operating_point(solution: Solution) -> str:
             value, words = moved, words.removeprefix("given ")
         if field.name in hidden or (field.name in ("outer_speed", "load_position") and value == 0.0):
             continue
-        said.append(f"{words} {_with_unit(value, field.metadata['unit'])}")
-    return ", ".join(said)
+        texts.append(f"{words} {_with_unit(value, field.metadata['unit'])}")
+    return ", ".join(texts)
 
 
 def _numbers(part: Checked) -> Iterator[tuple[Checked, dataclasses.Field[Any], Scalar]]:
     """All numbers of an operating point, including those of its parts: the part, the field and the number."""
     for field in dataclasses.fields(part):
-        given = getattr(part, field.name)
-        if isinstance(given, Checked):
-            yield from _numbers(given)
-        elif given is not None:
-            yield part, field, given
+        value = getattr(part, field.name)
+        if isinstance(value, Checked):
+            yield from _numbers(value)
+        elif value is not None:
+            yield part, field, value
 
 
 def field_text(operation: AbstractOperation, name: str, significant: int = 6) -> str:

@@ -38,7 +38,7 @@ def page_content(scene: AbstractBearing, solution: Solution) -> Content:
     total = float(solution.power_loss.total) if losses else 0.0
     unused = {f"operation.{name}" for name in unused_operation(solution)}
     results = [row for row in result_rows(solution, unused | set(_SOLVER)) if not row.path.startswith("operation.")]
-    name, repeated = solution.element_name, {f"life.{one}" for one in repeated_lives(solution.life)}
+    name, repeated = solution.element_name, {f"life.{life}" for life in repeated_lives(solution.life)}
     return Content(
         kind=scene.kind.replace("_", " "),
         operation=pretty(operating_point(solution)),
@@ -96,9 +96,9 @@ def _headlines(solution: Solution, total: float | None) -> Iterator[tuple[str, s
     pressures = np.maximum(np.asarray(elements.pressure_inner), np.asarray(elements.pressure_outer))
     yield "highest pressure", with_unit(float(np.max(pressures)), "Pa")
     films = [getattr(elements, f"film_{side}") for side in ("inner", "outer")]
-    found = [np.asarray(film) for film in films if film is not None and not np.all(np.isnan(np.asarray(film)))]
-    if found:
-        yield "thinnest film", with_unit(min(float(np.nanmin(film)) for film in found), "m")
+    arrays = [np.asarray(film) for film in films if film is not None and not np.all(np.isnan(np.asarray(film)))]
+    if arrays:
+        yield "thinnest film", with_unit(min(float(np.nanmin(film)) for film in arrays), "m")
     if solution.cage is not None:
         yield "cage slip", f"{digits(100.0 * float(solution.cage.slip), 3)} %"
     if life is not None:

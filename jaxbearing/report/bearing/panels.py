@@ -57,15 +57,17 @@ def contact_panels(solution: Solution) -> list[Panel]:
 
 
 def _numbers(panels: Sequence[Polar | Curves], element: str) -> Numbers:
-    columns = [(label, colour) for _, colour, _, label in SIDES if any(_of(panel, label) for panel in panels)]
-    rows = [(panel.title, [_of(panel, label) or "-" for label, _ in columns]) for panel in panels]
+    columns = [
+        (label, colour) for _, colour, _, label in SIDES if any(_constant_text(panel, label) for panel in panels)
+    ]
+    rows = [(panel.title, [_constant_text(panel, label) or "-" for label, _ in columns]) for panel in panels]
     return Numbers("same", f"The same at every {element}", "What does not change round the bearing.", columns, rows)
 
 
-def _of(panel: Polar | Curves, label: str) -> str:
+def _constant_text(panel: Polar | Curves, label: str) -> str:
     """Value and unit of a constant curve; "" if the panel has no curve of this name."""
-    found = [float(np.mean(one.y)) for one in panel.series if one.name == label]
-    return f"{digits(found[0])} {panel.unit}" if found else ""
+    values = [float(np.mean(curve.y)) for curve in panel.series if curve.name == label]
+    return f"{digits(values[0])} {panel.unit}" if values else ""
 
 
 def bearing_diagrams(solution: Solution) -> list[Diagram]:
@@ -158,6 +160,6 @@ def _series(x: np.ndarray, values: dict[str, np.ndarray]) -> list[Series]:
 
 def _by_side(solution: Solution, name: str) -> dict[str, np.ndarray]:
     """Values at the raceways, their second flanks and the rib, as far as they are modelled and not NaN everywhere."""
-    found = {side: getattr(solution.elements, f"{name}_{side}", None) for side, *_ in SIDES}
-    arrays = {side: np.asarray(value) for side, value in found.items() if value is not None}
+    values = {side: getattr(solution.elements, f"{name}_{side}", None) for side, *_ in SIDES}
+    arrays = {side: np.asarray(value) for side, value in values.items() if value is not None}
     return {side: array for side, array in arrays.items() if np.any(np.isfinite(array))}

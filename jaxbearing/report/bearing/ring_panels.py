@@ -44,8 +44,8 @@ def rigid_counterpart(scene: AbstractBearing, solution: Solution) -> Solution | 
     """Solution of the same scene with rigid rings; `None` if the rings already are rigid or the solve fails."""
     if not bent_rings(solution):
         return None
-    found = solve(dataclasses.replace(scene, outer_ring=None, inner_ring=None), throw=False)
-    return found if bool(found.converged) else None
+    rigid = solve(dataclasses.replace(scene, outer_ring=None, inner_ring=None), throw=False)
+    return rigid if bool(rigid.converged) else None
 
 
 def load_polygon(solution: Solution, rigid: Solution) -> Polar:
@@ -53,16 +53,16 @@ def load_polygon(solution: Solution, rigid: Solution) -> Polar:
     race."""
     rings = bent_rings(solution)
     side = side_of(rings[0])
-    bent, stiff = (np.asarray(getattr(one.elements, f"load_{side}")) for one in (solution, rigid))
+    bent, stiff = (np.asarray(getattr(solved.elements, f"load_{side}")) for solved in (solution, rigid))
     unit, factor = axis_unit("N", float(max(np.max(bent), np.max(stiff))))
     azimuth, name = np.asarray(solution.elements.azimuth), solution.element_name
     largest = f"{with_unit(float(np.max(bent)), 'N')} and {with_unit(float(np.max(stiff)), 'N')}"
-    one = len(rings) == 1
+    single = len(rings) == 1
     return Polar(
         name=f"{side}_ring_load",
-        title="Loads in a flexible and in a rigid ring" if one else "Loads in flexible and in rigid rings",
+        title="Loads in a flexible and in a rigid ring" if single else "Loads in flexible and in rigid rings",
         caption=f"Load of each {name} on the {side} race, and that of the same scene with "
-        f"{f'a rigid {side} ring' if one else 'rigid rings'}; the largest are {largest}. Azimuth 0 is below.",
+        f"{f'a rigid {side} ring' if single else 'rigid rings'}; the largest are {largest}. Azimuth 0 is below.",
         series=[
             Series("rigid", azimuth, factor * stiff, FAINT, dash="dash", faint=True),
             Series("flexible", azimuth, factor * bent, colour_of(rings[0]), "square"),

@@ -72,27 +72,27 @@ def print_summary(solution: Solution, scene_label: str, console: Console, full: 
     state = f"{counts}, largest scaled residual {float(solution.residual_norm):.1e}"
     headline(scene_label, "CONVERGED", "bold green", state, console)
     print_line("Operating point", operating_point(solution), console)
-    said = _by_name(facts(solution))
-    _print_first(solution, {name: said[name] for name in FIRST if name in said}, console)
+    by_name = _by_name(facts(solution))
+    _print_first(solution, {name: by_name[name] for name in FIRST if name in by_name}, console)
     print_warnings(solution.warnings, console, full)
     _print_losses(solution, console)
     _print_loads(solution, console, full)
     print_rule("Motion and films", console)
-    for name, texts in said.items():
+    for name, texts in by_name.items():
         if name not in FIRST and (full or name not in IN_FULL):
             _print_fact(name, texts, console)
     for name, text in derived_facts(solution, SAID):
         print_line(name, text, console)
 
 
-def _by_name(found: Iterable[tuple[str, str]]) -> dict[str, list[str]]:
+def _by_name(pairs: Iterable[tuple[str, str]]) -> dict[str, list[str]]:
     """Name of each fact -> its texts; an empty name continues the previous fact."""
-    said: dict[str, list[str]] = {}
+    texts: dict[str, list[str]] = {}
     last = ""
-    for name, text in found:
+    for name, text in pairs:
         last = name or last
-        said.setdefault(last, []).append(text)
-    return said
+        texts.setdefault(last, []).append(text)
+    return texts
 
 
 def _print_fact(name: str, texts: list[str], console: Console) -> None:
@@ -100,17 +100,17 @@ def _print_fact(name: str, texts: list[str], console: Console) -> None:
         print_line(title, text, console)
 
 
-def _print_first(solution: Solution, said: dict[str, list[str]], console: Console) -> None:
+def _print_first(solution: Solution, by_name: dict[str, list[str]], console: Console) -> None:
     """Prints life and safety, as far as modelled, power loss, torque and drive power."""
     print_rule("Results", console)
-    for name, texts in said.items():
+    for name, texts in by_name.items():
         _print_fact(name, texts, console)
     if solution.life is None:
         print_line("Life", "not computed: give a table [rating]", console)
     if not _losses(solution):
         print_line("Not modelled:", not_modelled(solution), console)
         return
-    total, drive = (float(np.asarray(one)) for one in (solution.power_loss.total, solution.drive_power))
+    total, drive = (float(np.asarray(power)) for power in (solution.power_loss.total, solution.drive_power))
     watts = _watts([total, drive])
     torque = lambda ring: f"{digits(float(np.asarray(getattr(solution, f'{ring}_torque'))))} N m on the {ring} ring"
     torques = [torque("inner")]
@@ -129,8 +129,8 @@ def _losses(solution: Solution) -> dict[str, float]:
     loss = solution.power_loss
     if loss.total is None or solution.drive_power is None:
         return {}
-    given = ((field.name, getattr(loss, field.name)) for field in dataclasses.fields(loss) if field.name != "total")
-    entries = {name: float(np.asarray(value)) for name, value in given if value is not None}
+    values = ((field.name, getattr(loss, field.name)) for field in dataclasses.fields(loss) if field.name != "total")
+    entries = {name: float(np.asarray(value)) for name, value in values if value is not None}
     return dict(sorted(entries.items(), key=lambda entry: -entry[1]))
 
 

@@ -11,8 +11,8 @@ from ..display import ZERO_CELSIUS, digits, with_unit
 def thermal_facts(thermal: ThermalResult) -> Iterator[tuple[str, str]]:
     """Name and text of each fact: temperatures of the nodes, heat flows, and the margin to the fold beyond which no
     steady state exists."""
-    said = [f"{name.replace('_', ' ')} {_degrees(getattr(thermal.temperatures, name))}" for name in thermal.nodes]
-    yield "Temperatures", f"{', '.join(said)} degC"
+    texts = [f"{name.replace('_', ' ')} {_degrees(getattr(thermal.temperatures, name))}" for name in thermal.nodes]
+    yield "Temperatures", f"{', '.join(texts)} degC"
     solves = int(thermal.solves)
     leaves = "" if thermal.oil_out is None else f", which leaves with {_degrees(thermal.oil_out)} degC"
     ambient = f"{_watts(thermal.heat_to_ambient)} to the ambient; balanced in {solves} solves"

@@ -16,8 +16,8 @@ _PLACE = Axis("place over the Hertz half width", (-SHOWN, SHOWN))
 def line_contact_panels(solution: LineContactSolution) -> list[Curves]:
     """Charts of pressure and film thickness."""
     x = np.asarray(solution.profile.x) / float(solution.hertz.half_width)
-    said = f"Oil enters {inlet_side(solution)}."
-    return [_pressure(solution, x, said), _film(solution, x, said)]
+    caption = f"Oil enters {inlet_side(solution)}."
+    return [_pressure(solution, x, caption), _film(solution, x, caption)]
 
 
 def hertz_series(pressure: float) -> Series:
@@ -26,14 +26,14 @@ def hertz_series(pressure: float) -> Series:
     return Series("Hertz", inside, pressure * np.sqrt(1.0 - inside**2), FAINT, dash="dash", faint=True)
 
 
-def _pressure(solution: LineContactSolution, x: np.ndarray, said: str) -> Curves:
+def _pressure(solution: LineContactSolution, x: np.ndarray, caption: str) -> Curves:
     hertz = float(solution.hertz.pressure)
     unit, factor = axis_unit("Pa", hertz)
-    found = Series("solution", x, factor * np.asarray(solution.profile.pressure), INNER)
-    return Curves("pressure", "Pressure", said, [hertz_series(factor * hertz), found], unit, _PLACE)
+    curve = Series("solution", x, factor * np.asarray(solution.profile.pressure), INNER)
+    return Curves("pressure", "Pressure", caption, [hertz_series(factor * hertz), curve], unit, _PLACE)
 
 
-def _film(solution: LineContactSolution, x: np.ndarray, said: str) -> Curves:
+def _film(solution: LineContactSolution, x: np.ndarray, caption: str) -> Curves:
     film, formulas = solution.film, solution.formulas
     unit, factor = axis_unit("m", 3.0 * float(film.central))
     shown = lambda value: factor * float(value)
@@ -42,7 +42,7 @@ def _film(solution: LineContactSolution, x: np.ndarray, said: str) -> Curves:
     return Curves(
         name="film",
         title="Film thickness",
-        caption=f"{said} Smallest: {digits(shown(film.minimum))} {unit}.",
+        caption=f"{caption} Smallest: {digits(shown(film.minimum))} {unit}.",
         series=[Series("film", x, factor * np.asarray(solution.profile.film), OUTER)],
         unit=unit,
         x=_PLACE,

@@ -70,17 +70,17 @@ def _shear_numbers(shaft: Shaft, x: np.ndarray) -> np.ndarray:
     sections = shaft.sections
     if not sections:
         return np.zeros(x.size - 1)
-    ends = np.cumsum([float(one.length) for one in sections])
-    found = []
+    ends = np.cumsum([float(section.length) for section in sections])
+    numbers = []
     for left, right in pairwise(x):
-        one = sections[min(int(np.searchsorted(ends, 0.5 * (left + right))), len(sections) - 1)]
-        poisson = float((shaft.material if one.material is None else one.material).poisson_ratio)
-        outer, inner = float(one.outer_diameter), float(one.inner_diameter)
+        own = sections[min(int(np.searchsorted(ends, 0.5 * (left + right))), len(sections) - 1)]
+        poisson = float((shaft.material if own.material is None else own.material).poisson_ratio)
+        outer, inner = float(own.outer_diameter), float(own.inner_diameter)
         radius2 = (outer**2 + inner**2) / 16.0
-        found.append(
+        numbers.append(
             24.0 * (1.0 + poisson) * radius2 / (cowper(poisson, inner / outer) * max(right - left, 1e-12) ** 2)
         )
-    return np.array(found)
+    return np.array(numbers)
 
 
 def cowper(poisson: float, ratio: float) -> float:
@@ -111,8 +111,10 @@ class CutLoads(NamedTuple):
 def cut_loads(solution: ShaftSolution) -> CutLoads:
     """Internal forces and moments by statics, from the external loads, the weight and the forces of the bearings."""
     nodes = solution.shaft
-    at = np.concatenate([np.asarray(nodes.position), [float(one.position) for one in solution.bearings.values()]])
-    forces = [np.asarray(one.on_shaft) for one in solution.bearings.values()]
+    at = np.concatenate(
+        [np.asarray(nodes.position), [float(bearing.position) for bearing in solution.bearings.values()]]
+    )
+    forces = [np.asarray(bearing.on_shaft) for bearing in solution.bearings.values()]
     loads = np.concatenate([np.asarray(nodes.load), np.reshape(forces, (-1, 5))])
     ends, weight = _weights(solution.operation)
     marks = np.unique(np.concatenate([at, ends]))
@@ -133,10 +135,10 @@ def cut_loads(solution: ShaftSolution) -> CutLoads:
 def _weights(shaft: Shaft) -> tuple[np.ndarray, np.ndarray]:
     """Ends of the sections, m, and their weight per unit length along Y and Z, N/m, shape (section, 2)."""
     ends, weights = [0.0] if shaft.sections else [], []
-    for one in shaft.sections:
-        ends.append(ends[-1] + float(one.length))
-        density = float((shaft.material if one.material is None else one.material).density)
-        area = 0.25 * np.pi * (float(one.outer_diameter) ** 2 - float(one.inner_diameter) ** 2)
+    for section in shaft.sections:
+        ends.append(ends[-1] + float(section.length))
+        density = float((shaft.material if section.material is None else section.material).density)
+        area = 0.25 * np.pi * (float(section.outer_diameter) ** 2 - float(section.inner_diameter) ** 2)
         pull = 0.0 if shaft.gravity is None else density * area * float(shaft.gravity.acceleration)
         azimuth = 0.0 if shaft.gravity is None else float(shaft.gravity.azimuth)
         weights.append([pull * np.cos(azimuth), pull * np.sin(azimuth)])

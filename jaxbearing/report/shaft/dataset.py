@@ -49,9 +49,9 @@ def to_dataset(solution: ShaftSolution, dims: Sequence[str] = ()) -> xr.Dataset:
     if not dims:
         check_converged(solution)
     dataset = xr.Dataset(attrs=attributes(solution, "Steady state of a shaft on bearings"))
-    for name, one in _variables(solution, dims):
+    for name, array in _variables(solution, dims):
         assert name not in dataset.variables, name
-        dataset[name] = one
+        dataset[name] = array
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     if solution.range_checks:
         dataset["out_of_range"] = checks(solution, dims)
@@ -65,7 +65,7 @@ def fronts(solution: ShaftSolution, dims: tuple[str, ...] = ()) -> dict[str, str
     unchanged name with a dot: `front.1.load_inner` and `front_1.load_inner`. The solution may be traced, because only
     names and shapes are used.
     """
-    families = {name: one.solution for name, one in solution.bearings.items() if one.solution is not None}
+    families = {name: bearing.solution for name, bearing in solution.bearings.items() if bearing.solution is not None}
     flat = {name: f"{name.replace('.', '_')}_" for name in families}
     inner_names = lambda family: ("element", *(variable_name(path) for path, *_ in labelled(family)))
     names = {
@@ -74,26 +74,27 @@ def fronts(solution: ShaftSolution, dims: tuple[str, ...] = ()) -> dict[str, str
     }
     with jax.ensure_compile_time_eval():
         anything = jax.tree.map(lambda leaf: np.ones(np.shape(leaf), leaf.dtype), solution)
-        count = Counter([*_coordinates(anything), *(name for name, _ in _of_shaft(anything, dims))])
+        count = Counter([*_coordinates(anything), *(name for name, _ in _shaft_variables(anything, dims))])
     count += Counter(name for several in names.values() for name in several)
     return {
-        name: f"{name}." if any(count[one] > 1 for one in several) else flat[name] for name, several in names.items()
+        name: f"{name}." if any(count[result] > 1 for result in several) else flat[name]
+        for name, several in names.items()
     }
 
 
 def _variables(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
-    yield from _of_shaft(solution, dims)
+    yield from _shaft_variables(solution, dims)
     for name, front in fronts(solution, dims).items():
         family = solution.bearings[name].solution
         if family is not None and (dims or bool(family.converged)):
-            yield from _of_family(name, front, family, dims)
+            yield from _family_variables(name, front, family, dims)
 
 
-def _of_shaft(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
+def _shaft_variables(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
     for path, value, metadata in labelled(solution):
         if "." not in path and metadata["unit"] != "mixed":
             yield path, variable(value, metadata, path, dims)
-    yield from _of_nodes(solution, dims)
+    yield from _node_variables(solution, dims)
     for part in ("torque", "life"):
         inner = getattr(solution, part)
         for path, value, metadata in labelled(inner) if inner is not None else ():
@@ -102,53 +103,58 @@ def _of_shaft(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple[
     if solution.thermal is not None:
         for path, value, metadata in labelled(solution.thermal):
             own = ("gap",) * (np.ndim(value) - len(dims))
-            yield f"thermal_{path}", xr.Variable((*dims, *own), np.asarray(value), _said(metadata, f"thermal.{path}"))
+            yield (
+                f"thermal_{path}",
+                xr.Variable((*dims, *own), np.asarray(value), _attributes(metadata, f"thermal.{path}")),
+            )
     yield from _stacked(list(solution.bearings.values()), "bearing", "bearings", dims)
     yield from _stacked(list(solution.sets.values()), "set", "sets", dims)
 
 
-def _of_nodes(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
+def _node_variables(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
     for name in ("position", "displacement", "load"):
         values = np.asarray(getattr(solution.shaft, name))
-        said = type(solution.shaft).__dataclass_fields__[name].metadata
+        metadata = type(solution.shaft).__dataclass_fields__[name].metadata
         own = ("node",) if name == "position" else ("node", "freedom")
-        yield f"node_{name}", xr.Variable((*dims, *own), values, _said(said, f"shaft.{name}"))
+        yield f"node_{name}", xr.Variable((*dims, *own), values, _attributes(metadata, f"shaft.{name}"))
 
 
 def _stacked(
     parts: Sequence[object], along: str, path: str, dims: tuple[str, ...]
 ) -> Iterator[tuple[str, xr.Variable]]:
     """Results of all bearings or sets, stacked along the dimension `along`; NaN for a part without the result."""
-    found: dict[str, tuple[dict[int, np.ndarray], Mapping[str, object]]] = {}
+    results: dict[str, tuple[dict[int, np.ndarray], Mapping[str, object]]] = {}
     for place, part in enumerate(parts):
         for name, value, metadata in labelled(part):
             if not name.startswith("solution.") and (np.ndim(value) == len(dims) or name in _VECTORS):
-                found.setdefault(name, ({}, metadata))[0][place] = np.asarray(value)
-    for name, (values, metadata) in found.items():
+                results.setdefault(name, ({}, metadata))[0][place] = np.asarray(value)
+    for name, (values, metadata) in results.items():
         shape = next(iter(values.values())).shape
         filled = [np.asarray(values.get(place, np.full(shape, np.nan))) for place in range(len(parts))]
         own = _VECTORS.get(name, ())
-        said = _said(metadata, f"{path}.*.{name}")
+        attrs = _attributes(metadata, f"{path}.*.{name}")
         title = f"{along}_{name.replace('.', '_')}"
-        yield title, xr.Variable((*dims, along, *own), np.stack(filled, axis=len(dims)), said)
+        yield title, xr.Variable((*dims, along, *own), np.stack(filled, axis=len(dims)), attrs)
 
 
-def _said(metadata: Mapping[str, Any], path: str) -> dict[str, str]:
+def _attributes(metadata: Mapping[str, Any], path: str) -> dict[str, str]:
     unit = metadata["unit"]
     return {"units": "1" if unit == "mixed" else udunits(unit), "long_name": metadata["description"], "path": path}
 
 
-def _of_family(name: str, front: str, solution: Solution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
+def _family_variables(
+    name: str, front: str, solution: Solution, dims: tuple[str, ...]
+) -> Iterator[tuple[str, xr.Variable]]:
     """Results of a bearing's own family, with the prefix `front` before their names and dimensions."""
     own = bearing_dataset(solution, dims)
-    for inner, one in own.variables.items():
-        if str(inner).startswith(_OWN) or str(inner) in dims or CHECK in one.dims or {"freedom"} & set(one.dims):
+    for inner, array in own.variables.items():
+        if str(inner).startswith(_OWN) or str(inner) in dims or CHECK in array.dims or {"freedom"} & set(array.dims):
             continue
-        renamed = [f"{front}{dim}" if dim not in dims else dim for dim in one.dims]
-        said = dict(one.attrs)
-        if said.get("path"):
-            said["path"] = f"bearings.{name}.solution.{said['path']}"
-        yield f"{front}{inner}", xr.Variable(renamed, one.values, said)
+        renamed = [f"{front}{dim}" if dim not in dims else dim for dim in array.dims]
+        attrs = dict(array.attrs)
+        if attrs.get("path"):
+            attrs["path"] = f"bearings.{name}.solution.{attrs['path']}"
+        yield f"{front}{inner}", xr.Variable(renamed, array.values, attrs)
 
 
 def _coordinates(solution: ShaftSolution) -> dict[str, xr.Variable]:
@@ -161,16 +167,16 @@ def _coordinates(solution: ShaftSolution) -> dict[str, xr.Variable]:
         names["set"] = (list(solution.sets), "name of the set")
     if solution.range_checks:
         names[CHECK] = (list(solution.range_checks), "what is checked")
-    found = {
+    coordinates = {
         name: xr.Variable((name,), values, {"units": "1", "long_name": words})
         for name, (values, words) in names.items()
     }
-    found["force_units"] = xr.Variable(
+    coordinates["force_units"] = xr.Variable(
         ("freedom",),
         [udunits(unit) for unit in force_units()],
         {"units": "1", "long_name": "unit of an entry of force"},
     )
     units = [[udunits(unit) for unit in row] for row in stiffness_units()]
-    said = {"units": "1", "long_name": "unit of an entry of stiffness"}
-    found["stiffness_units"] = xr.Variable(("freedom", "freedom_displaced"), units, said)
-    return found
+    attrs = {"units": "1", "long_name": "unit of an entry of stiffness"}
+    coordinates["stiffness_units"] = xr.Variable(("freedom", "freedom_displaced"), units, attrs)
+    return coordinates

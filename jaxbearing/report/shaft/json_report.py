@@ -33,9 +33,9 @@ def to_dict(solution: ShaftSolution) -> dict[str, Any]:
         "newton_steps": int(solution.newton_steps),
         "residual_norm": finite(float(solution.residual_norm)),
         "unknowns": solution.unknowns,
-        "bearings": {name: _bearing(one, converged) for name, one in solution.bearings.items()},
+        "bearings": {name: _bearing(bearing, converged) for name, bearing in solution.bearings.items()},
         "shaft": {"nodes": nodes},
-        "sets": {name: plain(one) for name, one in solution.sets.items()},
+        "sets": {name: plain(result) for name, result in solution.sets.items()},
         "torque": plain(solution.torque),
         "thermal": None if solution.thermal is None else plain(solution.thermal),
         "system_life": None if solution.life is None else plain(solution.life),
@@ -43,28 +43,28 @@ def to_dict(solution: ShaftSolution) -> dict[str, Any]:
     }
 
 
-def _bearing(one: BearingOnShaft, converged: bool) -> dict[str, Any]:
-    family = bearing_to_dict(one.solution) if one.solution is not None and converged else {}
-    found = {name: value for name, value in family.items() if name not in _OF_SHAFT}
-    found |= {
-        "position": plain(one.position),
-        "sense": one.sense,
-        "ring": plain(one.ring),
-        "force": plain_array(one.force),
-        "stiffness": plain_array(one.stiffness),
-        "on_shaft": plain_array(one.on_shaft),
-        "radial_force": plain(one.radial_force),
-        "azimuth": plain(one.azimuth),
-        "outer": plain_array(one.outer),
-        "closure": plain(one.closure),
-        "expansion": plain(one.expansion),
-        "largest_load": plain(one.largest_load),
-        "sliding_difference": None if one.sliding_difference is None else plain_array(one.sliding_difference),
-        "pressure_centre": plain(one.pressure_centre),
-        "life": None if one.life is None else plain(one.life),
+def _bearing(bearing: BearingOnShaft, converged: bool) -> dict[str, Any]:
+    family = bearing_to_dict(bearing.solution) if bearing.solution is not None and converged else {}
+    results = {name: value for name, value in family.items() if name not in _OF_SHAFT}
+    results |= {
+        "position": plain(bearing.position),
+        "sense": bearing.sense,
+        "ring": plain(bearing.ring),
+        "force": plain_array(bearing.force),
+        "stiffness": plain_array(bearing.stiffness),
+        "on_shaft": plain_array(bearing.on_shaft),
+        "radial_force": plain(bearing.radial_force),
+        "azimuth": plain(bearing.azimuth),
+        "outer": plain_array(bearing.outer),
+        "closure": plain(bearing.closure),
+        "expansion": plain(bearing.expansion),
+        "largest_load": plain(bearing.largest_load),
+        "sliding_difference": None if bearing.sliding_difference is None else plain_array(bearing.sliding_difference),
+        "pressure_centre": plain(bearing.pressure_centre),
+        "life": None if bearing.life is None else plain(bearing.life),
     }
-    found.setdefault("power_loss", None)
-    return found
+    results.setdefault("power_loss", None)
+    return results
 
 
 def _duty(duty: DutyResult) -> dict[str, Any]:

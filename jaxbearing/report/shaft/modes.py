@@ -46,11 +46,11 @@ def natural_frequencies(table: ShaftStiffness, scene: ShaftSystem, place: int = 
             own[[1, 3]] = own[:, [1, 3]] = 0.0
         at = np.arange(4 * node, 4 * node + 4)
         stiffness[np.ix_(at, at)] += own
-    for one in scene.forces:
-        if isinstance(one, Mass):
-            node = int(np.argmin(np.abs(nodes - float(one.position))))
+    for force in scene.forces:
+        if isinstance(force, Mass):
+            node = int(np.argmin(np.abs(nodes - float(force.position))))
             for freedom in (4 * node, 4 * node + 2):
-                mass[freedom, freedom] += float(one.mass)
+                mass[freedom, freedom] += float(force.mass)
     squares = np.linalg.eigvals(np.linalg.solve(mass, stiffness))
     return np.sort(np.sqrt(np.maximum(squares.real, 0.0)))
 

@@ -41,18 +41,18 @@ from .plots import operating_text
 def page_content(scene: ShaftSystem, solution: ShaftSolution) -> Content:
     """Content of the page of a shaft; see `report.html_report.html_report`."""
     bearings = solution.bearings
-    losses = {name: watts for name, one in bearings.items() if (watts := loss_of(one)) is not None}
+    losses = {name: watts for name, bearing in bearings.items() if (watts := loss_of(bearing)) is not None}
     total = sum(losses.values())
     return Content(
         kind="shaft on bearings",
         operation=operating_text(solution),
         not_modelled=left_out(solution),
         headlines=list(_headlines(solution, total if losses else None)),
-        sketches=[Sketch(one.title, svg(one), one.caption) for one in pictures(scene, solution)],
+        sketches=[Sketch(picture.title, svg(picture), picture.caption) for picture in pictures(scene, solution)],
         facts=[*shaft_facts(solution), *((f"set {name}", text) for name, text in set_facts(solution))],
         facts_title="Shaft and sets",
         charts=[*([_losses(losses)] if losses else []), *shaft_panels(solution), *_rings(solution)],
-        listings=[*_tables(solution), *(_of_bearing(one) for one in bearings.values())],
+        listings=[*_tables(solution), *(_bearing_listing(bearing) for bearing in bearings.values())],
         convergence=[
             ("status", Status(int(solution.status)).text.replace("_", " ")),
             ("steps of the convex minimisation", str(int(solution.start_steps))),
@@ -68,10 +68,10 @@ def page_content(scene: ShaftSystem, solution: ShaftSolution) -> Content:
 
 def _rings(solution: ShaftSolution) -> Iterator[Polar | Curves]:
     """Charts of the deformed flexible rings of the bearings."""
-    for name, one in solution.bearings.items():
-        if one.solution is not None:
-            for ring in bent_rings(one.solution):
-                yield from shape_panels(one.solution, ring, name, f", {name}", "Y of the shaft")
+    for name, bearing in solution.bearings.items():
+        if bearing.solution is not None:
+            for ring in bent_rings(bearing.solution):
+                yield from shape_panels(bearing.solution, ring, name, f", {name}", "Y of the shaft")
 
 
 def _losses(losses: dict[str, float]) -> Bars:
@@ -101,7 +101,7 @@ def _headlines(solution: ShaftSolution, total: float | None) -> Iterator[tuple[s
     yield "largest deflection", with_unit(size, "m")
     if total is not None:
         yield "power loss", with_unit(total, "W")
-    loads = [number(one.largest_load) for one in solution.bearings.values()]
+    loads = [number(bearing.largest_load) for bearing in solution.bearings.values()]
     largest = max((load for load in loads if load is not None), default=None)
     if largest is not None:
         yield "largest load of an element", with_unit(largest, "N")
@@ -121,14 +121,16 @@ def _table(title: str, columns: dict[str, list[str]], *remarks: str) -> Listing:
     return Listing(title, headings, [list(row) for row in zip(*columns.values(), strict=True)], remarks)
 
 
-def _of_bearing(one: BearingOnShaft) -> Listing:
+def _bearing_listing(bearing: BearingOnShaft) -> Listing:
     """Table of the stiffness of a bearing, with its other results as remarks."""
-    names, rows = stiffness_rows(one)
-    said = [f"{name}: {text}" for name, text in bearing_facts(one.solution)] if one.solution is not None else []
-    ring = ", ".join(_texts(one.ring))
-    remarks = [f"Displacement of the inner ring against the outer one: {ring}.", *said]
+    names, rows = stiffness_rows(bearing)
+    texts = (
+        [f"{name}: {text}" for name, text in bearing_facts(bearing.solution)] if bearing.solution is not None else []
+    )
+    ring = ", ".join(_texts(bearing.ring))
+    remarks = [f"Displacement of the inner ring against the outer one: {ring}.", *texts]
     table = [[name, *row] for name, row in zip(names, rows, strict=True)]
-    return Listing(f"Bearing {one.name}: stiffness, N/m, N/rad, N m/m, N m/rad", ["", *names], table, remarks)
+    return Listing(f"Bearing {bearing.name}: stiffness, N/m, N/rad, N m/m, N m/rad", ["", *names], table, remarks)
 
 
 def _texts(part: Any) -> Iterator[str]:
@@ -138,8 +140,8 @@ def _texts(part: Any) -> Iterator[str]:
 
 def _results(solution: ShaftSolution) -> Iterator[Row]:
     """Rows of all scalar results of bearings, sets and shaft, under their paths in Python."""
-    parts = {f"bearings['{name}'].": one for name, one in solution.bearings.items()}
-    parts |= {f"sets['{name}'].": one for name, one in solution.sets.items()}
+    parts = {f"bearings['{name}'].": bearing for name, bearing in solution.bearings.items()}
+    parts |= {f"sets['{name}'].": result for name, result in solution.sets.items()}
     parts |= {"torque.": solution.torque, "life.": solution.life, "thermal.": solution.thermal}
     for above, part in parts.items():
         if part is None:

@@ -13,10 +13,10 @@ _ALONG = Axis("position along the shaft, mm")
 
 def shaft_panels(solution: ShaftSolution) -> list[Curves]:
     """Charts of the bending line and, for a shaft with sections, of bending moment and internal forces."""
-    found = [deflection_panel(solution)]
+    panels = [deflection_panel(solution)]
     if solution.operation.sections:
-        found += [moment_panel(solution), shear_panel(solution)]
-    return found
+        panels += [moment_panel(solution), shear_panel(solution)]
+    return panels
 
 
 def deflection_panel(solution: ShaftSolution) -> Curves:
@@ -59,4 +59,4 @@ def shear_panel(solution: ShaftSolution) -> Curves:
 
 def panel_of(solution: ShaftSolution, name: str) -> Curves:
     """The chart of a shaft with the given name."""
-    return next(one for one in shaft_panels(solution) if one.name == name)
+    return next(panel for panel in shaft_panels(solution) if panel.name == name)

@@ -88,7 +88,7 @@ class Picture:
 
 def pictures(scene: ShaftSystem, solution: ShaftSolution) -> list[Picture]:
     """The view in the plane X-Y, and that in X-Z if bearings carry forces along Z."""
-    across = np.abs(np.array([np.asarray(one.on_shaft)[1:3] for one in solution.bearings.values()]))
+    across = np.abs(np.array([np.asarray(bearing.on_shaft)[1:3] for bearing in solution.bearings.values()]))
     lateral = float(np.max(across[:, 1])) > 1e-6 * max(float(np.max(across)), 1e-300)
     return [_picture(scene, solution, plane) for plane in ((0, 1) if lateral else (0,))]
 
@@ -109,19 +109,23 @@ def _picture(scene: ShaftSystem, solution: ShaftSolution, plane: int) -> Picture
     items += _arrows(loads, largest, longest, radius, 0.16 * (end - start))
     if plane == 0:
         items += _axial_arrows(scene, solution, longest, radius)
-    said = f"Arrows: {with_unit(largest, 'N')} for the longest; axial ones at a scale of their own. " if largest else ""
+    scales = (
+        f"Arrows: {with_unit(largest, 'N')} for the longest; axial ones at a scale of their own. " if largest else ""
+    )
     if factor:
-        said += f"Bending line {digits(factor, 3)} times as large as it is. "
+        scales += f"Bending line {digits(factor, 3)} times as large as it is. "
     disks = "Widths of gears, pulleys and masses are not to scale. " if scene.forces else ""
     rings = "Rings at usual proportions, clearances drawn closed."
-    return Picture(f"Plane X-{name}, {name} upwards", f"{said}{disks}{rings}", items, 2.0 * (radius + longest))
+    return Picture(f"Plane X-{name}, {name} upwards", f"{scales}{disks}{rings}", items, 2.0 * (radius + longest))
 
 
 def _ends(scene: ShaftSystem) -> tuple[float, float]:
     """Ends of the shaft, mm; a rigid shaft ends a little beyond its outermost bearing or force."""
     if scene.shaft.sections:
         return 0.0, 1e3 * float(scene.shaft.length)
-    at = [1e3 * float(place.position) for place in scene.places] + [1e3 * float(one.position) for one in scene.forces]
+    at = [1e3 * float(place.position) for place in scene.places] + [
+        1e3 * float(force.position) for force in scene.forces
+    ]
     room = max(0.15 * (max(at) - min(at)), 0.6 * _outer_radius(scene))
     return min(at) - room, max(at) + room
 
@@ -130,7 +134,7 @@ def _outer_radius(scene: ShaftSystem) -> float:
     """Largest radius of sections, bearings and gears, mm."""
     radii = [500.0 * float(section.outer_diameter) for section in scene.shaft.sections]
     radii += [_outside(place.scene) for place in scene.places]
-    radii += [1e3 * float(one.pitch_radius) for one in scene.forces if isinstance(one, Gear)]
+    radii += [1e3 * float(force.pitch_radius) for force in scene.forces if isinstance(force, Gear)]
     return max(radii)
 
 
@@ -186,12 +190,12 @@ def _circle(diameter: float) -> list[Point]:
 
 def _disks(scene: ShaftSystem, length: float) -> Iterator[Item]:
     """Gears, pulleys and masses, drawn behind the shaft."""
-    for one in sorted(scene.forces, key=lambda force: force.kind != "gear"):
-        if one.kind == "point":
+    for disk in sorted(scene.forces, key=lambda force: force.kind != "gear"):
+        if disk.kind == "point":
             continue
-        x, half = 1e3 * float(one.position), 0.5 * _DISK * length
-        radius = 1e3 * float(one.pitch_radius) if isinstance(one, Gear) else 0.6 * _outer_radius(scene)
-        half = min(half, 0.6 * radius) * (0.7 if one.kind == "mass" else 1.0)
+        x, half = 1e3 * float(disk.position), 0.5 * _DISK * length
+        radius = 1e3 * float(disk.pitch_radius) if isinstance(disk, Gear) else 0.6 * _outer_radius(scene)
+        half = min(half, 0.6 * radius) * (0.7 if disk.kind == "mass" else 1.0)
         yield Area([(x - half, -radius), (x + half, -radius), (x + half, radius), (x - half, radius)], GEAR, FAINT)
 
 
@@ -209,10 +213,10 @@ def _loads(scene: ShaftSystem, solution: ShaftSolution, across: int) -> Iterator
 
 def _named_positions(scene: ShaftSystem) -> dict[float, str]:
     """Position, m, -> names of the forces that act there."""
-    found: dict[float, list[str]] = {}
-    for one in scene.forces:
-        found.setdefault(round(float(one.position), 12), []).append(one.name)
-    return {position: ", ".join(names) for position, names in found.items()}
+    places: dict[float, list[str]] = {}
+    for force in scene.forces:
+        places.setdefault(round(float(force.position), 12), []).append(force.name)
+    return {position: ", ".join(names) for position, names in places.items()}
 
 
 def _arrows(

@@ -50,7 +50,7 @@ def plot(solution: ShaftSolution, title: str, scene: ShaftSystem | None = None) 
 def operating_text(solution: ShaftSolution) -> str:
     """Shaft speed and life of the system as text."""
     speed = displayed(float(solution.operation.speed), "rad/s")
-    said = [f"shaft speed {speed:.6g} {display_unit('rad/s')}"]
+    texts = [f"shaft speed {speed:.6g} {display_unit('rad/s')}"]
     if solution.life is not None and not any(overloads(solution)):
-        said += [f"system {name} {text}" for name, text in life_headlines(solution.life)]
-    return "   ·   ".join(said)
+        texts += [f"system {name} {text}" for name, text in life_headlines(solution.life)]
+    return "   ·   ".join(texts)

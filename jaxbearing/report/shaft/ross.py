@@ -52,28 +52,28 @@ def ross_rotor(
     **Raises:** as `require_rotor`; `ValueError` as `report.ross.ross_bearing`.
     """
     nodes = rotor_nodes(scene)
-    masses = [one for one in scene.forces if isinstance(one, Mass)]
-    found: dict[str, dict[str, object]] = {}
+    masses = [force for force in scene.forces if isinstance(force, Mass)]
+    elements: dict[str, dict[str, object]] = {}
     for number, (left, right) in enumerate(pairwise(nodes)):
-        found[f"ShaftElement_shaft{number}"] = _element(scene, left, right, number)
-    for one in masses:
-        tag = one.name
-        disk = {"n": _node(nodes, float(one.position)), "m": float(one.mass), "Id": 0.0, "Ip": 0.0, "tag": tag}
-        found[f"DiskElement_{tag}"] = disk
+        elements[f"ShaftElement_shaft{number}"] = _element(scene, left, right, number)
+    for mass in masses:
+        tag = mass.name
+        disk = {"n": _node(nodes, float(mass.position)), "m": float(mass.mass), "Id": 0.0, "Ip": 0.0, "tag": tag}
+        elements[f"DiskElement_{tag}"] = disk
     flat = Counter(name.replace(".", "_") for name in table.bearings)
     for name, values in table.bearings.items():
         # the name keeps its dot where two bearings, such as `front.1` and `front_1`, would get the same tag
         tag = name if flat[name.replace(".", "_")] > 1 else name.replace(".", "_")
         node = _node(nodes, table.position[name])
-        found[f"BearingElement_{tag}"] = element_of(table.speed, values, load_direction, node, tag, version)
-    return found
+        elements[f"BearingElement_{tag}"] = element_of(table.speed, values, load_direction, node, tag, version)
+    return elements
 
 
 def rotor_nodes(scene: ShaftSystem) -> np.ndarray:
     """Positions of the nodes, m: ends of sections, bearings and masses. **Raises:** as `require_rotor`."""
     require_rotor(scene)
     ends = _ends(scene)
-    masses = [float(one.position) for one in scene.forces if one.kind == "mass"]
+    masses = [float(force.position) for force in scene.forces if force.kind == "mass"]
     return _apart(np.clip([*ends, *(float(place.position) for place in scene.places), *masses], 0.0, ends[-1]))
 
 
@@ -86,7 +86,7 @@ def section_between(scene: ShaftSystem, left: float, right: float) -> tuple[Sect
 
 
 def _ends(scene: ShaftSystem) -> np.ndarray:
-    return np.concatenate([[0.0], np.cumsum([float(one.length) for one in scene.shaft.sections])])
+    return np.concatenate([[0.0], np.cumsum([float(section.length) for section in scene.shaft.sections])])
 
 
 def _apart(places: np.ndarray) -> np.ndarray:
@@ -144,13 +144,13 @@ def write_ross_rotor(
     if not os.fspath(file).lower().endswith(".toml"):
         raise ValueError(f"the file must end in .toml, got {os.fspath(file)!r}")
     elements = ross_rotor(table, scene, load_direction=load_direction, version=version)
-    said = [
+    lines = [
         f"A shaft on bearings for ROSS {version}: rs.Rotor.load(file). Written by jaxbearing {__version__}.",
         *([f"Scene: {one_line(scene_label)}"] if scene_label else []),
         "k..: N/m, tangent stiffness of the bearings in the shaft's equilibrium, tilts held; c.. = 0: no damping.",
         "Disks have no moments of inertia (Id, Ip): put in what you know.",
         f"Y of the shaft: {math.degrees(load_direction):.6g} deg from x towards y; z along the shaft.",
     ]
-    comments = "".join(f"# {line}\n" for line in said)
+    comments = "".join(f"# {line}\n" for line in lines)
     read = {"ross_version": TESTED[version], "parameters": {}, **elements}
     write_whole(file, f"{comments}\n{tomli_w.dumps(read)}")

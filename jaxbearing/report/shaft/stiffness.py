@@ -85,21 +85,23 @@ def shaft_stiffness_over_speed(
     scenes = shaft_at_speeds(scene, speeds)
     solve = jit_solver(scenes[0]) if solver is None else solver
     solutions = []
-    for one in scenes:
-        solution = solve(one)
+    for variant in scenes:
+        solution = solve(variant)
         if not bool(solution.converged):
-            speed = float(one.shaft.speed)
+            speed = float(variant.shaft.speed)
             raise SolveError(f"at {speed:.6g} rad/s ({with_unit(speed, 'rad/s', 5)}): {solution.failure()}")
         solutions.append(solution)
     system = scenes[0]
     own = [tangents(system, solution) for solution in solutions]
-    sets = [{one.name: set_tangent(system, solution, one.name) for one in system.sets} for solution in solutions]
+    sets = [
+        {matched.name: set_tangent(system, solution, matched.name) for matched in system.sets} for solution in solutions
+    ]
     names = {place.name: float(place.position) for place in system.places}
     table = ShaftStiffness(
         speed=np.asarray(speeds, dtype=np.float64),
-        bearings={name: np.stack([one[name] for one in own]) for name in own[0]},
-        sets={name: np.stack([one[name] for one in sets]) for name in sets[0]},
-        position=names | {one.name: float(one.position) for one in system.sets},
+        bearings={name: np.stack([matrices[name] for matrices in own]) for name in own[0]},
+        sets={name: np.stack([matrices[name] for matrices in sets]) for name in sets[0]},
+        position=names | {matched.name: float(matched.position) for matched in system.sets},
         freedom=RING_FREEDOMS,
         warnings=tuple(dict.fromkeys(text for solution in solutions for text in shaft_warnings(solution))),
     )
@@ -119,13 +121,13 @@ def tangents(system: ShaftSystem, solution: ShaftSolution) -> dict[str, np.ndarr
     """
     if system.housing is not None:
         raise ValueError("a housing couples the outer rings: the bearings have no stiffness of their own")
-    found = {}
+    matrices = {}
     for place in system.places:
-        one = solution.bearings[place.name]
-        mirror = np.array([one.sense, 1.0, 1.0, one.sense, one.sense])
-        bearing = mirror[:, None] * np.asarray(one.stiffness, dtype=float) * mirror
-        found[place.name] = _in_series(bearing, place.support)
-    return found
+        solved = solution.bearings[place.name]
+        mirror = np.array([solved.sense, 1.0, 1.0, solved.sense, solved.sense])
+        bearing = mirror[:, None] * np.asarray(solved.stiffness, dtype=float) * mirror
+        matrices[place.name] = _in_series(bearing, place.support)
+    return matrices
 
 
 def _in_series(bearing: np.ndarray, support: Support | None) -> np.ndarray:
@@ -136,9 +138,9 @@ def _in_series(bearing: np.ndarray, support: Support | None) -> np.ndarray:
     if support.matrix is not None:
         outer, free = np.asarray(support.matrix, dtype=float), np.ones(5, dtype=bool)
     else:
-        given = (support.axial, support.radial, support.radial, support.tilt, support.tilt)
-        free = np.array([one is not None for one in given])
-        outer = np.diag([0.0 if one is None else float(one) for one in given])
+        springs = (support.axial, support.radial, support.radial, support.tilt, support.tilt)
+        free = np.array([spring is not None for spring in springs])
+        outer = np.diag([0.0 if spring is None else float(spring) for spring in springs])
     if not np.any(free):
         return bearing
     inner = bearing[:, free]
@@ -147,17 +149,21 @@ def _in_series(bearing: np.ndarray, support: Support | None) -> np.ndarray:
 
 def set_tangent(system: ShaftSystem, solution: ShaftSolution, name: str) -> np.ndarray:
     """Stiffness of a set at its middle; outer rings that springs preload are free to move axially against these."""
-    number = [one.name for one in system.sets].index(name)
-    one = system.sets[number]
-    own, names = tangents(system, solution), one.names
+    number = [listed.name for listed in system.sets].index(name)
+    matched = system.sets[number]
+    own, names = tangents(system, solution), matched.names
     total, across, along = np.zeros((5, 5)), np.zeros((5, 0)), np.zeros((0, 5))
-    pressed = _pressed(one)
+    pressed = _pressed(matched)
     spring = np.zeros((0, 0))
     if pressed:
-        stiffness = 0.0 if one.preload is None or one.preload.spring_stiffness is None else one.preload.spring_stiffness
+        stiffness = (
+            0.0
+            if matched.preload is None or matched.preload.spring_stiffness is None
+            else matched.preload.spring_stiffness
+        )
         spring, across, along = np.array([[float(stiffness)]]), np.zeros((5, 1)), np.zeros((1, 5))
     for bearing in names:
-        distance = solution.bearings[bearing].position - one.position
+        distance = solution.bearings[bearing].position - matched.position
         shift = np.asarray(shift_matrix(jnp.asarray(distance)))
         matrix = own[bearing]
         total += shift.T @ matrix @ shift
@@ -170,11 +176,11 @@ def set_tangent(system: ShaftSystem, solution: ShaftSolution, name: str) -> np.n
     return total - across @ np.linalg.solve(spring, along) if pressed else total
 
 
-def _pressed(one: MatchedSet) -> tuple[str, ...]:
+def _pressed(matched: MatchedSet) -> tuple[str, ...]:
     """Names of the bearings whose outer rings are preloaded by springs: the last group in the picture of the set."""
-    if one.preload is None or one.preload.spring_force is None:
+    if matched.preload is None or matched.preload.spring_force is None:
         return ()
-    return tuple(name for name, sign in zip(one.names, one.picture, strict=True) if sign == one.picture[-1])
+    return tuple(name for name, sign in zip(matched.names, matched.picture, strict=True) if sign == matched.picture[-1])
 
 
 def shaft_stiffness_to_dict(table: ShaftStiffness) -> dict[str, Any]:
@@ -188,8 +194,8 @@ def print_shaft_stiffness(table: ShaftStiffness, label: str, console: Console, f
     headline(label, "CONVERGED", "bold green", state, console)
     units = stiffness_units()
     first = {f"speed\n{display_unit('rad/s')}": column(table.speed, "rad/s")}
-    for kind, found in (("Set", table.sets), ("Bearing", table.bearings)):
-        for name, values in found.items():
+    for kind, matrices in (("Set", table.sets), ("Bearing", table.bearings)):
+        for name, values in matrices.items():
             print_rule(f"{kind} {name}, at {1e3 * table.position[name]:.6g} mm", console)
             columns = {
                 f"{freedom}\n{display_unit(units[i][i])}": column(values[:, i, i], units[i][i])
@@ -200,7 +206,10 @@ def print_shaft_stiffness(table: ShaftStiffness, label: str, console: Console, f
     if table.natural_frequencies is not None:
         print_rule("Natural frequencies of bending, without damping and gyroscopic effect", console)
         modes = table.natural_frequencies.T / (2.0 * np.pi)
-        columns = {f"mode {place + 1}\nHz": [digits(float(one), 5) for one in mode] for place, mode in enumerate(modes)}
+        columns = {
+            f"mode {place + 1}\nHz": [digits(float(frequency), 5) for frequency in mode]
+            for place, mode in enumerate(modes)
+        }
         print_table(first | columns, [0.0] * len(table.speed), 0, "", console)
     print_line("Stiffness", "d load / d displacement of the inner ring, its other degrees of freedom held", console)
     print_line("Axes", "axial X, radial Y, lateral Z of the shaft; tilts move azimuth 0 and 90 deg along X", console)

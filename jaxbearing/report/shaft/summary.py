@@ -51,9 +51,9 @@ def print_summary(solution: ShaftSolution, scene_label: str, console: Console, f
     if full:
         from ..bearing.summary import print_summary as print_bearing
 
-        for name, one in solution.bearings.items():
-            if one.solution is not None:
-                print_bearing(one.solution, name, console, full)
+        for name, bearing in solution.bearings.items():
+            if bearing.solution is not None:
+                print_bearing(bearing.solution, name, console, full)
 
 
 def _print_bearings(solution: ShaftSolution, console: Console, full: bool) -> None:

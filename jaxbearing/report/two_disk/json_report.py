@@ -21,8 +21,12 @@ def to_dict(solution: TwoDiskSolution) -> dict[str, Any]:
     `None`; `converged` is True if no point failed.
     """
     slide = plain(solution.operation.slide_to_roll)
-    along = {name: value for name, value, found in labelled(solution) if "slide" in found["dims"] and "." not in name}
-    once = {name: plain(value) for name, value, found in labelled(solution) if found["derived"] and name not in along}
+    along = {
+        name: value for name, value, metadata in labelled(solution) if "slide" in metadata["dims"] and "." not in name
+    }
+    once = {
+        name: plain(value) for name, value, metadata in labelled(solution) if metadata["derived"] and name not in along
+    }
     curves = [
         {"slide_to_roll": slide}
         | {name: plain(curve.of(values)) for name, values in along.items() if name not in _ONCE}

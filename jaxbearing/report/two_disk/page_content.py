@@ -18,8 +18,8 @@ def page_content(scene: AbstractScene, solution: TwoDiskSolution) -> Content:
         kind="two-disk machine",
         operation=f"slide-to-roll ratio {100 * slide.min():.4g} to {100 * slide.max():.4g} %",
         facts=[
-            (f"{operating_point(one)}, {curve_name(solution, one)}", _largest(solution, one))
-            for one in curves_of(solution)
+            (f"{operating_point(curve)}, {curve_name(solution, curve)}", _largest(solution, curve))
+            for curve in curves_of(solution)
         ],
         facts_title="Largest traction of each curve",
         charts=two_disk_panels(solution),
@@ -34,7 +34,7 @@ def page_content(scene: AbstractScene, solution: TwoDiskSolution) -> Content:
     )
 
 
-def _largest(solution: TwoDiskSolution, one: Curve) -> str:
-    traction = one.of(solution.traction_coefficient)
+def _largest(solution: TwoDiskSolution, curve: Curve) -> str:
+    traction = curve.of(solution.traction_coefficient)
     j = int(np.argmax(np.abs(traction)))
     return f"{digits(float(traction[j]))} at {100.0 * float(np.asarray(solution.operation.slide_to_roll)[j]):.4g} %"

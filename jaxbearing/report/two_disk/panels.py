@@ -14,9 +14,9 @@ from .curves import Curve, curves_of
 def two_disk_panels(solution: TwoDiskSolution) -> list[Curves]:
     """Charts of traction curves, one for each pair of temperature and speed."""
     curves = list(curves_of(solution))
-    places = dict.fromkeys(one.place[:2] for one in curves)
+    places = dict.fromkeys(curve.place[:2] for curve in curves)
     return [
-        traction_panel(solution, [one for one in curves if one.place[:2] == place], f"traction-{i}")
+        traction_panel(solution, [curve for curve in curves if curve.place[:2] == place], f"traction-{i}")
         for i, place in enumerate(places)
     ]
 
@@ -31,14 +31,14 @@ def traction_panel(solution: TwoDiskSolution, curves: Sequence[Curve], name: str
         caption="One curve for each pressure.",
         series=[
             Series(
-                curve_name(solution, one),
+                curve_name(solution, curve),
                 100.0 * slide[order],
-                one.of(solution.traction_coefficient)[order],
+                curve.of(solution.traction_coefficient)[order],
                 CURVES[i % len(CURVES)],
                 MARKERS[i % len(MARKERS)],
                 DASHES[i // len(CURVES) % len(DASHES)],
             )
-            for i, one in enumerate(curves)
+            for i, curve in enumerate(curves)
         ],
         x=Axis("slide-to-roll ratio, %"),
         y=Axis("traction coefficient"),

@@ -116,7 +116,7 @@ def _slides(slide: np.ndarray, count: int) -> list[int]:
     size = np.log(np.abs(slide[candidates]))
     lowest = min(max(size.min(), np.log(_SMALLEST_SHOWN)), size.max())
     wanted = np.linspace(lowest, size.max(), count) if count > 1 else [size.max()]
-    nearest = {int(candidates[np.argmin(np.abs(size - one))]) for one in wanted}
+    nearest = {int(candidates[np.argmin(np.abs(size - target))]) for target in wanted}
     return sorted(nearest, key=lambda i: abs(slide[i]))
 
 

@@ -71,7 +71,7 @@ def save_animation(
         raise OSError(2, "the program ffmpeg, which makes .mp4, is not there", os.fspath(path))
     kinds: dict[str, Any] = {".gif": PillowWriter, ".mp4": FFMpegWriter}
     writer = kinds[suffix](fps=PER_SECOND) if suffix in kinds else HTMLWriter(fps=PER_SECOND, embed_frames=True)
-    told = None if progress is None else lambda number, count: progress(float(number + 1), float(count))
+    callback = None if progress is None else lambda number, count: progress(float(number + 1), float(count))
     check_place(path)
     # the writers need the right suffix, and leave other files behind if they fail
     with temporary_folder() as folder:
@@ -79,12 +79,12 @@ def save_animation(
         try:
             with mpl.rc_context():
                 mpl.rcParams["animation.embed_limit"] = 100.0
-                animation.save(made, writer=writer, dpi=_DOTS, progress_callback=told)
+                animation.save(made, writer=writer, dpi=_DOTS, progress_callback=callback)
             content = made.read_bytes()
         except OSError as error:
             reason = f"{error.strerror or error} (in the folder for temporary files, {folder.parent})"
             raise OSError(error.errno or 5, reason, os.fspath(path)) from None
         except subprocess.CalledProcessError as error:
-            said = (error.stderr or b"").decode(errors="replace").strip().splitlines()
-            raise OSError(5, f"ffmpeg failed: {said[-1] if said else error}", os.fspath(path)) from None
+            lines = (error.stderr or b"").decode(errors="replace").strip().splitlines()
+            raise OSError(5, f"ffmpeg failed: {lines[-1] if lines else error}", os.fspath(path)) from None
         write_whole(path, content)

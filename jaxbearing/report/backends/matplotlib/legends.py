@@ -42,9 +42,9 @@ def clear_legend(
     - `handles`, `names`: entries of the legend; by default the labelled curves of the axes.
     - `style`: further arguments of matplotlib's legend.
     """
-    found, called = axes.get_legend_handles_labels() if handles is None else (handles, names)
+    artists, called = axes.get_legend_handles_labels() if handles is None else (handles, names)
     wanted = {"fontsize": 8.5, "title_fontsize": 8.5, "frameon": False} | style
-    legend = axes.legend(found, called, **wanted)
+    legend = axes.legend(artists, called, **wanted)
     # the whole page is laid out, even if the axes are in a part of it
     axes.figure.canvas.figure.draw_without_rendering()
     drawn = np.concatenate([np.zeros((0, 2)), *_drawn(axes)])
@@ -52,7 +52,7 @@ def clear_legend(
         legend.set_loc(place)
         if not _hit(legend, drawn):
             return legend
-    return _above(axes, found, called, wanted)
+    return _above(axes, artists, called, wanted)
 
 
 def covered(axes: "matplotlib.axes.Axes") -> int:
@@ -78,7 +78,7 @@ def _drawn(axes: "matplotlib.axes.Axes") -> Iterator[np.ndarray]:
     for text in axes.texts:
         box = text.get_window_extent()
         x, y = np.linspace(box.x0, box.x1, 9), np.linspace(box.y0, box.y1, 3)
-        yield np.stack([one.ravel() for one in np.meshgrid(x, y)], axis=-1)
+        yield np.stack([grid.ravel() for grid in np.meshgrid(x, y)], axis=-1)
 
 
 def _along(corners: np.ndarray) -> np.ndarray:

@@ -82,14 +82,14 @@ def _numbers(axes: Any, panel: Numbers) -> None:
 
 def _polar(axes: Any, panel: Polar) -> None:
     axes.set_theta_zero_location("S")
-    for one in panel.series:
-        closed, values = np.append(one.x, one.x[0] + 2.0 * math.pi), np.append(one.y, one.y[0])
-        marker = _POINTS[one.marker]
-        style = {"color": one.colour, "linestyle": _LINES[one.dash], "linewidth": 1.2, "label": one.name}
+    for curve in panel.series:
+        closed, values = np.append(curve.x, curve.x[0] + 2.0 * math.pi), np.append(curve.y, curve.y[0])
+        marker = _POINTS[curve.marker]
+        style = {"color": curve.colour, "linestyle": _LINES[curve.dash], "linewidth": 1.2, "label": curve.name}
         axes.plot(closed, values, marker=marker, markersize=3.2, **style)
-        if not one.faint:
-            axes.fill(closed, values, color=one.colour, alpha=0.12, linewidth=0)
-    top = round_up(max(float(np.max(one.y)) for one in panel.series))
+        if not curve.faint:
+            axes.fill(closed, values, color=curve.colour, alpha=0.12, linewidth=0)
+    top = round_up(max(float(np.max(series.y)) for series in panel.series))
     axes.set_ylim(0.0, top)
     axes.set_yticks([top / 2.0, top], [])
     halo = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
@@ -114,11 +114,11 @@ def _load_arrow(axes: "matplotlib.axes.Axes", angle: float) -> None:
 
 
 def _curves(axes: "matplotlib.axes.Axes", panel: Curves, marked: bool) -> None:
-    for one in panel.series:
-        marker = _POINTS[one.marker] if marked else None
-        width = 1.0 if one.faint else 1.2 if marker else 1.5
-        style = {"linestyle": _LINES[one.dash], "marker": marker, "markersize": 3.2, "linewidth": width}
-        axes.plot(one.x, one.y, color=one.colour, label=one.name, **style)
+    for curve in panel.series:
+        marker = _POINTS[curve.marker] if marked else None
+        width = 1.0 if curve.faint else 1.2 if marker else 1.5
+        style = {"linestyle": _LINES[curve.dash], "marker": marker, "markersize": 3.2, "linewidth": width}
+        axes.plot(curve.x, curve.y, color=curve.colour, label=curve.name, **style)
     for mark in panel.marks:
         axes.plot(mark.x, mark.y, "o", color=panel.series[0].colour, markersize=5)
         place = {"xytext": (0, -16), "textcoords": "offset points"}

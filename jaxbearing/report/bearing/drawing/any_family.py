@@ -64,14 +64,14 @@ def draw_in_section(scene: AbstractBearing) -> "matplotlib.figure.Figure":
     section = view(figure, "One element in a section through the axis", (0.50, 0.34, 0.48, 0.60))
     draw_front(front, scene, FrontSizes(scene))
     patches = _Patches(section)
-    outline, given = scene.outline(), dict(_dimensions(scene))
+    outline, texts = scene.outline(), dict(_dimensions(scene))
     draw_outline(patches, outline)
     for ends in outline.dimensions:
         dimension(section, *ends)
-    labels = [(given[f"geometry.{name}"], place) for name, place in outline.labels.items()]
-    said = {f"n_{scene.element}s", "pitch_diameter", *outline.labels}
+    labels = [(texts[f"geometry.{name}"], place) for name, place in outline.labels.items()]
+    drawn = {f"n_{scene.element}s", "pitch_diameter", *outline.labels}
     _beside(section, np.asarray(patches.points), labels)
-    rest = [text for path, text in given.items() if path.removeprefix("geometry.") not in said]
+    rest = [text for path, text in texts.items() if path.removeprefix("geometry.") not in drawn]
     figure.text(0.52, 0.30, "\n".join(rest), fontsize=8.5, color=DIMENSION, va="top", linespacing=1.5)
     figure.text(0.02, 0.02, _CAPTION, fontsize=8, color=INK, linespacing=1.4)
     return figure
@@ -83,7 +83,9 @@ def _beside(axes: "matplotlib.axes.Axes", points: np.ndarray, labels: list[Label
     (left, low), (right, high) = points.min(axis=0), points.max(axis=0)
     width, height, middle = right - left, high - low, 0.5 * (left + right)
     for side in (-1.0, 1.0):
-        own = sorted((one for one in labels if (one[1][0] >= middle) == (side > 0.0)), key=lambda one: one[1][1])
+        own = sorted(
+            (label for label in labels if (label[1][0] >= middle) == (side > 0.0)), key=lambda label: label[1][1]
+        )
         places = np.linspace(low + 0.1 * height, high - 0.1 * height, len(own)) if len(own) > 1 else [low]
         x = right + 0.1 * width if side > 0.0 else left - 0.1 * width
         for (text, target), y in zip(own, places, strict=True):

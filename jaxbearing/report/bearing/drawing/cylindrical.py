@@ -142,13 +142,13 @@ def _label_section(
     if flange is not None:
         race, top = (size.outer, outer_top) if flange.ring == "outer" else (size.inner, inner_top)
         x = -0.5 * (half + size.gap + size.half_width)
-        said = "" if flange.height is not None else " (assumed)"
+        remark = "" if flange.height is not None else " (assumed)"
         left += [
             (
                 f"flange.axial_clearance {length_text(flange.axial_clearance)}\n(both ends together)",
                 (-half - 0.5 * size.gap, 0.6 * race + 0.4 * top),
             ),
-            (f"flange.height {length_text(flange.rim_height(geometry))}{said}", (x, 0.5 * (race + top))),
+            (f"flange.height {length_text(flange.rim_height(geometry))}{remark}", (x, 0.5 * (race + top))),
         ]
         extension(axes, (x - 0.05 * diameter, race), (-half - size.gap, race))
         dimension(axes, (x, race), (x, top))
@@ -164,15 +164,15 @@ def _label_section(
         inside = cage.guidance == "inner_ring"
         land = 0.5 * (inner_top + size.cage[0]) if inside else 0.5 * (outer_top + size.cage[1])
         bore, outside = (length_text(2e-3 * radius) for radius in size.cage)
-        given = lambda value: "" if value is not None else " (assumed)"
+        assumed = lambda value: "" if value is not None else " (assumed)"
         right += [
             (f"cage.guiding_clearance {length_text(cage.guiding_clearance)}\n(on the diameter)", (end, land)),
             (
-                f"cage.outer_diameter {outside}{given(cage.outer_diameter)}",
+                f"cage.outer_diameter {outside}{assumed(cage.outer_diameter)}",
                 (middle, size.cage[1]),
             ),
             (
-                f"cage.inner_diameter {bore}{given(cage.inner_diameter)}",
+                f"cage.inner_diameter {bore}{assumed(cage.inner_diameter)}",
                 (middle, size.cage[0]),
             ),
         ]
@@ -191,12 +191,12 @@ def _label_section(
 def _thrust_text(scene: CylindricalRollerBearing, stiffness: SupportsFloat) -> str:
     """Text about the flanges that guide the inner ring axially, and about its axial load."""
     geometry, load = scene.geometry, scene.operation.axial_load
-    said = [
+    lines = [
         f"flange_gap {length_text(geometry.flange_gap)}, thrust {geometry.thrust or 'both'}",
         f"flange_stiffness\n{with_unit(float(stiffness), 'N/m^(10/9)')}",
         *([] if load is None else [f"operation.axial_load {1e-3 * float(load):.6g} kN"]),
     ]
-    return "\n".join(said)
+    return "\n".join(lines)
 
 
 def _stack(

@@ -37,14 +37,14 @@ def draw_front(axes: "matplotlib.axes.Axes", scene: AbstractBearing, size: Front
 
     style = {"color": LOAD, "linewidth": 2.4, "arrowstyle": "-|>,head_width=0.4,head_length=0.8"}
     loads = {name: scene.operation.load(name) for name in ("radial", "lateral")}
-    given = {name: float(load) for name, load in loads.items() if load is not None}
-    fields = [LOAD_FIELDS[name] for name in given]
-    said = [f"operation.{field}\n{field_text(scene.operation, field)}" for field in fields]
-    if said:
-        radial, lateral = (given.get(name, 0.0) for name in loads)
+    values = {name: float(load) for name, load in loads.items() if load is not None}
+    fields = [LOAD_FIELDS[name] for name in values]
+    texts = [f"operation.{field}\n{field_text(scene.operation, field)}" for field in fields]
+    if texts:
+        radial, lateral = (values.get(name, 0.0) for name in loads)
         along = bore * np.array([lateral, -radial]) / (math.hypot(radial, lateral) or 1.0)
         axes.annotate("", xy=tuple(0.97 * along), xytext=tuple(0.5 * along), arrowprops=style, zorder=6)
-        note(axes, (0.0, -0.33 * bore), "\n".join(said) + ", on the inner ring", color=LOAD)
+        note(axes, (0.0, -0.33 * bore), "\n".join(texts) + ", on the inner ring", color=LOAD)
     speed = f"operation.inner_speed\n{field_text(scene.operation, 'inner_speed')}"
     note(axes, (0.0, 0.68 * bore), speed)
     arc(axes, size.inner - 0.5 * size.ring, math.radians(135.0), math.radians(225.0))

@@ -34,7 +34,7 @@ def front_view(scene: AbstractBearing, solution: Solution) -> str:
     for angle in azimuth:
         drawing.circle(place_at(angle, sizes.pitch), 0.5 * sizes.diameter, fill=ROLLER, stroke=INK, stroke_width=1.0)
     # sum over both flanks of a race
-    load = lambda race: np.sum([getattr(one, f"load_{race}") for one in by_flank(elements)], axis=0)
+    load = lambda race: np.sum([getattr(flank, f"load_{race}") for flank in by_flank(elements)], axis=0)
     _loads(drawing, sizes, azimuth, load("inner"), load("outer"))
     _applied(drawing, sizes, solution)
     drawing.text(place_at(0.0, sizes.pitch), "0", size=9.0)
@@ -73,7 +73,7 @@ _SAID = {
 def _applied(drawing: Drawing, sizes: FrontSizes, solution: Solution) -> None:
     """Draws the load on the inner ring and its speed in the middle."""
     operation = solution.operation
-    number = lambda freedom: float(given) if (given := operation.load(freedom)) is not None else 0.0
+    number = lambda freedom: float(load) if (load := operation.load(freedom)) is not None else 0.0
     radial, lateral = number("radial"), number("lateral")
     words = [field_text(operation, "inner_speed")]
     for name, freedom in _SAID.items():

@@ -116,7 +116,7 @@ def _draw(
     from matplotlib.patches import Circle
 
     diameter = 1e3 * float(scene.element_diameter)
-    inner, outer = (500.0 * float(one) for one in scene.raceway_diameters)
+    inner, outer = (500.0 * float(race) for race in scene.raceway_diameters)
     most = max((float(load.max()) for p in pictures for load in p.loads.values()), default=0.0)
     bar = 0.3 * inner
     size = outer + 3.0 + bar
@@ -160,7 +160,7 @@ def _draw(
     if peak > 0.0:
         place = figure.add_axes((0.875, 0.2, 0.022, 0.48))
         powers = [10.0**power for power in range(1 + math.floor(math.log10(max(round_up(peak), 1.0))))]
-        ticks = [*(-one for one in reversed(powers)), 0.0, *powers]
+        ticks = [*(-power for power in reversed(powers)), 0.0, *powers]
         figure.colorbar(ScalarMappable(norm, "RdBu_r"), cax=place, ticks=ticks, format="%g")
         place.minorticks_off()
         place.tick_params(labelsize=9)

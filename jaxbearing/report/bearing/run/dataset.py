@@ -26,7 +26,7 @@ def to_dataset(history: History) -> xr.Dataset:
         dataset[variable_name(short)] = variable(value, metadata, short, () if short == path else ("time",))
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     count = dataset.sizes["element"]
-    dataset = dataset.assign(_statistics(history)).assign(_of_elements_and_cage(history))
+    dataset = dataset.assign(_statistics(history)).assign(_energies_and_stresses(history))
     names: dict[str, tuple[np.ndarray | list[str], str, str]] = {
         "element": (np.arange(count), "1", "number of the rolling element; azimuth says where it is")
     }
@@ -45,34 +45,34 @@ def to_dataset(history: History) -> xr.Dataset:
 
 def _statistics(history: History) -> dict[str, xr.Variable]:
     """Shocks turn by turn and over the azimuth, and the whirl of the cage."""
-    found: dict[str, xr.Variable] = {}
+    variables: dict[str, xr.Variable] = {}
     say = lambda unit, text: {"units": unit, "long_name": text, "path": "summary"}
     whirl, peaks, spread = whirl_ratio(history), peaks_by_turn(history), sectors(history)
     if whirl is not None:
         text = "mean angular speed of the cage's centre about its mean place over the mean cage speed"
-        found["whirl_ratio"] = xr.Variable((), whirl, say("1", text))
+        variables["whirl_ratio"] = xr.Variable((), whirl, say("1", text))
     if peaks is not None and spread is not None:
         text = "largest pocket load of each rolling element in each turn of the cage; the last turn may be a part"
-        found["turn_peak"] = xr.Variable(("face", "turn", "element"), peaks, say("N", text))
+        variables["turn_peak"] = xr.Variable(("face", "turn", "element"), peaks, say("N", text))
         text = f"a pocket load above this is a shock: {SHOCK}"
-        found["shock_threshold"] = xr.Variable((), spread.threshold, say("N", text))
+        variables["shock_threshold"] = xr.Variable((), spread.threshold, say("N", text))
         text = "number of shocks by azimuth"
-        found["shock_count"] = xr.Variable(("face", "sector"), spread.number, say("1", text))
+        variables["shock_count"] = xr.Variable(("face", "sector"), spread.number, say("1", text))
         text = "mean peak of the shocks by azimuth"
-        found["shock_mean_peak"] = xr.Variable(("face", "sector"), spread.mean_peak, say("N", text))
+        variables["shock_mean_peak"] = xr.Variable(("face", "sector"), spread.mean_peak, say("N", text))
         text = "azimuth from the load line at which the sector begins"
-        found["sector"] = xr.Variable(("sector",), spread.edges[:-1], say("rad", text))
-        found["face"] = xr.Variable(("face",), list(FACES), say("1", "wall of the pocket"))
+        variables["sector"] = xr.Variable(("sector",), spread.edges[:-1], say("rad", text))
+        variables["face"] = xr.Variable(("face",), list(FACES), say("1", "wall of the pocket"))
         turns = np.arange(1, peaks.shape[1] + 1)
-        found["turn"] = xr.Variable(("turn",), turns, say("1", "turn of the cage since the start of the run"))
-    return found
+        variables["turn"] = xr.Variable(("turn",), turns, say("1", "turn of the cage since the start of the run"))
+    return variables
 
 
-def _of_elements_and_cage(history: History) -> dict[str, xr.Variable]:
+def _energies_and_stresses(history: History) -> dict[str, xr.Variable]:
     """Energy dissipated by sliding at each element and over the groove angle, and stresses of the cage."""
     say = lambda unit, text: {"units": unit, "long_name": text, "path": "summary"}
     places = {"inner": "on the inner raceway", "outer": "on the outer raceway", "pocket": "in its pocket"}
-    found = {
+    variables = {
         f"sliding_energy_{place}": xr.Variable(
             ("element",), energy, say("J", f"energy that sliding of the element {places[place]} takes over the run")
         )
@@ -80,12 +80,14 @@ def _of_elements_and_cage(history: History) -> dict[str, xr.Variable]:
     }
     for side, energy in groove_energy(history).items():
         text = f"energy that sliding takes over the run in each interval of angle of the {side} groove"
-        found[f"groove_energy_{side}"] = xr.Variable(("groove_angle",), energy, say("J", text))
+        variables[f"groove_energy_{side}"] = xr.Variable(("groove_angle",), energy, say("J", text))
     stress = cage_stress(history)
     if stress is not None:
-        found["cage_hoop_stress"] = xr.Variable(("time",), stress.hoop, say("Pa", "stress of the cage by its rotation"))
+        variables["cage_hoop_stress"] = xr.Variable(
+            ("time",), stress.hoop, say("Pa", "stress of the cage by its rotation")
+        )
         text = "largest bending stress of the cage rails, by the pocket loads of the instant"
-        found["cage_rail_stress"] = xr.Variable(("time",), stress.rail, say("Pa", text))
+        variables["cage_rail_stress"] = xr.Variable(("time",), stress.rail, say("Pa", text))
         text = "bending stress of the cage bar ahead of the element, by its largest load since the instant before"
-        found["cage_bar_stress"] = xr.Variable(("time", "element"), stress.bar, say("Pa", text))
-    return found
+        variables["cage_bar_stress"] = xr.Variable(("time", "element"), stress.bar, say("Pa", text))
+    return variables

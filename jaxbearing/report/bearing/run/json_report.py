@@ -27,7 +27,7 @@ from ...run_statistics import (
 def statistics(history: History) -> dict[str, Any]:
     """Means and extremes of the results over the run, SI."""
     instants, elements = history.instants, history.instants.elements
-    found: dict[str, Any] = {
+    numbers: dict[str, Any] = {
         "inner_speed": _spread(instants.inner_speed),
         "ring": {name: _spread(getattr(instants.ring, name)) for name in _moved(instants)},
         "power_loss": {name: float(np.mean(value)) for name, value in _losses(history).items()},
@@ -39,11 +39,11 @@ def statistics(history: History) -> dict[str, Any]:
         # not all families have both results
         values = by_side(elements, name).values()
         if values:
-            found[f"{name}_max"] = float(max(np.abs(one).max() for one in values))
-    if "axial" in found["ring"]:
-        found["excursion"] = _excursion(instants)
+            numbers[f"{name}_max"] = float(max(np.abs(array).max() for array in values))
+    if "axial" in numbers["ring"]:
+        numbers["excursion"] = _excursion(instants)
     if instants.cage is not None:
-        found["cage"] = {
+        numbers["cage"] = {
             "speed": _spread(instants.cage.speed),
             "slip": _spread(instants.cage.slip),
             "eccentricity_ratio": _spread(instants.cage.eccentricity_ratio),
@@ -53,26 +53,26 @@ def statistics(history: History) -> dict[str, Any]:
     peaks = shocks(history)
     if peaks:
         at_instants = {face: load_statistics(getattr(elements, f"pocket_load_{face}")) for face in FACES}
-        found["pocket_load"] = {
+        numbers["pocket_load"] = {
             face: at_instants[face] | {"max": max(entry["max"] for entry in peaks[face]), "turns": peaks[face]}
             for face in FACES
         }
-    found |= _in_motion(history)
+    numbers |= _motion_statistics(history)
     spread = sectors(history)
     if spread is not None:
-        found["shocks"] = _by_sector(spread)
-    return found
+        numbers["shocks"] = _by_sector(spread)
+    return numbers
 
 
-def _in_motion(history: History) -> dict[str, Any]:
+def _motion_statistics(history: History) -> dict[str, Any]:
     """Statistics that only transient runs have: speed variation, sliding energy, skidding, land load, cage stress."""
-    found: dict[str, Any] = {}
+    numbers: dict[str, Any] = {}
     instants, variation, stress = history.instants, speed_variation(history), cage_stress(history)
     if variation is not None:
-        found["speed_variation"] = variation
+        numbers["speed_variation"] = variation
     energy, turns = sliding_energy(history), turns_done(history)
     if energy:
-        found["sliding_energy"] = {
+        numbers["sliding_energy"] = {
             place: {
                 "total": float(own.sum()),
                 "largest": float(own.max()),
@@ -83,24 +83,24 @@ def _in_motion(history: History) -> dict[str, Any]:
     across = groove_energy(history)
     if across:
         angle = np.degrees(instants.groove_angles)
-        found["groove_energy"] = {side: _across(angle, own) for side, own in across.items()}
+        numbers["groove_energy"] = {side: _across(angle, own) for side, own in across.items()}
     skids = skidding(history)
     if skids:
-        found["skidding"] = {"threshold": SKID} | skids
+        numbers["skidding"] = {"threshold": SKID} | skids
     land = getattr(instants, "land_load", None)
     if land is not None:
         peaks = instants.pocket_peaks
         assert peaks is not None
-        found["land_load"] = load_statistics(land) | {"max": float(np.max(np.asarray(peaks.land)))}
+        numbers["land_load"] = load_statistics(land) | {"max": float(np.max(np.asarray(peaks.land)))}
     if stress is not None:
-        found["cage_stress"] = {
+        numbers["cage_stress"] = {
             "hoop": float(stress.hoop.max()),
             "rail_bending": float(stress.rail.max()),
             "rail_mean": stress.rail_mean,
             "rail_range": stress.rail_range,
             "bar_bending": float(stress.bar.max()),
         }
-    return found
+    return numbers
 
 
 def _across(angle: np.ndarray, energy: np.ndarray) -> dict[str, Any]:
@@ -129,8 +129,8 @@ def _excursion(instants: Instant) -> float:
 
 def by_side(elements: eqx.Module, name: str) -> dict[str, np.ndarray]:
     """A result of the contacts on the inner and outer raceway; a raceway without this result is left out."""
-    found = {side: getattr(elements, f"{name}_{side}", None) for side in ("inner", "outer")}
-    return {side: np.asarray(values) for side, values in found.items() if values is not None}
+    results = {side: getattr(elements, f"{name}_{side}", None) for side in ("inner", "outer")}
+    return {side: np.asarray(values) for side, values in results.items() if values is not None}
 
 
 def _by_sector(spread: Sectors) -> dict[str, Any]:

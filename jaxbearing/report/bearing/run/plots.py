@@ -52,7 +52,7 @@ def plot(history: History, title: str) -> "matplotlib.figure.Figure":
 
 
 def _over_grooves(axes: "matplotlib.axes.Axes", angle: np.ndarray, energy: dict[str, np.ndarray]) -> None:
-    unit, factor = axis_unit("J", float(max(one.max() for one in energy.values())))
+    unit, factor = axis_unit("J", float(max(joules.max() for joules in energy.values())))
     for side, own in energy.items():
         touched = np.flatnonzero(own)
         colour = {"inner": INNER, "outer": OUTER}[side]
@@ -90,12 +90,12 @@ def draw_orbit(axes: "matplotlib.axes.Axes", cage: CageMotion, loaded: bool) -> 
 
 
 def _speeds(axes: "matplotlib.axes.Axes", time: np.ndarray, instants: Instant, element: str) -> None:
-    found = getattr(instants.elements, "orbital_speed", None)
-    if found is not None:
-        speeds = _RPM * np.asarray(found)
+    orbital = getattr(instants.elements, "orbital_speed", None)
+    if orbital is not None:
+        speeds = _RPM * np.asarray(orbital)
         axes.fill_between(time, speeds.min(axis=1), speeds.max(axis=1), color=INNER, alpha=0.2, linewidth=0)
-        one = speeds[:, FOLLOWED % speeds.shape[1]]
-        axes.plot(time, one, color=INNER, linewidth=0.7, label=f"a {element} (band: all)")
+        followed = speeds[:, FOLLOWED % speeds.shape[1]]
+        axes.plot(time, followed, color=INNER, linewidth=0.7, label=f"a {element} (band: all)")
     if instants.cage is not None:
         axes.plot(time, _RPM * np.asarray(instants.cage.speed), color=OUTER, linewidth=1.2, label="cage")
     axes.set_xlabel("time, ms", fontsize=9)
@@ -134,13 +134,20 @@ def _pocket_over_azimuth(axes: "matplotlib.axes.Axes", instants: Any, element: s
     front, rear = np.asarray(instants.pocket_peaks.front), np.asarray(instants.pocket_peaks.rear)
     net = np.where(front > rear, front, -rear)
     axes.plot(azimuth.ravel(), net.ravel(), ".", color=FAINT, markersize=1.0)
-    one = FOLLOWED % azimuth.shape[1]
-    axes.plot(azimuth[:, one], net[:, one], ".", color=OUTER, markersize=2.0, label=f"{element} {one + 1}, grey: all")
+    followed = FOLLOWED % azimuth.shape[1]
+    axes.plot(
+        azimuth[:, followed],
+        net[:, followed],
+        ".",
+        color=OUTER,
+        markersize=2.0,
+        label=f"{element} {followed + 1}, grey: all",
+    )
     loads = by_side(elements, "load")
     if "inner" in loads:
-        load = loads["inner"][:, one]
+        load = loads["inner"][:, followed]
         scale = float(np.abs(net).max()) / max(float(load.max()), 1e-300)
-        axes.plot(azimuth[:, one], scale * load, ".", color=LOSS, markersize=0.7, label="its race load, scaled")
+        axes.plot(azimuth[:, followed], scale * load, ".", color=LOSS, markersize=0.7, label="its race load, scaled")
     axes.set_xlim(-180.0, 180.0)
     axes.set_xticks([-180, -90, 0, 90, 180])
     axes.set_xlabel("azimuth from the load line, deg", fontsize=9)
@@ -151,15 +158,15 @@ def _pocket_over_azimuth(axes: "matplotlib.axes.Axes", instants: Any, element: s
 
 def _sliding(axes: "matplotlib.axes.Axes", elements: Any, sliding: dict[str, np.ndarray], element: str) -> None:
     azimuth = np.degrees(np.mod(np.asarray(elements.azimuth) + np.pi, 2.0 * np.pi) - np.pi)
-    one = FOLLOWED % azimuth.shape[1]
-    both = {side: values[:, one] for side, values in sliding.items()}
+    followed = FOLLOWED % azimuth.shape[1]
+    both = {side: values[:, followed] for side, values in sliding.items()}
     unit, factor = axis_unit("m/s", float(max(np.abs(values).max() for values in both.values())))
     for side, values in both.items():
         colour = {"inner": INNER, "outer": OUTER}[side]
-        axes.plot(azimuth[:, one], factor * values, ".", color=colour, markersize=1.5, label=f"{side} race")
+        axes.plot(azimuth[:, followed], factor * values, ".", color=colour, markersize=1.5, label=f"{side} race")
     axes.set_xlim(-180.0, 180.0)
     axes.set_xticks([-180, -90, 0, 90, 180])
     axes.set_xlabel("azimuth from the load line, deg", fontsize=9)
-    title_of(axes, f"Sliding speed of {element} {one + 1}, {unit}")
+    title_of(axes, f"Sliding speed of {element} {followed + 1}, {unit}")
     grid_lines(axes)
     clear_legend(axes, markerscale=5)

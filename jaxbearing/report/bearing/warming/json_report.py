@@ -14,7 +14,7 @@ def statistics(history: WarmUpHistory) -> dict[str, Any]:
     hottest node include those between the instants."""
     instants, time = history.instants, np.asarray(history.time)
     spread = lambda values: _spread(time, values)
-    found: dict[str, Any] = {
+    numbers: dict[str, Any] = {
         "inner_speed": spread(instants.inner_speed),
         "temperatures": {name: spread(getattr(instants.temperatures, name)) for name in history.nodes},
         "oil_inlet": spread(instants.oil_inlet),
@@ -26,21 +26,21 @@ def statistics(history: WarmUpHistory) -> dict[str, Any]:
         "largest_pressure": spread(instants.largest_pressure),
     }
     if instants.oil_out is not None:
-        found["oil_out"] = spread(instants.oil_out)
+        numbers["oil_out"] = spread(instants.oil_out)
     if instants.smallest_film is not None:
-        found["smallest_film"] = spread(instants.smallest_film)
+        numbers["smallest_film"] = spread(instants.smallest_film)
     if instants.cage is not None:
-        found["cage"] = {"speed": spread(instants.cage.speed), "slip": spread(instants.cage.slip)}
+        numbers["cage"] = {"speed": spread(instants.cage.speed), "slip": spread(instants.cage.slip)}
     play, peaks = play_of(instants), history.peaks
-    hottest = max(found["temperatures"].values(), key=lambda one: one["max"])
+    hottest = max(numbers["temperatures"].values(), key=lambda node: node["max"])
     if float(peaks.highest_temperature) > hottest["max"]:
         hottest |= {"max": float(peaks.highest_temperature), "max_time": float(peaks.highest_temperature_time)}
-    load = found["largest_load"]
+    load = numbers["largest_load"]
     load |= {"max": float(peaks.largest_load), "max_time": float(peaks.largest_load_time)}
     if play is not None and peaks.least_play is not None and peaks.least_play_time is not None:
         least = {"min": float(peaks.least_play), "min_time": float(peaks.least_play_time)}
-        found[play[0]] = spread(play[1]) | least
-    return found
+        numbers[play[0]] = spread(play[1]) | least
+    return numbers
 
 
 def losses(history: WarmUpHistory) -> dict[str, Any]:

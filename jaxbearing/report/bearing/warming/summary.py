@@ -24,7 +24,7 @@ _COLUMNS = {"start": "at the start", "min": "least", "max": "largest", "end": "a
 
 def print_summary(history: WarmUpHistory, label: str, console: Console) -> None:
     """See `report.histories.print_history`."""
-    found = statistics(history)
+    numbers = statistics(history)
     steps = f"{int(history.accepted)} steps ({int(history.rejected)} more tried), {history.solver}"
     reached, good = f"{clock(float(history.time[-1]))} in {steps}", history.completed
     headline(label, "COMPLETED" if good else "NOT COMPLETED", "bold green" if good else "bold red", reached, console)
@@ -32,59 +32,59 @@ def print_summary(history: WarmUpHistory, label: str, console: Console) -> None:
         console.print(f"goes on from {clock(float(history.time[0]))}")
     if not good:
         console.print(history.failure(), style="bold red")
-    rows = list(_rows(history, found))
+    rows = list(_rows(history, numbers))
     columns = {"": [name for name, _, _ in rows]}
     for key, title in _COLUMNS.items():
         columns[title] = [text(spread[key]) for _, spread, text in rows]
     columns["largest after"] = [clock(spread["max_time"]) for _, spread, _ in rows]
     print_table(columns, [0.0] * len(rows), 0, "", console)
     energy = history.energy
-    said = (
+    balance = (
         f"{_kilo(energy.losses)} kJ of losses: {_kilo(energy.to_oil)} to the oil, {_kilo(energy.to_ambient)} to the "
         f"ambient, {_kilo(energy.stored)} stored; {float(energy.error):.1e} of it left open"
     )
-    print_line("Energy", said, console)
-    print_line("Start-up peak", peak_sentence(history, found), console)
+    print_line("Energy", balance, console)
+    print_line("Start-up peak", peak_sentence(history, numbers), console)
     if history.not_modelled:
         print_line("Not modelled", ", ".join(history.not_modelled).replace("_", " "), console)
     print_warnings(history.warnings, console)
 
 
-def peak_sentence(history: WarmUpHistory, found: dict[str, Any]) -> str:
+def peak_sentence(history: WarmUpHistory, numbers: dict[str, Any]) -> str:
     """Sentence that says when the play is smallest, the contact load largest and, if not at the start or the end, a
     node hottest, and by how much these values differ from those at the end of the run.
 
-    **Arguments:** `found`: result of `statistics` for the run.
+    **Arguments:** `numbers`: result of `statistics` for the run.
     """
-    said, name = [], next((one for one in PLAYS if one in found), None)
+    texts, name = [], next((play for play in PLAYS if play in numbers), None)
     if name is not None:
-        spread, (words, preload) = found[name], PLAYS[name]
+        spread, (words, preload) = numbers[name], PLAYS[name]
         least, depth = spread["min"], spread["end"] - spread["min"]
         value = f", {_um(least)} um{' (radial preload)' if preload and least < 0.0 else ''}" if preload else ""
         if min(depth, spread["start"] - least) < LEAST_DEPTH:
-            said.append(f"{words} is least at the {'end' if depth < LEAST_DEPTH else 'start'}{value}")
+            texts.append(f"{words} is least at the {'end' if depth < LEAST_DEPTH else 'start'}{value}")
         else:
-            said.append(
+            texts.append(
                 f"{words} is least after {clock(spread['min_time'])}{value}: {_um(depth)} um less than at the end"
             )
-    load = found["largest_load"]
+    load = numbers["largest_load"]
     most, rise = load["max"], load["max"] / load["end"] - 1.0
     newton = with_unit(most, "N")
     if min(most - load["start"], most - load["end"]) > LEAST_RISE * most:
         more = f"{100.0 * rise:.2g} % more than at the end"
-        said.append(f"the contact load is largest after {clock(load['max_time'])}, {newton}: {more}")
+        texts.append(f"the contact load is largest after {clock(load['max_time'])}, {newton}: {more}")
     elif most - load["end"] > LEAST_RISE * most:
-        said.append(f"the contact load is largest at the start, {newton}")
+        texts.append(f"the contact load is largest at the start, {newton}")
     elif most - load["start"] > LEAST_RISE * most:
-        said.append(f"the contact load is largest at the end, {newton}")
+        texts.append(f"the contact load is largest at the end, {newton}")
     else:
-        said.append(f"the largest contact load stays at {newton}")
-    name, heat = max(found["temperatures"].items(), key=lambda item: item[1]["max"])
-    more = heat["max"] - max(one["end"] for one in found["temperatures"].values())
+        texts.append(f"the largest contact load stays at {newton}")
+    name, heat = max(numbers["temperatures"].items(), key=lambda item: item[1]["max"])
+    more = heat["max"] - max(node["end"] for node in numbers["temperatures"].values())
     if min(heat["max"] - heat["start"], more) > LEAST_WARMING:
         place = f"the {name.replace('_', ' ')} is hottest after {clock(heat['max_time'])}"
-        said.append(f"{place}, {heat['max'] - ZERO_CELSIUS:.1f} degC: {more:.1f} K above the highest at the end")
-    return "; ".join(said)
+        texts.append(f"{place}, {heat['max'] - ZERO_CELSIUS:.1f} degC: {more:.1f} K above the highest at the end")
+    return "; ".join(texts)
 
 
 def _um(value: float) -> str:
@@ -92,27 +92,27 @@ def _um(value: float) -> str:
 
 
 def _rows(
-    history: WarmUpHistory, found: dict[str, Any]
+    history: WarmUpHistory, numbers: dict[str, Any]
 ) -> Iterator[tuple[str, dict[str, float], Callable[[float], str]]]:
     """Rows of the table: name with unit, statistics, and the function that turns a value into text."""
     degrees = lambda value: f"{value - ZERO_CELSIUS:.1f}"
     plain = lambda unit, significant=4: lambda value: digits(displayed(value, unit), significant)
     for name in history.nodes:
-        yield f"{name.replace('_', ' ')}, degC", found["temperatures"][name], degrees
-    if "oil_out" in found:
-        yield "oil that leaves, degC", found["oil_out"], degrees
-    yield "power loss, W", found["power_loss"]["total"], plain("W")
-    yield "heat to the oil, W", found["heat_to_oil"], plain("W")
-    yield "heat to the ambient, W", found["heat_to_ambient"], plain("W")
-    yield "heat stored, W", found["heat_stored"], plain("W")
+        yield f"{name.replace('_', ' ')}, degC", numbers["temperatures"][name], degrees
+    if "oil_out" in numbers:
+        yield "oil that leaves, degC", numbers["oil_out"], degrees
+    yield "power loss, W", numbers["power_loss"]["total"], plain("W")
+    yield "heat to the oil, W", numbers["heat_to_oil"], plain("W")
+    yield "heat to the ambient, W", numbers["heat_to_ambient"], plain("W")
+    yield "heat stored, W", numbers["heat_stored"], plain("W")
     for name, words in (("clearance", "clearance, um"), ("axial_shift", "first contact, um")):
-        if name in found:
-            yield words, found[name], _um
-    yield "largest contact load, N", found["largest_load"], plain("N")
-    if "smallest_film" in found:
-        yield "smallest film, um", found["smallest_film"], _um
-    if found["inner_speed"]["min"] != found["inner_speed"]["max"]:
-        yield "inner ring, rpm", found["inner_speed"], plain("rad/s")
+        if name in numbers:
+            yield words, numbers[name], _um
+    yield "largest contact load, N", numbers["largest_load"], plain("N")
+    if "smallest_film" in numbers:
+        yield "smallest film, um", numbers["smallest_film"], _um
+    if numbers["inner_speed"]["min"] != numbers["inner_speed"]["max"]:
+        yield "inner ring, rpm", numbers["inner_speed"], plain("rad/s")
 
 
 def _kilo(value: SupportsFloat) -> str:
