@@ -38,8 +38,8 @@ class Draft:
     def __getattr__(self, name: str) -> Any:
         info = self._model.model_fields.get(name)
         if info is None:
-            found = inspect.getattr_static(self._model, name)
-            return found.__get__(self, self._model) if inspect.isfunction(found) else getattr(self._model, name)
+            attribute = inspect.getattr_static(self._model, name)
+            return attribute.__get__(self, self._model) if inspect.isfunction(attribute) else getattr(self._model, name)
         if name in self._refused or (name not in self._raw and info.is_required()):
             raise Unreadable(name)
         if name not in self._raw:
@@ -138,11 +138,11 @@ def draft(
         if not refused:
             return table, []
     except ValidationError as error:
-        found = from_validation(error, model, file, raw).problems
-        problems = [one for one in found if one.path.partition(".")[0] not in refused]
-    said = {(one.path, one.expected) for one in problems}
+        errors = from_validation(error, model, file, raw).problems
+        problems = [problem for problem in errors if problem.path.partition(".")[0] not in refused]
+    reported = {(problem.path, problem.expected) for problem in problems}
     for path, words in Draft(model, raw, refused, nested=True).problems():
-        if (path, words["expected"]) not in said:
-            said.add((path, words["expected"]))
+        if (path, words["expected"]) not in reported:
+            reported.add((path, words["expected"]))
             problems.append(in_words(file, path, words))
     return Draft(model, raw, refused), problems
