@@ -166,7 +166,9 @@ def calibrate(
             outputs = lambda drawn, again: (
                 *(_output(calibration, drawn, label, file, as_json) for file in out or []),
                 Output(plot, lambda path: _write_plot(calibration, label, path), long=True),
-                Output(plot_posterior, lambda path: _write_posterior(calibration, drawn, again, label, path), long=True),
+                Output(
+                    plot_posterior, lambda path: _write_posterior(calibration, drawn, again, label, path), long=True
+                ),
             )
             plain = lambda: _print(calibration, label, inputs.notes, ranked, None, None, {}, as_json)
             files = outputs(None, None) if calibration.converged else ()
@@ -292,17 +294,19 @@ def _predicted(
     return predicted
 
 
-def _write_posterior(calibration: "Calibration", drawn: Any, again: "Predictive | None", label: str, path: Path) -> None:
+def _write_posterior(
+    calibration: "Calibration", drawn: Any, again: "Predictive | None", label: str, path: Path
+) -> None:
     write_posterior(drawn, again, {field.path: field.unit for field in calibration.fields}, label, path)
 
 
 def _output(calibration: "Calibration", drawn: "Posterior | None", label: str, file: Path, as_json: bool) -> Output:
     """A file of `--out`: by its suffix the scene, or the fields with what they share."""
     if file.suffix.lower() == OUT[0]:
-        message = "" if as_json else f"wrote {file}: the scene with the calibrated values"
-        return Output(file, lambda path: _write_scene(calibration, path), message)
-    message = "" if as_json else f"wrote {file}: the fields with what they share; jaxbearing tolerances --posterior {file}"
-    return Output(file, lambda path: _write_joint(calibration, drawn, label, path), message)
+        text = "" if as_json else f"wrote {file}: the scene with the calibrated values"
+        return Output(file, lambda path: _write_scene(calibration, path), text)
+    text = "" if as_json else f"wrote {file}: the fields with what they share; jaxbearing tolerances --posterior {file}"
+    return Output(file, lambda path: _write_joint(calibration, drawn, label, path), text)
 
 
 def _write_joint(calibration: "Calibration", drawn: "Posterior | None", label: str, out: Path) -> None:
@@ -339,7 +343,9 @@ def _print(
     from ..calibration.report import calibration_to_dict, print_calibration
 
     if as_json:
-        typer.echo(json.dumps(calibration_to_dict(calibration, notes, ranked, drawn, predicted, again), allow_nan=False))
+        typer.echo(
+            json.dumps(calibration_to_dict(calibration, notes, ranked, drawn, predicted, again), allow_nan=False)
+        )
     else:
         print_calibration(calibration, label, notes, ranked, drawn, predicted, console(), again)
 

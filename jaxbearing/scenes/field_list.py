@@ -85,7 +85,9 @@ def _expected(model: type[BaseModel], name: str, annotation: Any, unit: str) -> 
         try:
             reader.validate_python(probe)
         except ValidationError as error:
-            texts = [detail.get("ctx", {}).get("expected") or _PLAIN.get(detail["type"], "") for detail in error.errors()]
+            texts = [
+                detail.get("ctx", {}).get("expected") or _PLAIN.get(detail["type"], "") for detail in error.errors()
+            ]
             words = dict.fromkeys(
                 " ".join(text.split()) for text in texts if text and "a table with a 'law'" not in text
             )

@@ -135,7 +135,11 @@ def describe_at(raw: Mapping[str, object], path: str) -> str:
 
 def _causes(details: list[Any]) -> list[Any]:
     """The problems without those that follow from a wrong `law`, such as parameters of another law."""
-    wrong = {tuple(detail["loc"][:-1]) for detail in details if detail["type"] == "literal_error" and detail["loc"][-1] == "law"}
+    wrong = {
+        tuple(detail["loc"][:-1])
+        for detail in details
+        if detail["type"] == "literal_error" and detail["loc"][-1] == "law"
+    }
     return [detail for detail in details if detail["loc"][-1:] == ("law",) or tuple(detail["loc"][:-1]) not in wrong]
 
 

@@ -290,7 +290,9 @@ def _build(
     except ValueError as error:
         reported = [problem.path for problem in problems]
         # an unknown name may be meant for what its table lacks
-        unsure = {problem.path.rpartition(".")[0] for problem in problems if problem.found.startswith("the unknown name")}
+        unsure = {
+            problem.path.rpartition(".")[0] for problem in problems if problem.found.startswith("the unknown name")
+        }
         # the classes repeat some checks of the tables: a problem that is already known is not reported twice
         for refusal in from_class(error, raw, origin).problems:
             known = any(refusal.path and _related(refusal.path, path) for path in reported)

@@ -58,7 +58,9 @@ def type_of(field: Any) -> Any:
         return Annotated[tuple[float, ...], units.several_note(metadata["each"], metadata["unit"])]
     if "choices" in metadata:
         words: Any = Literal[metadata["choices"]]
-        return Annotated[words, BeforeValidator(metadata["also"]), metadata["also_words"]] if "also" in metadata else words
+        return (
+            Annotated[words, BeforeValidator(metadata["also"]), metadata["also_words"]] if "also" in metadata else words
+        )
     if "count" in metadata:
         return Annotated[int, units.count_note(*metadata["count"])]
     if "switch" in metadata:

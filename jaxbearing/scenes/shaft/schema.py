@@ -210,7 +210,9 @@ def _mixed_set(kinds: tuple[str, ...]) -> type[Table]:
 def model_of_scene(scene: ShaftSystem) -> type[ShaftTable]:
     """The schema of the file of a shaft."""
     bearings = tuple((bearing.name, bearing.scene.kind) for bearing in scene.bearings)
-    kinds = lambda matched: tuple(each.kind for each in matched.scene) if isinstance(matched.scene, tuple) else matched.scene.kind
+    kinds = lambda matched: (
+        tuple(each.kind for each in matched.scene) if isinstance(matched.scene, tuple) else matched.scene.kind
+    )
     sets = tuple((matched.name, kinds(matched)) for matched in scene.sets)
     forces = tuple((force.name, force.kind) for force in scene.forces)
     return shaft_model(bearings, sets, forces, tuple(str(i + 1) for i in range(len(scene.shaft.sections))))

@@ -54,7 +54,8 @@ def _square(value: Any, wanted: str, fits: Callable[[int], bool]) -> tuple[tuple
     if not square or not fits(len(value)):
         raise units.refusal(wanted, describe(value))
     return tuple(
-        tuple(_entry(entry, row % 5, column % 5) for column, entry in enumerate(values)) for row, values in enumerate(value)
+        tuple(_entry(entry, row % 5, column % 5) for column, entry in enumerate(values))
+        for row, values in enumerate(value)
     )
 
 

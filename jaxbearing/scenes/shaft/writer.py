@@ -39,7 +39,9 @@ def shaft_tables(scene: ShaftSystem) -> Rows:
     tables["thermal"] = None if scene.thermal is None else rows(ShaftThermalTable, scene.thermal)
     tables["set"] = [_set(matched) for matched in scene.sets]
     tables["bearing"] = [_mounted(bearing) for bearing in scene.bearings]
-    tables["force"] = [{"name": force.name, "kind": force.kind} | rows(FORCE_TABLES[force.kind], force) for force in scene.forces]
+    tables["force"] = [
+        {"name": force.name, "kind": force.kind} | rows(FORCE_TABLES[force.kind], force) for force in scene.forces
+    ]
     tables["state"] = [_state(state, scene) for state in scene.states]
     tables["life"] = _life(scene)
     return {name: table for name, table in tables.items() if table is not None and table != []}
@@ -84,7 +86,10 @@ def _mounted(mounted: MountedBearing) -> Rows:
 
 def _set(matched: MatchedSet) -> Rows:
     entries = {"name": matched.name, "picture": matched.picture} | rows(SetMountTable, matched)
-    entries |= {"distance": _lengths(matched.distance), "mismatch": None if matched.mismatch is None else _lengths(matched.mismatch)}
+    entries |= {
+        "distance": _lengths(matched.distance),
+        "mismatch": None if matched.mismatch is None else _lengths(matched.mismatch),
+    }
     entries["preload"] = None if matched.preload is None else rows(PreloadTable, matched.preload)
     entries["support"] = _support(matched.support)
     scene = _standing_set(matched)
