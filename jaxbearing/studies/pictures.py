@@ -57,7 +57,7 @@ def study_page(study: PowerLossStudy, title: str) -> "matplotlib.figure.Figure":
 
 def _of_fields(study: PowerLossStudy, count: int) -> "dict[str, xr.Dataset]":
     """Panels over so many fields."""
-    return {name: one for name, one in study.panels.items() if len(_fields(one)) == count}
+    return {name: panel for name, panel in study.panels.items() if len(_fields(panel)) == count}
 
 
 def _fields(panel: "xr.Dataset") -> list[str]:
@@ -123,8 +123,8 @@ def _draw(
 def _title(panel: "xr.Dataset") -> str:
     """Title of a panel, without what the heading of its group says."""
     words = str(panel.attrs["title"])
-    for said in ("Power loss ", "by location ", "total "):
-        words = words.removeprefix(said)
+    for prefix in ("Power loss ", "by location ", "total "):
+        words = words.removeprefix(prefix)
     return words[:1].upper() + words[1:]
 
 
