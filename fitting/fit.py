@@ -72,11 +72,11 @@ def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None =
     estimate = outcome.estimate
     if not outcome.ended:
         estimate = estimate._replace(converged=jnp.zeros_like(estimate.converged))
-    touched = "" if search.scene is scene else _touched(search)
+    touched = "" if search.scene is scene else _tangent_note(search)
     return _result(search, outcome.problem, outcome.u, estimate, outcome.held, model, touched)
 
 
-def _touched(search: Search) -> str:
+def _tangent_note(search: Search) -> str:
     pressure, temperature = 1e-9 * search.centre.pressure, 1.0 / search.centre.inverse_temperature
     return (
         "The first values are those of the exponential law that touches the law of the scene's oil in the middle of "

@@ -121,11 +121,11 @@ def readings(text: str) -> Iterator[Reading]:
     own = next(filter(None, prefix.groups())) if prefix else ""
     spaced = _STEEP.sub(r"313\1 D", spaced[prefix.end() :] if prefix else spaced)
     for number in dict.fromkeys((spaced, spaced.replace(" ", ""))):
-        for reading in _of_number(number):
+        for reading in _number_readings(number):
             yield reading._replace(rest=reading.rest.strip(), prefix=own)
 
 
-def _of_number(text: str) -> Iterator[Reading]:
+def _number_readings(text: str) -> Iterator[Reading]:
     for family, types, series in (
         ("cylindrical", "|".join(CYLINDRICAL_TYPES), "|".join(CYLINDRICAL)),
         ("cylindrical_full", r"NCF|NJG|SL ?18", "18|29|30|22|23"),
@@ -144,10 +144,10 @@ def _of_number(text: str) -> Iterator[Reading]:
         yield Reading("tapered", "", match[1], match[2], match[3])
     for family, every in (("deep_groove", DEEP_GROOVE), ("angular_contact", (*ANGULAR_CONTACT, *DOUBLE_ROW))):
         for series in sorted(every, key=len, reverse=True):
-            yield from _of_balls(text, family, series)
+            yield from _ball_readings(text, family, series)
 
 
-def _of_balls(text: str, family: str, series: str) -> Iterator[Reading]:
+def _ball_readings(text: str, family: str, series: str) -> Iterator[Reading]:
     codes = [rf"\d\d{_END}", r"/\d+", rf"\d{_END}"] if family == "deep_groove" else [rf"\d\d{_END}"]
     # a slash precedes bores of 22, 28 and 32 mm and from 500 mm, and in series of three digits those below 10 mm
     for code in codes[:2] if len(series) == 3 else codes:

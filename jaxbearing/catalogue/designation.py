@@ -127,7 +127,7 @@ def parse(text: str) -> Designation:
     cup, usual, spread = sizes[3:6] if kind == "tapered" else (None, None, None)
     if kind == "tapered" and marks.letters == "B":
         usual, spread = STEEP
-    clearance, notes = _noted(kind, marks)
+    clearance, notes = _clearance_and_notes(kind, marks)
     numbers = (bore, sizes[0], sizes[1], marks.angle)
     ceramic = reading.prefix.startswith("HC") or any(mark == "ceramic" for mark, _ in marks.marks)
     return Designation(
@@ -203,7 +203,7 @@ def _fits(kind: str, reading: Reading) -> bool:
     return kind == reading.family or (kind == "spindle" and reading.family == "angular_contact")
 
 
-def _noted(kind: str, marks: Suffixes) -> tuple[str, tuple[str, ...]]:
+def _clearance_and_notes(kind: str, marks: Suffixes) -> tuple[str, tuple[str, ...]]:
     """Clearance class, and notes about the other suffixes."""
     clearance, notes = "CN", []
     if marks.reinforced:

@@ -42,16 +42,16 @@ def bad_input(notes: list[str] | None = None) -> Iterator[None]:
             if not issubclass(warning.category, notable):
                 warnings.warn_explicit(warning.message, warning.category, warning.filename, warning.lineno)
             elif str(warning.message) not in texts:
-                texts.append(_noted(warning))
+                texts.append(_note(warning))
     except SceneError as error:
-        refuse(str(error) + _of_a_bearing(error))
+        refuse(str(error) + _new_hint(error))
     for text in texts if notes is None else ():
         typer.echo(f"note: {text}", err=True)
     if notes is not None:
         notes += texts
 
 
-def _noted(warning: warnings.WarningMessage) -> str:
+def _note(warning: warnings.WarningMessage) -> str:
     """The text of a warning as a note, in the group that it has."""
     from ..scenes.errors import PresetUsedWarning
 
@@ -62,7 +62,7 @@ def _noted(warning: warnings.WarningMessage) -> str:
     return Information(warning.message)
 
 
-def _of_a_bearing(error: "SceneError") -> str:
+def _new_hint(error: "SceneError") -> str:
     """The command that writes a scene, if what should be a file is the designation of a standard bearing."""
     from ..scenes.errors import SceneError
 

@@ -81,7 +81,7 @@ def compared(scene: AbstractBearing, solution: Solution, catalogue: Catalogue | 
     catalogue = Catalogue() if catalogue is None else catalogue
     known = known_of(scene, solution, catalogue)
     physical = _physical(solution, known.values["speed"])
-    laws = tuple(_beside(law, physical, known) for law in laws_of(known))
+    laws = tuple(_with_ratio(law, physical, known) for law in laws_of(known))
     comparison = Comparison(physical, laws, {name: known.values.get(name) for name in _OF_DUTY}, ())
     notes = [*contradictions(known, catalogue, scene.kind), *_notes(comparison)]
     return dataclasses.replace(comparison, notes=tuple(notes))
@@ -107,7 +107,7 @@ def _physical(solution: Solution, speed: float) -> Physical:
     return Physical(power / speed, power, parts, watts)
 
 
-def _beside(law: Law, physical: Physical, known: Known) -> Law:
+def _with_ratio(law: Law, physical: Physical, known: Known) -> Law:
     if law.total is None:
         return law
     ratio = law.total / physical.total if physical.total else None

@@ -88,7 +88,7 @@ def _uncovered(law: str, family: str, series: str, table: Mapping[tuple[str, ...
     return Law(law, None, {}, missing=(words,))
 
 
-def _without(law: str, read: Reader) -> Law:
+def _incomplete(law: str, read: Reader) -> Law:
     words = tuple(f"give {text}" for text in dict.fromkeys(read.missing))
     return Law(law, None, {}, missing=words)
 
@@ -131,12 +131,12 @@ def _skf(known: Known) -> Law:
         constants = None if None in (family, series) else _constants(_TABLES[family], series)
     speed, viscosity, dm = read("speed"), read("viscosity"), read("mean_diameter")
     radial, axial = read("radial"), read("axial")
-    further = _further(family, axial, read)
+    further = _further_input(family, axial, read)
     boundary, film, supply = (read(name) for name in ("boundary_friction", "film_friction", "starvation_constant"))
     if family is not None and series is not None and constants is None:
         return _uncovered("skf", family, series, _TABLES[family])
     if read.missing or family is None or constants is None:
-        return _without("skf", read)
+        return _incomplete("skf", read)
     size = GEOMETRY["angular_contact_double" if _is_double(family, series) else family]
     starvation, missing, flags = 1.0, [], list(_range_flags(known, read, family))
     if read("lubrication") == "grease":
@@ -144,7 +144,7 @@ def _skf(known: Known) -> Law:
     if supply > 0.0:
         bore, outside = read("bore"), read("outside_diameter")
         if bore is None or outside is None:
-            return _without("skf", read)
+            return _incomplete("skf", read)
         starvation = skf.starvation_factor(speed, viscosity, bore, outside, supply, size)
     rolling, sliding = _variables(family, constants, dm, radial, axial, speed, further)
     friction = skf.sliding_friction(speed, viscosity, dm, boundary, film)
@@ -162,7 +162,7 @@ def _is_double(family: str | None, series: str | None) -> bool:
     return family == "angular_contact" and series in ("double row", "32A", "33A", "32B", "33B")
 
 
-def _further(family: str | None, axial: float, read: Reader) -> float | None:
+def _further_input(family: str | None, axial: float, read: Reader) -> float | None:
     """The further input of a family: C0 of deep groove bearings under axial load, Y of tapered ones, else `None`."""
     if family == "deep_groove" and axial > 0.0:
         return read("static_capacity")
@@ -249,12 +249,12 @@ def _palmgren(known: Known, law: str) -> Law:
     if constants is None and family is not None and series is not None:
         return _uncovered(law, family, series, table)
     if read.missing or family is None or series is None:
-        return _without(law, read)
+        return _incomplete(law, read)
     flags = list(_common_flags(known, read, family))
     moments: Callable[..., tuple[float, float, float]] = _ina if law == "palmgren_ina" else _timken
     f0, f1, load = moments(read, family, series, constants, flags)
     if read.missing:
-        return _without(law, read)
+        return _incomplete(law, read)
     parts = {
         "viscous": float(palmgren.viscous_moment(f0, speed, viscosity, dm)),
         "load": float(palmgren.load_moment(f1, load, dm)),
@@ -326,7 +326,7 @@ def _timken_tapered(known: Known) -> Law:
     g1, factor, speed, viscosity = read("timken_g1"), read("timken_k"), read("speed"), read("dynamic_viscosity")
     radial, axial = read("radial"), read("axial")
     if read.missing:
-        return _without(law, read)
+        return _incomplete(law, read)
     ratio = factor * axial / radial if radial > 0.0 else np.inf
     if ratio > 2.0:
         equivalent = axial

@@ -32,7 +32,7 @@ class Draft:
     def __init__(self, model: type[Table], raw: Mapping[str, Any], refused: Collection[str] = (), nested: bool = False):
         self._model, self._raw, self._nested = model, raw, nested
         absent = [name for name in model.model_fields if name not in raw]
-        near = [_meant(str(name), model, absent) for name in raw if name not in model.model_fields]
+        near = [_meant_field(str(name), model, absent) for name in raw if name not in model.model_fields]
         self._refused = {*refused, *(absent if "" in near else near)}
 
     def __getattr__(self, name: str) -> Any:
@@ -76,7 +76,7 @@ class Draft:
                 yield from value.problems(f"{inside}{name}.")
 
 
-def _meant(name: str, model: type[Table], absent: Collection[str]) -> str:
+def _meant_field(name: str, model: type[Table], absent: Collection[str]) -> str:
     """The field that an unknown name may be meant for: the inner table that has a field of this name, or the nearest
     absent field; "" if there is none."""
     tables = ((field, plain_table_at(model, field)) for field in model.model_fields)

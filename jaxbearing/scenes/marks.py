@@ -74,12 +74,12 @@ def marks_of(source: str | Path, overrides: Overrides | None = None) -> dict[str
     if is_shaft(tables):
         tables = beside(named(tables, label), Path(source).parent)
         for keys in each_bearing(tables):
-            marks |= _of_bearing(at(tables, keys), ".".join(keys))
+            marks |= _bearing_marks(at(tables, keys), ".".join(keys))
     replaced = as_texts(overrides)
     return {path: mark for path, mark in marks.items() if not any(_within(path, other) for other in replaced)}
 
 
-def _of_bearing(entry: Any, above: str) -> dict[str, Mark]:
+def _bearing_marks(entry: Any, above: str) -> dict[str, Mark]:
     """Marks in the scene file of a bearing on a shaft, for the values that the shaft and the entry do not replace."""
     scene = entry.get(SCENE) if isinstance(entry, Mapping) else None
     text = _text(scene) if isinstance(scene, str) else None

@@ -200,7 +200,7 @@ def filling(tables: Mapping[str, object], removed: tuple[str, ...], model: type[
     left_out: list[str] = []
     filled, added = dict(tables), {}
     for table, fields in BEST[kind].items():
-        reason = _without(kind, table, filled, removed)
+        reason = _absence_reason(kind, table, filled, removed)
         if reason is not None:
             if filled.get(table) == NONE:
                 del filled[table]
@@ -209,7 +209,7 @@ def filling(tables: Mapping[str, object], removed: tuple[str, ...], model: type[
         own = filled.get(table, {})
         if not isinstance(own, Mapping):
             continue  # the validation refuses it
-        out = (*removed, *_not_for(kind, table, filled, removed, left_out))
+        out = (*removed, *_unfit_fields(kind, table, filled, removed, left_out))
         supplied = _fields(table, fields, own, known, out, model)
         filled[table] = {name: value for name, value in own.items() if value != NONE} | supplied
         added |= {f"{table}.{name}": value for name, value in supplied.items()}
@@ -252,7 +252,7 @@ def _with_means(tables: Mapping[str, object], model: type[BaseModel], file: str)
     return tables
 
 
-def _without(kind: str, table: str, filled: Mapping[str, Any], removed: tuple[str, ...]) -> str | None:
+def _absence_reason(kind: str, table: str, filled: Mapping[str, Any], removed: tuple[str, ...]) -> str | None:
     """The reason why a table is left out, in words; "" if the scene itself leaves it out; `None` if it is kept."""
     if table in removed or filled.get(table) == NONE:
         return ""
@@ -267,7 +267,7 @@ def _without(kind: str, table: str, filled: Mapping[str, Any], removed: tuple[st
     return None
 
 
-def _not_for(
+def _unfit_fields(
     kind: str, table: str, filled: Mapping[str, Any], removed: tuple[str, ...], left_out: list[str]
 ) -> tuple[str, ...]:
     """Fields of the preset that do not fit the rest of the scene; the reasons are added to `left_out`."""

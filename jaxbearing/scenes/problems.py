@@ -41,7 +41,7 @@ def from_validation(
     for detail in details:
         path, words = _path_and_words(detail, model)
         if detail["type"] == "extra_forbidden":
-            suggestion = _absent_meant(detail["loc"], model, absent, raw or {})
+            suggestion = _absent_field(detail["loc"], model, absent, raw or {})
             words = {**words, "suggestion": suggestion or words.get("suggestion", "")}
         problems.append(in_words(file, path, words))
     meant = {meant_by(problem) for problem in problems if problem.suggestion}
@@ -67,7 +67,7 @@ SLIP = 0.85
 """Similarity (difflib) of two names above which one is taken as a misspelling of the other."""
 
 
-def _absent_meant(
+def _absent_field(
     location: Sequence[int | str],
     model: type[BaseModel],
     absent: Sequence[Sequence[int | str]],
@@ -84,7 +84,7 @@ def _absent_meant(
     valid = [field for field in names if field not in present]
     needed = [str(loc[-1]) for loc in absent if tuple(loc[:-1]) == inside]
     unknown = [field for field in present if field not in names]
-    if not inside and _inside(name, model, names_at(model, ()).names):
+    if not inside and _path_inside(name, model, names_at(model, ()).names):
         return ""
     only = needed[0] if len(needed) == len(unknown) == 1 else ""
     # a misspelling or a catalogue's word means its field even if the field is given already, as with overrides
@@ -210,11 +210,13 @@ def unknown_name(location: Sequence[int | str], model: type[BaseModel]) -> dict[
     return {
         "found": f"the unknown name {shortened(repr(name))}",
         "expected": one_of(owner.names) if owner.names else "a value, not a table",
-        "suggestion": _inside(name, model, owner.names) or usual_word(name, owner.names) or nearest(name, owner.names),
+        "suggestion": _path_inside(name, model, owner.names)
+        or usual_word(name, owner.names)
+        or nearest(name, owner.names),
     }
 
 
-def _inside(name: str, model: type[BaseModel], tables: Iterable[str]) -> str:
+def _path_inside(name: str, model: type[BaseModel], tables: Iterable[str]) -> str:
     """The dotted path of the field with this name, if exactly one of these tables has it; otherwise ""."""
     paths = [f"{table}.{name}" for table in tables if name in names_at(model, (table,)).names]
     return paths[0] if len(paths) == 1 else ""

@@ -386,7 +386,7 @@ def _read_file(source: str | Path) -> tuple[str, dict[str, object]]:
         text = builtin_text(source)
     else:
         text = read_text(source, f"a scene file, or a built-in scene ({', '.join(builtin_names())})", builtin_names())
-    return label, _beside(parse_toml(text, label, f"a scene that begins with {_KIND_EXAMPLE}"), Path(source).parent)
+    return label, _relocated(parse_toml(text, label, f"a scene that begins with {_KIND_EXAMPLE}"), Path(source).parent)
 
 
 _OF_OIL = (("simulation", "oil_inlet_table"), ("simulation", "oil_flow_table"))
@@ -394,7 +394,7 @@ _FILES = (("oil",), ("simulation", "speed_table"), ("simulation", "load_table"),
 """Tables whose field `file` names another file."""
 
 
-def _beside(mapping: dict[str, object], folder: Path) -> dict[str, object]:
+def _relocated(mapping: dict[str, object], folder: Path) -> dict[str, object]:
     """The tables of a file in `folder`, with the paths of other files made relative to the working folder."""
     for tables in _FILES:
         mapping = _moved(mapping, tables, folder)

@@ -60,7 +60,7 @@ def scene_text(scene: AbstractScene, label: str, header: Iterable[str]) -> str:
         if problems:
             raise SceneError.of_all(problems[:_MOST])
         scene = plain_scene(scene)
-        text = _headed(header) + toml_text(tables_of(scene))
+        text = _header(header) + toml_text(tables_of(scene))
         _require_readable(text)
         read = scene_from_tables(parse_toml(text, label, "a scene"), label)
         path, value, other = next(differences(scene, read), ("", None, None))
@@ -72,7 +72,7 @@ def scene_text(scene: AbstractScene, label: str, header: Iterable[str]) -> str:
     return text
 
 
-def _headed(lines: Iterable[str]) -> str:
+def _header(lines: Iterable[str]) -> str:
     from .. import __version__
 
     note = f"Written by jaxbearing {__version__}. Parts that are not here are not modelled, or follow from the others."

@@ -65,7 +65,7 @@ def named(mapping: Mapping[str, Any], label: str) -> dict[str, Any]:
     shaft = tables.get("shaft")
     if isinstance(shaft, Mapping) and isinstance(shaft.get(SECTIONS), list):
         tables["shaft"] = {**shaft, SECTIONS: {str(i + 1): section for i, section in enumerate(shaft[SECTIONS])}}
-    problems += _twice(tables, label)
+    problems += _shared_names(tables, label)
     if problems:
         raise SceneError.of_all(problems)
     return tables
@@ -114,7 +114,7 @@ def _default_name(entry: Mapping[str, object], table: str, taken: Mapping[str, o
     return next(name for i in range(1, len(taken) + 2) if (name := base if i == 1 else f"{base}_{i}") not in taken)
 
 
-def _twice(tables: Mapping[str, Any], label: str) -> Iterator[SceneError]:
+def _shared_names(tables: Mapping[str, Any], label: str) -> Iterator[SceneError]:
     """Problems with names that a bearing and a set share; results need different names."""
     bearings, sets = (tables.get(table) for table in ("bearing", "set"))
     if isinstance(bearings, Mapping) and isinstance(sets, Mapping):
