@@ -64,9 +64,9 @@ def cross_validated_rms(result: FitResult) -> float | None:
     rheology = result.oil.rheology
     assert isinstance(rheology, ExponentialRheology)
     others = curve[None, :] != np.arange(len(result.measurements.curve_names))[:, None]
-    given = (not free[0], not free[3])
+    held = (not free[0], not free[3])
     for kept in others:
-        if any(free[i] for i in frozen_by_rule(search.pressure[kept], search.temperature[kept], given)):
+        if any(free[i] for i in frozen_by_rule(search.pressure[kept], search.temperature[kept], held)):
             return None
     problem = search.problem(free, {}, np.where(free, natural(rheology) + DISPLACED, natural(rheology)))
     without = search.weight(others.astype(float))

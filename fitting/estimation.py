@@ -125,12 +125,12 @@ def estimate(problem: AbstractProblem, u: Float[Array, " parameter"], method: st
         columns = jacobian(problem, u)
         steepest = jnp.linalg.eigvalsh(columns.T @ columns)[-1]
         solver = _Descent(1.0 / jnp.where(steepest > 0, steepest, 1.0), tolerance)
-    found = optx.minimise(half_square, solver, u, problem, max_steps=MAX_STEPS[method], throw=False)
-    value = half_square(found.value, problem)
+    minimum = optx.minimise(half_square, solver, u, problem, max_steps=MAX_STEPS[method], throw=False)
+    value = half_square(minimum.value, problem)
     # at a minimum exact to round-off no step is accepted any more, and the solver goes on to `MAX_STEPS`
-    converged = (found.result == optx.RESULTS.successful) | _stationary(problem, found.value)
+    converged = (minimum.result == optx.RESULTS.successful) | _stationary(problem, minimum.value)
     converged = converged & jnp.isfinite(value)
-    return Estimate(found.value, value, converged, jnp.asarray(found.stats["num_steps"]))
+    return Estimate(minimum.value, value, converged, jnp.asarray(minimum.stats["num_steps"]))
 
 
 def _stationary(problem: AbstractProblem, u: Float[Array, " parameter"]) -> Bool[Array, ""]:
@@ -143,13 +143,13 @@ def _stationary(problem: AbstractProblem, u: Float[Array, " parameter"]) -> Bool
 def estimates(problem: AbstractProblem, starts: Float[Array, "start parameter"], method: str) -> Estimate:
     """Optimisations from several starts in one batch; each uses the `column_scales` at its own start."""
 
-    def one(u):
+    def optimised(u):
         scales = column_scales(problem, u)
         scaled = eqx.tree_at(lambda p: p.scales, problem, scales)
-        found = estimate(scaled, u * scales / problem.scales, method)
-        return found._replace(u=found.u * problem.scales / scales)
+        end = estimate(scaled, u * scales / problem.scales, method)
+        return end._replace(u=end.u * problem.scales / scales)
 
-    return jax.vmap(one)(starts)
+    return jax.vmap(optimised)(starts)
 
 
 estimate_from = KeptProgram(estimates, quick=False)
@@ -161,14 +161,14 @@ def _held_out(
 ) -> tuple[Float[Array, "case point"], Bool[Array, " case"]]:
     """Predictions at all points by one optimisation for each row of weights, from u = 0, and whether each converged."""
 
-    def one(weight):
+    def prediction(weight):
         weighted = eqx.tree_at(lambda p: p.weight, problem, weight)
         u = jnp.zeros_like(problem.base)
         scaled = eqx.tree_at(lambda p: p.scales, weighted, column_scales(weighted, u))
-        found = estimate(scaled, u, method)
-        return scaled.predicted(found.u), found.converged
+        end = estimate(scaled, u, method)
+        return scaled.predicted(end.u), end.converged
 
-    return jax.vmap(one)(weights)
+    return jax.vmap(prediction)(weights)
 
 
 held_out = KeptProgram(_held_out, quick=False)

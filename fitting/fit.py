@@ -68,15 +68,15 @@ def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None =
     if viscous and modulus and not search.elastic_part_shows(free):
         free[modulus] = False
         reasons |= dict.fromkeys(GROUPS[0], viscous)
-    found = settled(search, Held(free, reasons, {}))
-    estimate = found.estimate
-    if not found.ended:
+    outcome = settled(search, Held(free, reasons, {}))
+    estimate = outcome.estimate
+    if not outcome.ended:
         estimate = estimate._replace(converged=jnp.zeros_like(estimate.converged))
-    touched = "" if search.scene is scene else _touched(search)
-    return _result(search, found.problem, found.u, estimate, found.held, model, touched)
+    touched = "" if search.scene is scene else _tangent_note(search)
+    return _result(search, outcome.problem, outcome.u, estimate, outcome.held, model, touched)
 
 
-def _touched(search: Search) -> str:
+def _tangent_note(search: Search) -> str:
     pressure, temperature = 1e-9 * search.centre.pressure, 1.0 / search.centre.inverse_temperature
     return (
         "The first values are those of the exponential law that touches the law of the scene's oil in the middle of "
@@ -147,8 +147,8 @@ def _result(
     reason = ""
     undetermined = not fitted and bool(np.all(np.isfinite(predicted)))
     if undetermined:
-        said = "; ".join(in_words(i, why).rstrip(".") for i, why in sorted(judged.items()))
-        reason = f"the {search.count} points cannot tell any parameter ({said})"
+        text = "; ".join(in_words(i, why).rstrip(".") for i, why in sorted(judged.items()))
+        reason = f"the {search.count} points cannot tell any parameter ({text})"
     elif not np.all(np.isfinite(predicted)):
         reason = "the model has no finite value at the end of the search"
     elif missed_share(search.measurements, difference, outlier) > NOTHING:
@@ -188,15 +188,15 @@ def _result(
 def _parameters(
     search: Search, coordinates: np.ndarray, spread: Spread, held: Held, blind: np.ndarray, why_none: str
 ) -> dict[str, Parameter]:
-    values, found = values_of(coordinates), {}
+    values, parameters = values_of(coordinates), {}
     for index, name in enumerate(NAMES):
         deviation = np.sqrt(spread.covariance[index, index])
         half = spread.quantile * deviation
         if not held.free[index] or blind[index] or index in held.reasons or why_none or not np.isfinite(half):
             reason = held.reasons.get(index, why_none if held.free[index] else "held at the scene's value")
-            found[name] = Parameter(float(values[index]), None, None, None, not bool(held.free[index]), reason)
+            parameters[name] = Parameter(float(values[index]), None, None, None, not bool(held.free[index]), reason)
             continue
         low, high = values_of(coordinates - half)[index], values_of(coordinates + half)[index]
         error = deviation * (values[index] if POSITIVE[index] else SCALES[index])
-        found[name] = Parameter(float(values[index]), float(error), float(low), float(high), False)
-    return found
+        parameters[name] = Parameter(float(values[index]), float(error), float(low), float(high), False)
+    return parameters

@@ -143,5 +143,5 @@ def _revised(
         inward = 1.0 if at == low[index] else -1.0
         if inward * downhill[index] > SLACK * np.linalg.norm(slopes[:, index]) * np.linalg.norm(residual):
             return held.released(index)
-    found = search.undetermined(problem, u, held)
-    return None if found is None else held.without(*found)
+    undetermined = search.undetermined(problem, u, held)
+    return None if undetermined is None else held.without(*undetermined)

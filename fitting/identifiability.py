@@ -51,33 +51,33 @@ def elastic_conditions(pressure: np.ndarray, temperature: np.ndarray, deborah: n
 
 def implausible(modulus: float, stress: float) -> list[str]:
     """Sentences where shear modulus or stress at the centre of the data, Pa, are not those of an oil under pressure."""
-    said = []
+    sentences = []
     low, high = OIL_MODULUS
     if not low <= modulus <= high:
-        said.append(
+        sentences.append(
             f"The shear modulus at the middle of the data, {modulus:.3g} Pa, is not that of an oil under pressure (0.1 "
             "to 1 GPa): it stands for something else, as the compliance of bodies or machine, or contact of asperities."
         )
     low, high = OIL_STRESS
     if not low <= stress <= high:
-        said.append(
+        sentences.append(
             f"The characteristic stress at the middle of the data, {stress:.3g} Pa, is not that of an oil under "
             "pressure (1 to 100 MPa)."
         )
-    return said
+    return sentences
 
 
-def frozen_by_rule(pressure: np.ndarray, temperature: np.ndarray, given: tuple[bool, bool]) -> dict[int, str]:
+def frozen_by_rule(pressure: np.ndarray, temperature: np.ndarray, held: tuple[bool, bool]) -> dict[int, str]:
     """Reasons, known before any fit, why the data do not determine a parameter, by index of the parameter.
 
-    **Arguments:** mean pressure, Pa, and temperature, K, of the points; `given`: whether the user holds G0, and tau0.
+    **Arguments:** mean pressure, Pa, and temperature, K, of the points; `held`: whether the user holds G0, and tau0.
     With a held value, data at a single pressure determine the pressure coefficient if the temperature varies, and data
     at a single temperature the temperature coefficient if the pressure varies.
     """
     reasons: dict[int, str] = {}
     one_pressure = np.ptp(pressure) < SAME_PRESSURE * np.mean(pressure)
     one_temperature = np.ptp(temperature) < SAME_TEMPERATURE
-    for group, value_given in zip(GROUPS, given, strict=True):
+    for group, value_given in zip(GROUPS, held, strict=True):
         if one_pressure and not (value_given and not one_temperature):
             reasons[group[1]] = "one pressure only"
         if one_temperature and not (value_given and not one_pressure):

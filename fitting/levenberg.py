@@ -119,8 +119,8 @@ def trial(state: State) -> Step:
     zero = jnp.zeros_like(upper)
     # a state at its minimum has no step to search for, and its bracket is empty
     start = (jnp.where(limited, 1e-3 * upper, 0.0), zero, jnp.where(limited, upper, 1.0))
-    found, *_ = jax.lax.fori_loop(0, SECULAR_STEPS, better, start)
-    shift = jnp.where(limited, jnp.maximum(found, 0.0), 0.0)
+    root, *_ = jax.lax.fori_loop(0, SECULAR_STEPS, better, start)
+    shift = jnp.where(limited, jnp.maximum(root, 0.0), 0.0)
     inner = -jnp.where(seen, along / (safe + shift), 0.0)
     length = jnp.linalg.norm(inner)
     shorter = jnp.where(limited, state.radius / jnp.where(length > 0, length, 1.0), 1.0)
@@ -162,7 +162,7 @@ def judged(
     converged = _at_minimum(new, offset)
     lost = radius <= SMALLEST_RADIUS * state.first_radius
     new = new._replace(done=converged | lost, converged=converged)
-    return jax.tree.map(lambda old, one: jnp.where(state.done, old, one), state, new)
+    return jax.tree.map(lambda old, updated: jnp.where(state.done, old, updated), state, new)
 
 
 def minimised(
@@ -242,6 +242,6 @@ def minimised_outside(
     everyone = np.ones(len(u), dtype=bool)
     state, step = _kept_begun(jnp.asarray(u), *map(jnp.asarray, evaluate(np.asarray(u), everyone)), limit)
     while not np.all(state.done) and int(np.max(np.where(state.done, 0, state.steps))) < most:
-        found = evaluate(np.asarray(step.u), ~np.asarray(state.done))
-        state, step = _kept_judged(state, step, *map(jnp.asarray, found), limit)
+        evaluated = evaluate(np.asarray(step.u), ~np.asarray(state.done))
+        state, step = _kept_judged(state, step, *map(jnp.asarray, evaluated), limit)
     return state

@@ -49,10 +49,10 @@ class Measurements(eqx.Module):
             load = np.asarray(scene.hertz.load_at_pressure(jnp.asarray(table.pressure)))
         if load is None:
             name = "load" if scene.operation.pressure is None else "pressure"
-            value = np.asarray(_only(scene, name, "load or pressure"))
+            value = np.asarray(_only_value(scene, name, "load or pressure"))
             load = value if name == "load" else np.asarray(scene.hertz.load_at_pressure(value))
         columns = {
-            name: getattr(table, name) if getattr(table, name) is not None else _only(scene, name, name)
+            name: getattr(table, name) if getattr(table, name) is not None else _only_value(scene, name, name)
             for name in ("entrainment_speed", "temperature")
         }
         full = lambda value: jnp.asarray(np.broadcast_to(value, (count,)), dtype=float)
@@ -91,7 +91,7 @@ def _check_signs(slide: np.ndarray, coefficient: np.ndarray) -> None:
         )
 
 
-def _only(scene: TwoDisk, name: str, column: str) -> float:
+def _only_value(scene: TwoDisk, name: str, column: str) -> float:
     values = np.atleast_1d(np.asarray(getattr(scene.operation, name)))
     if values.size != 1:
         raise MeasurementError(

@@ -27,11 +27,11 @@ def curve_fits(
 ) -> tuple[CurveFit, ...]:
     """Mean conditions and misfit of every curve."""
     deborah = np.asarray(deborah_number(state.patch, measurements.entrainment_speed, state.temperature, oil))
-    found = []
+    fits = []
     for number, name in enumerate(measurements.curve_names):
         points = measurements.in_curve(number)
         mean = lambda values, points=points: float(np.mean(np.asarray(values)[points]))
-        found.append(
+        fits.append(
             CurveFit(
                 name=name,
                 points=int(np.sum(points)),
@@ -42,7 +42,7 @@ def curve_fits(
                 rms=float(np.sqrt(mean(np.square(difference)))),
             )
         )
-    return tuple(found)
+    return tuple(fits)
 
 
 def information(difference: np.ndarray, deviation: np.ndarray, parameters: int) -> tuple[float, float]:

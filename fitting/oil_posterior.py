@@ -28,11 +28,11 @@ def posterior_of(result: FitResult, sampling: Sampling | None = None) -> Posteri
         raise ValueError(result.failure())
     if result.options.loss != "linear":
         raise ValueError(f"posterior: found the loss {result.options.loss!r}; expected 'linear', that of normal errors")
-    told = [name for name in result.fitted if result.parameters[name].standard_error is not None]
-    if not told:
+    determined = [name for name in result.fitted if result.parameters[name].standard_error is not None]
+    if not determined:
         raise ValueError("posterior: found no parameter with an interval; expected curves that tell one or more")
-    place = np.array([NAMES.index(name) for name in told])
-    among = [result.fitted.index(name) for name in told]
+    place = np.array([NAMES.index(name) for name in determined])
+    among = [result.fitted.index(name) for name in determined]
     search = Search(result.measurements, result.scene, result.options)
     rheology = result.oil.rheology
     assert isinstance(rheology, ExponentialRheology)
@@ -57,7 +57,7 @@ def posterior_of(result: FitResult, sampling: Sampling | None = None) -> Posteri
     left = (result.predicted - measured) / deviation
     degrees = max(len(left) - len(place), 1)
     target = Target(
-        names=tuple(told),
+        names=tuple(determined),
         evaluate=evaluate,
         centre=at_end[place],
         covariance=result.covariance[np.ix_(among, among)],
@@ -86,9 +86,9 @@ def predictive(result: FitResult, posterior: Posterior, count: int = PREDICTED, 
     rheology = result.oil.rheology
     assert isinstance(rheology, ExponentialRheology)
     whole = np.tile(natural(rheology), (len(place), 1))
-    told = [NAMES.index(name) for name in posterior.parameters]
-    whole[:, told] = posterior.coordinates.reshape(-1, len(told))[place]
-    values = np.stack([coefficients(search.scene, search.state, rheology, jnp.asarray(one)) for one in whole])
+    columns = [NAMES.index(name) for name in posterior.parameters]
+    whole[:, columns] = posterior.coordinates.reshape(-1, len(columns))[place]
+    values = np.stack([coefficients(search.scene, search.state, rheology, jnp.asarray(sample)) for sample in whole])
     measured, deviation = np.asarray(search.coefficient), np.asarray(result.deviation)
     names = ("traction_coefficient",) * len(measured)
     return measured_again(posterior, place, values, measured, deviation, names, seed)

@@ -121,33 +121,37 @@ class Posterior:
     @property
     def mixed(self) -> bool:
         """True if the chains agree: R-hat below 1.01, at least 400 effective samples, no divergence."""
-        good = lambda one: one.r_hat < GOOD_R_HAT and one.effective >= GOOD_EFFECTIVE
+        good = lambda marginal: marginal.r_hat < GOOD_R_HAT and marginal.effective >= GOOD_EFFECTIVE
         return all(map(good, self.parameters.values())) and not self.divergences
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """Sentences on chains that do not agree."""
-        said = []
-        for name, one in self.parameters.items():
-            if not one.r_hat < GOOD_R_HAT:
-                said.append(f"the chains do not agree on {name} (R-hat {one.r_hat:.3f}): draw more samples.")
-            elif one.effective < GOOD_EFFECTIVE:
-                said.append(f"{name} has {one.effective:.0f} effective samples only: draw more samples.")
+        sentences = []
+        for name, marginal in self.parameters.items():
+            if not marginal.r_hat < GOOD_R_HAT:
+                sentences.append(f"the chains do not agree on {name} (R-hat {marginal.r_hat:.3f}): draw more samples.")
+            elif marginal.effective < GOOD_EFFECTIVE:
+                sentences.append(f"{name} has {marginal.effective:.0f} effective samples only: draw more samples.")
         if self.divergences:
-            said.append(f"{self.divergences} samples diverged: a bound, or a region that the sampler cannot enter.")
-        return tuple(said)
+            sentences.append(
+                f"{self.divergences} samples diverged: a bound, or a region that the sampler cannot enter."
+            )
+        return tuple(sentences)
 
     def in_words(self) -> str:
         """A sentence that says how the samples were drawn."""
-        one = self.sampling
+        sampling = self.sampling
         return (
-            f"No-U-Turn, {one.chains} chains of {one.samples} samples after {one.warmup} of adaptation "
-            f"(seed {one.seed}), {self.steps:.1f} evaluations each, {self.divergences} divergences"
+            f"No-U-Turn, {sampling.chains} chains of {sampling.samples} samples after {sampling.warmup} of adaptation "
+            f"(seed {sampling.seed}), {self.steps:.1f} evaluations each, {self.divergences} divergences"
         )
 
     def to_dict(self) -> dict[str, Any]:
         """Marginal distributions and the figures of their quality, as plain values."""
-        whole: dict[str, Any] = {"parameters": {name: dict(vars(one)) for name, one in self.parameters.items()}}
+        whole: dict[str, Any] = {
+            "parameters": {name: dict(vars(marginal)) for name, marginal in self.parameters.items()}
+        }
         whole |= {"mixed": self.mixed, "divergences": self.divergences, "steps": self.steps, "level": self.level}
         return whole | dict(vars(self.sampling))
 

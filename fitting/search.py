@@ -134,8 +134,8 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
 
     def free_by_rule(self) -> tuple[np.ndarray, dict[int, str]]:
         """Mask of the parameters to fit, and the reasons of the rules (one pressure, one temperature) by index."""
-        given = ("shear_modulus" in self.options.fixed, "stress" in self.options.fixed)
-        reasons = frozen_by_rule(self.pressure, self.temperature, given)
+        held = ("shear_modulus" in self.options.fixed, "stress" in self.options.fixed)
+        reasons = frozen_by_rule(self.pressure, self.temperature, held)
         fixed = [NAMES.index(name) for name in self.options.fixed]
         free = np.array([i not in fixed and (i not in reasons or i in self.insisted) for i in range(len(NAMES))])
         return free, reasons
@@ -211,10 +211,10 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
         while len(natural_starts) < self.options.starts:
             natural_starts.append(natural_starts[0] + rng.normal(size=len(NAMES)) * spreads)
         block = np.ix_(free, free)
-        found = np.zeros((self.options.starts, len(NAMES)))
-        for row, move in zip(found, natural_starts, strict=True):
+        starts = np.zeros((self.options.starts, len(NAMES)))
+        for row, move in zip(starts, natural_starts, strict=True):
             row[free] = np.linalg.solve(directions[block], move[free])
-        return found
+        return starts
 
     def stress_shift(self, coordinates: np.ndarray) -> float:
         """Change of ln(stress) with which the model meets the measured maxima of the curves in the median."""
@@ -245,11 +245,11 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
         """The last problem, the estimates from all starts, and the unknowns of the best; with a robust loss or errors
         of the slide-to-roll ratio the deviations are updated between several optimisations."""
         rounds = 1 if self.options.loss == "linear" and not self.options.errors.slide_to_roll else REWEIGHTINGS
-        found, u = None, jnp.asarray(starts[0])
+        estimate, u = None, jnp.asarray(starts[0])
         for turn in range(rounds):
-            found = estimate_from(problem, jnp.asarray(starts), self.options.method)
-            best = int(jnp.argmin(jnp.where(jnp.isfinite(found.loss), found.loss, jnp.inf)))
-            u = found.u[best]
+            estimate = estimate_from(problem, jnp.asarray(starts), self.options.method)
+            best = int(jnp.argmin(jnp.where(jnp.isfinite(estimate.loss), estimate.loss, jnp.inf)))
+            u = estimate.u[best]
             if turn + 1 < rounds:
                 slope = (
                     np.asarray(slope_over_slide(problem, u))[: self.count] if self.options.errors.slide_to_roll else 0.0
@@ -261,8 +261,8 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
                 deviation = self.fill(self.deviation * self.scale * self.bend)
                 problem = eqx.tree_at(lambda p: p.deviation, problem, deviation)
                 starts = np.tile(np.asarray(u), (len(starts), 1))
-        assert found is not None
-        return problem, found, u
+        assert estimate is not None
+        return problem, estimate, u
 
     def slopes(self, problem: Problem, u: Array) -> tuple[np.ndarray, np.ndarray]:
         _, residual, jacobian = (np.asarray(part)[: self.count] for part in linearized(problem, u))
@@ -289,13 +289,13 @@ class Search(AbstractSearch[Problem, Estimate, Array]):
         spread = self.spread(problem, u, judged)
         if spread.degrees <= 0:
             return None
-        found = not_determined(spread, np.asarray(problem.directions), judged, self.centre)
-        found = {index: reason for index, reason in found.items() if index not in self.insisted}
-        if not found:
+        reasons = not_determined(spread, np.asarray(problem.directions), judged, self.centre)
+        reasons = {index: reason for index, reason in reasons.items() if index not in self.insisted}
+        if not reasons:
             return None
         # coefficients first: with beta or alpha held, the data may determine the rest
-        index = max(found, key=lambda i: i % 3)
-        return index, found[index]
+        index = max(reasons, key=lambda i: i % 3)
+        return index, reasons[index]
 
     def value_in_words(self, index: int, coordinate: float) -> str:
         return f"{values_of(np.full(len(NAMES), coordinate))[index]:g}"

@@ -92,8 +92,8 @@ def estimated_start(
             seen = coefficient[first] / ratio[first] / np.asarray(slope)[first]
             stiffer += [float(np.log(s)) for s in seen if s > 0]
     change = lambda value, logs: float(value) * float(np.exp(np.median(logs))) if logs else float(value)
-    return _with(rheology, change(rheology.stress, shifts), change(rheology.shear_modulus, stiffer))
+    return _with_values(rheology, change(rheology.stress, shifts), change(rheology.shear_modulus, stiffer))
 
 
-def _with(rheology: ExponentialRheology, stress: float, modulus: float) -> ExponentialRheology:
+def _with_values(rheology: ExponentialRheology, stress: float, modulus: float) -> ExponentialRheology:
     return dataclasses.replace(rheology, stress=np.float64(stress), shear_modulus=np.float64(modulus))

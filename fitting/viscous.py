@@ -33,8 +33,8 @@ def held_misfit(scene: TwoDisk, fitted: tuple[str, ...]) -> tuple[str, ...]:
     parameters that are fitted.
     """
     held = [SYMBOLS[i] for i in GROUPS[1] if NAMES[i] not in fitted]
-    said = scene.contact.traction.notes(scene.oil)
-    return tuple(f"{', '.join(held)} held at the oil's own: {note}." for note in said) if held else ()
+    notes = scene.contact.traction.notes(scene.oil)
+    return tuple(f"{', '.join(held)} held at the oil's own: {note}." for note in notes) if held else ()
 
 
 def plain_rheology(rheology: ExponentialRheology, model: str, scene: TwoDisk) -> ExponentialRheology:

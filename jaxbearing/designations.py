@@ -105,7 +105,7 @@ class Suffixes(NamedTuple):
     @property
     def seal(self) -> tuple[str, int]:
         """Name and number of the seals: "RSH" and 2 for 2RSH; "" and 0 if there are none."""
-        text = next((text for what, text in self.marks if what == "seal"), "")
+        text = next((text for kind, text in self.marks if kind == "seal"), "")
         if text in ("ZZ", "VV"):
             return text[0], 2
         if text.startswith("2"):
@@ -121,11 +121,11 @@ def readings(text: str) -> Iterator[Reading]:
     own = next(filter(None, prefix.groups())) if prefix else ""
     spaced = _STEEP.sub(r"313\1 D", spaced[prefix.end() :] if prefix else spaced)
     for number in dict.fromkeys((spaced, spaced.replace(" ", ""))):
-        for found in _of_number(number):
-            yield found._replace(rest=found.rest.strip(), prefix=own)
+        for reading in _number_readings(number):
+            yield reading._replace(rest=reading.rest.strip(), prefix=own)
 
 
-def _of_number(text: str) -> Iterator[Reading]:
+def _number_readings(text: str) -> Iterator[Reading]:
     for family, types, series in (
         ("cylindrical", "|".join(CYLINDRICAL_TYPES), "|".join(CYLINDRICAL)),
         ("cylindrical_full", r"NCF|NJG|SL ?18", "18|29|30|22|23"),
@@ -144,10 +144,10 @@ def _of_number(text: str) -> Iterator[Reading]:
         yield Reading("tapered", "", match[1], match[2], match[3])
     for family, every in (("deep_groove", DEEP_GROOVE), ("angular_contact", (*ANGULAR_CONTACT, *DOUBLE_ROW))):
         for series in sorted(every, key=len, reverse=True):
-            yield from _of_balls(text, family, series)
+            yield from _ball_readings(text, family, series)
 
 
-def _of_balls(text: str, family: str, series: str) -> Iterator[Reading]:
+def _ball_readings(text: str, family: str, series: str) -> Iterator[Reading]:
     codes = [rf"\d\d{_END}", r"/\d+", rf"\d{_END}"] if family == "deep_groove" else [rf"\d\d{_END}"]
     # a slash precedes bores of 22, 28 and 32 mm and from 500 mm, and in series of three digits those below 10 mm
     for code in codes[:2] if len(series) == 3 else codes:
@@ -201,13 +201,13 @@ def _row(series: str, rest: str) -> tuple[str, float | None, str]:
 def _marks(family: str, rest: str) -> tuple[tuple[tuple[str, str], ...], str]:
     sets = {"cylindrical": (), "angular_contact": (_SETS, _FOR_SETS)}.get(family, (_SETS,))
     marks = (*(("set", pattern) for pattern in sets), *_OF_FAMILY.get(family, ()), *_MARKS)
-    found, unread = [], ""
+    known, unread = [], ""
     while rest := rest.lstrip(" /"):
-        tried = ((what, re.match(pattern, rest)) for what, pattern in marks)
-        what, match = next(((what, match) for what, match in tried if match), ("", None))
+        tried = ((mark, re.match(pattern, rest)) for mark, pattern in marks)
+        kind, match = next(((mark, match) for mark, match in tried if match), ("", None))
         if match is None:
             unread, rest = unread + rest[0], rest[1:]
         else:
-            found.append((what, match[0]))
+            known.append((kind, match[0]))
             rest = rest[match.end() :]
-    return tuple(found), unread
+    return tuple(known), unread

@@ -17,8 +17,8 @@ def check_count(file: str, count: int, line: int | None, what: str = "two rows o
     **Raises:** `CurveError`.
     """
     if count < 2:
-        found = "a header without points" if count == 0 else "a single point"
-        raise CurveError(file, line, "", found, f"at least {what}")
+        actual = "a header without points" if count == 0 else "a single point"
+        raise CurveError(file, line, "", actual, f"at least {what}")
 
 
 def check_sliding(file: str, column: str, slide_to_roll: Float64[np.ndarray, " point"]) -> None:
@@ -34,15 +34,15 @@ def remarks(
     slide_to_roll: Float64[np.ndarray, " point"], traction_coefficient: Float64[np.ndarray, " point"]
 ) -> Sequence[str]:
     """Notes on values that are allowed and often a mistake."""
-    found = []
+    notes = []
     largest = np.abs(slide_to_roll).max()
     if largest > _LARGEST_USUAL:
-        found.append(
+        notes.append(
             f"The largest slide-to-roll ratio is {largest:g}, surfaces that move against each other; "
             "if the file means percent, its column is 'slide_to_roll [%]'."
         )
     opposite = np.count_nonzero(np.sign(slide_to_roll) * np.sign(traction_coefficient) < 0.0)
     if opposite:
         points = "1 point has" if opposite == 1 else f"{opposite} points have"
-        found.append(f"{points} a traction coefficient of another sign than the slide-to-roll ratio: kept as measured.")
-    return found
+        notes.append(f"{points} a traction coefficient of another sign than the slide-to-roll ratio: kept as measured.")
+    return notes

@@ -79,15 +79,15 @@ def check_unit(column: Column, file: str, hint: str = "") -> None:
     expected = f"the unit of {dimension.name}, e.g. '{EXAMPLES[column.name]}'{hint}"
     if not column.unit:
         raise CurveError(file, column.line, column.label, "no unit", expected)
-    one = f"1 {column.unit}"
+    quantity = f"1 {column.unit}"
     try:
-        parse(one, dimension)
+        parse(quantity, dimension)
     except PydanticCustomError as error:
         # `parse` speaks of the text of a quantity: "the text '1 foo', where 'foo' is not a unit"
-        reason = str((error.context or {}).get("found", "")).removeprefix(describe(one))
-        found = f"the unit {describe_unit(column.unit)}"
-        found += ", which is not known" if "is not a unit" in reason else reason
-        raise CurveError(file, column.line, column.label, found, expected) from None
+        reason = str((error.context or {}).get("found", "")).removeprefix(describe(quantity))
+        actual = f"the unit {describe_unit(column.unit)}"
+        actual += ", which is not known" if "is not a unit" in reason else reason
+        raise CurveError(file, column.line, column.label, actual, expected) from None
 
 
 def fits(unit: str, dimension: Dimension) -> bool:
@@ -122,6 +122,6 @@ def to_si(
         result = units.Quantity(values, units.Unit(column.unit)).to(dimension.si).magnitude
     wrong = np.flatnonzero(~(np.isfinite(result) & (result > 0.0)))
     if wrong.size:
-        found = f"{values[wrong[0]]:g} {column.unit}"
-        raise CurveError(file, lines[wrong[0]], column.label, found, dimension.expected("> 0"))
+        actual = f"{values[wrong[0]]:g} {column.unit}"
+        raise CurveError(file, lines[wrong[0]], column.label, actual, dimension.expected("> 0"))
     return np.asarray(result, dtype=np.float64)

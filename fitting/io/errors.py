@@ -36,7 +36,7 @@ class CurveError(ValueError):
 def refusing(file: str) -> Refuse:
     """A function that raises `CurveError` for a cell of this file."""
 
-    def refuse(line: int, column: str, found: str, expected: str) -> NoReturn:
-        raise CurveError(file, line, column, found, expected)
+    def refuse(line: int, column: str, actual: str, expected: str) -> NoReturn:
+        raise CurveError(file, line, column, actual, expected)
 
     return refuse

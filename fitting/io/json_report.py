@@ -34,14 +34,14 @@ def fit_to_dict(
     shown = lambda value: plain(value) if good else None
     parameters = {
         name: {
-            "value": plain(found.value) if good or found.fixed else None,
-            "standard_error": shown(found.standard_error),
-            "lower": shown(found.lower),
-            "upper": shown(found.upper),
-            "fixed": found.fixed,
-            "reason": found.reason,
+            "value": plain(parameter.value) if good or parameter.fixed else None,
+            "standard_error": shown(parameter.standard_error),
+            "lower": shown(parameter.lower),
+            "upper": shown(parameter.upper),
+            "fixed": parameter.fixed,
+            "reason": parameter.reason,
         }
-        for name, found in result.parameters.items()
+        for name, parameter in result.parameters.items()
     }
     curves = [curve._asdict() | {"rms": curve.rms if good else None} for curve in result.curves]
     results = {

@@ -73,7 +73,7 @@ def _header(result: FitResult, data: str, scene: str) -> list[str]:
 def _sources(result: FitResult, data: str, scene: str) -> dict[str, str]:
     # held values come from the law of the scene's oil, or from its tangent exponential law
     values = f"the tangent of the law of {scene}" if result.first_values else scene
-    fitted = {name: _source(name, found, result, data, values) for name, found in result.parameters.items()}
+    fitted = {name: _source(name, parameter, result, data, values) for name, parameter in result.parameters.items()}
     form = dict.fromkeys(("viscous_function", "exponent"), "chosen for the fit")
     reference = f"the middle of {data}" if result.first_values else f"as in {scene}"
     return {**form, "reference_temperature": reference, **fitted}
@@ -93,8 +93,8 @@ def _note(result: FitResult, data: str) -> str:
     if not result.unidentifiable:
         return ""
     symbols = ", ".join(SYMBOL[name] for name in result.unidentifiable)
-    found = conditions(result)
+    ranges = conditions(result)
     return (
-        f"the rheology was fitted to {data} at {found['Hertz pressure']} and {found['temperature']}, which does not "
+        f"the rheology was fitted to {data} at {ranges['Hertz pressure']} and {ranges['temperature']}, which does not "
         f"determine {symbols}: elsewhere it is a guess"
     )

@@ -66,8 +66,8 @@ def parse_pcs(text: str, path: Path) -> CurveTable:
     values["traction_coefficient"], sign_note = reader.signed(values)
     curve = np.repeat(np.arange(len(sweeps)), [len(step.rows) for step in sweeps])
     names = tuple(f"step {step.number}" for step in sweeps)
-    found = remarks(values["slide_to_roll"], values["traction_coefficient"])
-    notes = (*_step_notes(steps), *reader.notes(), sign_note, *found)
+    unusual = remarks(values["slide_to_roll"], values["traction_coefficient"])
+    notes = (*_step_notes(steps), *reader.notes(), sign_note, *unusual)
     return CurveTable(**values, curve=curve, curve_names=names, notes=notes, origin=path.name)
 
 
@@ -90,14 +90,14 @@ class _Reader:
 
     def _choose(self) -> dict[str, str]:
         """The heading that is read for each column."""
-        found = {}
+        chosen = {}
         for name, headings in _SOURCES.items():
             heading = next((heading for heading in headings if self._has(heading, name in REQUIRED)), None)
             if heading is not None:
-                found[name] = heading
+                chosen[name] = heading
             elif name in REQUIRED:
                 self._refuse_missing(name)
-        return found
+        return chosen
 
     def column(self, name: str, heading: str) -> Float64[np.ndarray, " point"]:
         """Values of a column in SI, over all sweeps."""
@@ -135,8 +135,8 @@ class _Reader:
         headings = _SOURCES[name]
         lacking = (step for step in self._sweeps if not any(heading in step.headings for heading in headings))
         step = next(lacking, self._sweeps[0])
-        found = "the columns " + ", ".join(f"'{heading.text}'" for heading in list(step.headings.values())[:4])
-        raise CurveError(self._file, step.line, _REQUIRED_HEADINGS[name], found, _LAYOUT)
+        actual = "the columns " + ", ".join(f"'{heading.text}'" for heading in list(step.headings.values())[:4])
+        raise CurveError(self._file, step.line, _REQUIRED_HEADINGS[name], actual, _LAYOUT)
 
     def _column_of_step(self, name: str, heading: str, step: Step) -> Float64[np.ndarray, " row"]:
         there = step.headings[heading]

@@ -91,10 +91,10 @@ def _is_remark(line: Line) -> bool:
 
 
 def _headings(line: Line) -> dict[str, Heading]:
-    found: dict[str, Heading] = {}
+    headings: dict[str, Heading] = {}
     for index, cell in enumerate(line.text.split("\t")):
         match = _WITH_UNIT.fullmatch(cell.strip())
         if match:
             heading = Heading(cell.strip(), match["name"].lower(), match["unit"].strip(), index)
-            found.setdefault(heading.name, heading)
-    return found
+            headings.setdefault(heading.name, heading)
+    return headings

@@ -59,8 +59,8 @@ def plot_fit(result: FitResult, data: str, scene: str, notes: Sequence[str] = ()
     figure = Page()
     head(figure, data, f"{scene}   ·   {result.model}   ·   rms of the differences {digits(result.rms, 3)}")
     # notes on undetermined parameters come last: the list of parameters already marks these as held
-    told = sorted(result.notes, key=lambda note: "cannot be determined" in note)
-    bottom = 0.095 + 0.019 * foot(figure, [*told, *notes])
+    fit_notes = sorted(result.notes, key=lambda note: "cannot be determined" in note)
+    bottom = 0.095 + 0.019 * foot(figure, [*fit_notes, *notes])
     places = {"left": 0.075, "right": 0.72, "top": 0.86, "bottom": bottom}
     grid = figure.add_gridspec(2, 1, **places, height_ratios=(2.3, 1.0), hspace=0.2)
     upper = figure.add_subplot(grid[0])
@@ -174,7 +174,7 @@ def _by_colour(curves: Sequence[CurveFit], condition: "_Condition", second: "_Co
     values = np.asarray([condition.value(curve) for curve in curves])
     part = (values - values.min()) / (values.max() - values.min())
     wanted = np.linspace(0.0, 1.0, _LEVELS)
-    named = {int(np.argmin(np.abs(part - one))) for one in wanted}
+    named = {int(np.argmin(np.abs(part - target))) for target in wanted}
     # the ends of the map are too light on white
     colour = lambda p: colormaps["viridis"](0.88 * float(p))
     texts = ["" if second is None else second.text(curve) for curve in curves]

@@ -31,5 +31,5 @@ def decode(raw: bytes, path: Path) -> str:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = len(numbered_lines(raw[: error.start].decode("latin-1")))
-        found = f"bytes that are not UTF-8 text (at byte {error.start})"
-        raise CurveError(str(path), line, "", found, "a text file in UTF-8") from None
+        actual = f"bytes that are not UTF-8 text (at byte {error.start})"
+        raise CurveError(str(path), line, "", actual, "a text file in UTF-8") from None

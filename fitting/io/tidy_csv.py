@@ -101,9 +101,9 @@ def _cells(line: Line, separator: str, path: Path) -> list[str]:
     try:
         return cells_of(line.text, separator)
     except ValueError as error:
-        found = f"a line that cannot be parted into cells ({error})"
+        actual = f"a line that cannot be parted into cells ({error})"
         expected = f"cells separated by {SEPARATORS[separator]}, quotation marks in pairs"
-        raise CurveError(str(path), line.number, "", found, expected) from None
+        raise CurveError(str(path), line.number, "", actual, expected) from None
 
 
 def _check_mixed(cells: list[str], separator: str, header: Line, path: Path) -> None:
@@ -111,8 +111,8 @@ def _check_mixed(cells: list[str], separator: str, header: Line, path: Path) -> 
         for cell in cells:
             parts = [part.split("[")[0].strip() for part in cell.split(other)]
             if other != separator and len(parts) > 1 and any(part in KNOWN for part in parts):
-                found = f"{SEPARATORS[separator]} and {SEPARATORS[other]} between columns"
-                raise CurveError(str(path), header.number, "", found, "one separator throughout the file")
+                actual = f"{SEPARATORS[separator]} and {SEPARATORS[other]} between columns"
+                raise CurveError(str(path), header.number, "", actual, "one separator throughout the file")
 
 
 def _check_names(names: list[str], header: Line, path: Path) -> None:
@@ -126,9 +126,9 @@ def _check_names(names: list[str], header: Line, path: Path) -> None:
             renamed = [other for other in others if ALSO_CALLED.get(other.lower()) == name]
             misspelt = renamed[0] if renamed else nearest(name, others)
             listed = ", ".join(repr(other) for other in names if other)
-            found = f"the column {shortened(repr(misspelt))}" if misspelt else f"the columns {shortened(listed)}"
+            actual = f"the column {shortened(repr(misspelt))}" if misspelt else f"the columns {shortened(listed)}"
             expected = f"a column '{EXAMPLES[name]}', which is required, and ',', ';' or tabs between the columns"
-            raise CurveError(file, line, name, found, expected, name if misspelt else "")
+            raise CurveError(file, line, name, actual, expected, name if misspelt else "")
     if "pressure" in names and "load" in names:
         raise CurveError(file, line, "load", "a column 'pressure' and a column 'load'", "one of the two")
 
@@ -142,9 +142,9 @@ def _check_unread(
     for name, unit in parted:
         for condition in lacking:
             if name not in KNOWN and unit and fits(unit, DIMENSIONS[condition]):
-                found = f"a column in {unit} that is not read, and no column '{condition}'"
+                actual = f"a column in {unit} that is not read, and no column '{condition}'"
                 expected = f"'{EXAMPLES[condition]}' if it holds that, else a heading without a unit in brackets"
-                raise CurveError(str(path), header.number, name, found, expected)
+                raise CurveError(str(path), header.number, name, actual, expected)
 
 
 def _column(name: str, unit: str | None, side: str | None, index: int, line: int, path: Path) -> Column:
@@ -153,8 +153,8 @@ def _column(name: str, unit: str | None, side: str | None, index: int, line: int
             raise CurveError(str(path), line, name, f"the unit '{unit or side}'", "names of curves, without a unit")
         return Column(name, "", name, line, index)
     if unit and side is not None and unit != side:
-        found = f"the unit '{unit}' in the header and '{side}' in '{units_path(path).name}'"
-        raise CurveError(str(path), line, name, found, "a unit in one of the two")
+        actual = f"the unit '{unit}' in the header and '{side}' in '{units_path(path).name}'"
+        raise CurveError(str(path), line, name, actual, "a unit in one of the two")
     column = Column(name, unit or side or "", name, line, index)
     hint = f", or {name} = \"...\" under [units] in a file '{units_path(path).name}'" if not column.unit else ""
     if side is not None:
@@ -173,10 +173,10 @@ def _rows(lines: Sequence[Line], layout: _Layout) -> list[tuple[int, list[str]]]
             continue  # spreadsheets write their empty rows as ";;;"
         if len(cells) != layout.width:
             others = [shown for mark, shown in SEPARATORS.items() if mark != layout.separator and mark in line.text]
-            found = f"{len(cells)} cell{'s' if len(cells) > 1 else ''}" + "".join(f" and {other}" for other in others)
+            actual = f"{len(cells)} cell{'s' if len(cells) > 1 else ''}" + "".join(f" and {other}" for other in others)
             there = f"in the header (line {layout.header.number})"
             expected = f"{layout.width} cells separated by {SEPARATORS[layout.separator]}, as {there}"
-            raise CurveError(layout.file, line.number, "", found, expected)
+            raise CurveError(layout.file, line.number, "", actual, expected)
         if cells == header:
             raise CurveError(layout.file, line.number, "", "the header once more", "a row of numbers")
         rows.append((line.number, cells))
@@ -187,7 +187,9 @@ def _values(rows: list[tuple[int, list[str]]], numbers: list[int], layout: _Layo
     reader = NumberReader(refusing(layout.file), comma_allowed=layout.separator != ",")
     used = [column for name, column in layout.columns.items() if name != CURVE]
     # row by row, so that the first wrong line is reported
-    raw = np.array([[reader.number(cells[one.index], line, one.label) for one in used] for line, cells in rows])
+    raw = np.array(
+        [[reader.number(cells[column.index], line, column.label) for column in used] for line, cells in rows]
+    )
     return {column.name: to_si(raw[:, place], column, numbers, layout.file) for place, column in enumerate(used)}
 
 

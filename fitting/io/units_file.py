@@ -45,8 +45,8 @@ def _table(text: str, side: Path) -> dict[str, Any]:
     # ValueError: also a number of thousands of digits
     except ValueError as error:
         line = re.search(r"at line (\d+)", str(error))
-        found = f"a TOML syntax error, {error}"
-        raise CurveError(str(side), int(line[1]) if line else None, "", found, _EXPECTED) from None
+        actual = f"a TOML syntax error, {error}"
+        raise CurveError(str(side), int(line[1]) if line else None, "", actual, _EXPECTED) from None
     except RecursionError:
         raise CurveError(str(side), None, "", "tables nested too deeply", _EXPECTED) from None
     others = [name for name in whole if name != "units"]

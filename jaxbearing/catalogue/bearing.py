@@ -106,7 +106,7 @@ def find(
     not possible, or that a bearing of this type does not have.
     """
     bearing = parse(designation)
-    given = {
+    numbers = {
         "dynamic_capacity": dynamic_capacity,
         "static_capacity": static_capacity,
         "n_elements": n_elements,
@@ -115,7 +115,7 @@ def find(
         "length": roller_length,
         "contact_angle": contact_angle,
     }
-    known = {name: value for name, value in given.items() if value is not None}
+    known = {name: value for name, value in numbers.items() if value is not None}
     if known:
         _check(bearing, known)
     duty = Duty(radial_load, axial_load, inner_speed, oil, base, oil_temperature, oil_flow)
@@ -125,27 +125,27 @@ def find(
     return Bearing(bearing._replace(notes=notes), geometry, known, duty)
 
 
-def _estimated(bearing: Designation, given: Mapping[str, float], angle: Normal) -> Geometry:
+def _estimated(bearing: Designation, known: Mapping[str, float], angle: Normal) -> Geometry:
     """The geometry: if nothing is given, from the file of kept estimates if it has one; otherwise computed."""
-    kept = None if given else kept_geometry(bearing, angle)
+    kept = None if known else kept_geometry(bearing, angle)
     if kept is not None:
         return kept
     # JAX takes a second to import, which a kept estimate does not need
     from .estimate import estimate
 
-    return estimate(bearing, given, angle)
+    return estimate(bearing, known, angle)
 
 
-def _doubts(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> Iterator[str]:
+def _doubts(bearing: Designation, geometry: Geometry, known: Mapping[str, float]) -> Iterator[str]:
     """Notes on given ratings that are far from those of a usual geometry of this size."""
     usual = proportions_of(bearing.kind, bearing.series)
     for name, law in (("dynamic_capacity", usual.dynamic), ("static_capacity", usual.static)):
-        ratio = given.get(name, math.nan) / getattr(geometry, name)
+        ratio = known.get(name, math.nan) / getattr(geometry, name)
         if abs(math.log(ratio) - law.mean) > FAR * law.deviation:
             yield f"the given {name} is {ratio:.2f} times that of a usual geometry of this size: is it this bearing's?"
 
 
-def _check(bearing: Designation, given: Mapping[str, Any]) -> None:
+def _check(bearing: Designation, known: Mapping[str, Any]) -> None:
     """Checks the given numbers against type and boundary dimensions.
 
     **Raises:** `ValueError`.
@@ -154,24 +154,24 @@ def _check(bearing: Designation, given: Mapping[str, Any]) -> None:
     from ..numerics.arguments import require_count, require_numbers
 
     names = {"diameter": "element_diameter", "length": "roller_length"}
-    require_numbers("> 0", **{names.get(name, name): value for name, value in given.items()})
-    if "n_elements" in given:
-        require_count("n_elements", given["n_elements"], 3)
-    if "length" in given and bearing.kind not in ROLLERS:
+    require_numbers("> 0", **{names.get(name, name): value for name, value in known.items()})
+    if "n_elements" in known:
+        require_count("n_elements", known["n_elements"], 3)
+    if "length" in known and bearing.kind not in ROLLERS:
         raise ValueError(f"roller_length: {bearing.text} has balls")
-    if "contact_angle" in given and bearing.kind in ("deep_groove", "cylindrical"):
+    if "contact_angle" in known and bearing.kind in ("deep_groove", "cylindrical"):
         raise ValueError(f"contact_angle: that of {bearing.text} follows from its clearance")
-    if given.get("contact_angle", 0.0) >= 0.5 * math.pi:
+    if known.get("contact_angle", 0.0) >= 0.5 * math.pi:
         raise ValueError("contact_angle must be below pi/2 rad")
     mean, half = 0.5e-3 * (bearing.bore + bearing.outside), 0.5e-3 * (bearing.outside - bearing.bore)
-    if not 1e-3 * bearing.bore < given.get("pitch_diameter", mean) < 1e-3 * bearing.outside:
+    if not 1e-3 * bearing.bore < known.get("pitch_diameter", mean) < 1e-3 * bearing.outside:
         raise ValueError(f"pitch_diameter must be between bore and outside diameter of {bearing.text}")
-    if given.get("diameter", 0.0) >= half:
+    if known.get("diameter", 0.0) >= half:
         raise ValueError(f"element_diameter must be below the height of the section of {bearing.text}, {half:g} m")
-    taken = given.get("n_elements", 0) * given.get("diameter", 0.0)
-    if taken >= math.pi * given.get("pitch_diameter", mean):
+    taken = known.get("n_elements", 0) * known.get("diameter", 0.0)
+    if taken >= math.pi * known.get("pitch_diameter", mean):
         raise ValueError("n_elements: so many elements of this diameter do not fit beside each other")
-    if given.get("length", 0.0) > 1e-3 * bearing.width:
+    if known.get("length", 0.0) > 1e-3 * bearing.width:
         raise ValueError(f"roller_length must be at most the width of {bearing.text}, {1e-3 * bearing.width:g} m")
 
 

@@ -117,19 +117,19 @@ def parse(text: str) -> Designation:
     **Raises:** `SceneError` for a part that is not understood, and, for an unknown designation, with the nearest known
     ones.
     """
-    found = next((one for one in map(_known, readings(text)) if one is not None), None)
-    if found is None:
+    match = next((entry for entry in map(_known, readings(text)) if entry is not None), None)
+    if match is None:
         raise _unknown(text)
-    kind, reading, bore, sizes = found
+    kind, reading, bore, sizes = match
     marks = suffixes(reading)
     if marks.unread:
         raise _unread(text, marks.unread)
     cup, usual, spread = sizes[3:6] if kind == "tapered" else (None, None, None)
     if kind == "tapered" and marks.letters == "B":
         usual, spread = STEEP
-    clearance, notes = _noted(kind, marks)
+    clearance, notes = _clearance_and_notes(kind, marks)
     numbers = (bore, sizes[0], sizes[1], marks.angle)
-    ceramic = reading.prefix.startswith("HC") or any(what == "ceramic" for what, _ in marks.marks)
+    ceramic = reading.prefix.startswith("HC") or any(mark == "ceramic" for mark, _ in marks.marks)
     return Designation(
         text.strip(), kind, reading.series, reading.design, *numbers, clearance, cup, usual, spread, notes, ceramic
     )
@@ -203,44 +203,44 @@ def _fits(kind: str, reading: Reading) -> bool:
     return kind == reading.family or (kind == "spindle" and reading.family == "angular_contact")
 
 
-def _noted(kind: str, marks: Suffixes) -> tuple[str, tuple[str, ...]]:
+def _clearance_and_notes(kind: str, marks: Suffixes) -> tuple[str, tuple[str, ...]]:
     """Clearance class, and notes about the other suffixes."""
     clearance, notes = "CN", []
     if marks.reinforced:
         # today's bearings usually have it
         notes.append("E, EC: reinforced inner design, as all estimates of this type assume")
-    for what, text in marks.marks:
-        clearance, note = _said(kind, what, text, clearance)
+    for mark, text in marks.marks:
+        clearance, note = _note(kind, mark, text, clearance)
         notes += [note] if note else []
     return clearance, tuple(dict.fromkeys(notes))
 
 
-def _said(kind: str, what: str, text: str, clearance: str) -> tuple[str, str]:
-    if what == "clearance":
+def _note(kind: str, mark: str, text: str, clearance: str) -> tuple[str, str]:
+    if mark == "clearance":
         if kind not in ("deep_groove", "cylindrical"):
             return clearance, f"{text}: clearance class, not used: such bearings are given by their contact angle"
         if text not in CLEARANCES:
             return clearance, f"{text}: clearance class without a table here; set geometry.diametral_clearance"
         return text, ""
-    if what == "set":
+    if mark == "set":
         of_pairs = (
             "a scene of the kind shaft names this file twice and makes a set of it: twenty lines to copy stand in "
             "docs/worked_examples.md, 'The pair 7312-B itself'; 'jaxbearing fields shaft' lists all fields"
         )
         return clearance, f"{text}: of bearings for sets; the scene has one bearing, without preload: {of_pairs}"
-    if what == "prefix":
+    if mark == "prefix":
         return clearance, f"{text}: {_PREFIX_IN_WORDS[text]}" if text in _PREFIX_IN_WORDS else ""
-    if what == "angle":
+    if mark == "angle":
         return clearance, "" if text == "B" else f"{text}: {_ANGLE_IN_WORDS[text]}"
-    if what == "ceramic":
+    if mark == "ceramic":
         return clearance, ""
-    if what == "bore":
+    if mark == "bore":
         return clearance, f"{text}: tapered bore, whose seat is not modelled"
-    if what == "other":
+    if mark == "other":
         return clearance, f"{text}: design, heat treatment, grease or noise class of a maker, not modelled"
-    if what == "tolerance":
+    if mark == "tolerance":
         return clearance, f"{text}: tolerance class, not modelled; [fits] takes the normal class"
-    if what == "seal":
+    if mark == "seal":
         return clearance, f"{text}: seals or shields, whose friction is not modelled"
     return clearance, f"{text}: cage or design of a maker, not modelled"
 
@@ -256,12 +256,12 @@ def _unread(text: str, part: str) -> SceneError:
 def _unknown(text: str) -> SceneError:
     plain = re.sub(r"[\s_\-.]+|/(?!\s*\d)", "", text).upper()
     known = list(known_designations())
-    by_plain = {one.replace(" ", "").replace("/", ""): one for one in known}
+    by_plain = {name.replace(" ", "").replace("/", ""): name for name in known}
     near = difflib.get_close_matches(plain.replace("/", "")[:8], by_plain, n=3, cutoff=0.6)
-    names = ", ".join(f"'{by_plain[one]}'" for one in near)
+    names = ", ".join(f"'{by_plain[key]}'" for key in near)
     other = next((words for pattern, words in _OTHERS if re.match(rf"(?:{pattern})(?!\d)", plain)), "")
-    found = f"'{text.strip()}'" + (f", {other}" if other else "")
+    actual = f"'{text.strip()}'" + (f", {other}" if other else "")
     expected = "the designation of a bearing, such as 6207, 7312-B, NU 311, 30206 or 7014 C"
     if names and not other:
         expected += f"; the nearest that are known: {names}"
-    return SceneError("new", "", found, expected)
+    return SceneError("new", "", actual, expected)

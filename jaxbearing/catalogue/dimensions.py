@@ -32,8 +32,8 @@ def clearance_limits(kind: str, clearance_class: str, bore: float) -> tuple[floa
     """
     column = 2 + 2 * ("C2", "CN", "C3", "C4").index(clearance_class)
     rows = _tables("clearances")[kind]
-    found = (row[column : column + 2] for row in rows if row[0] < bore <= row[1])
-    return next(((float(least), float(greatest)) for least, greatest in found), None)
+    limits = (row[column : column + 2] for row in rows if row[0] < bore <= row[1])
+    return next(((float(least), float(greatest)) for least, greatest in limits), None)
 
 
 def _file(kind: str) -> str:

@@ -129,11 +129,11 @@ def operation_lines(duty: Duty, kind: str, mean_diameter: float, capacity: float
         yield _line("oil_flow", duty.oil_flow, 0.0, "l/h", FLOW)
 
 
-def _line(name: str, given: float | None, example: float, unit: str, dimension: Dimension) -> Line:
+def _line(name: str, value: float | None, example: float, unit: str, dimension: Dimension) -> Line:
     """The line of a field: the value that is given, in SI, or else that of the example, in `unit`, with two digits."""
-    if given is None:
+    if value is None:
         return Line(name, f'"{two_digits(example):g} {unit}"', EXAMPLE)
-    return Line(name, f'"{text_in(unit, float(given), dimension)}"', "given")
+    return Line(name, f'"{text_in(unit, float(value), dimension)}"', "given")
 
 
 def two_digits(value: float) -> float:

@@ -41,46 +41,46 @@ FILLS = (0.5, 0.985)
 """Smallest and largest Z D/(pi d_m), the filled part of the pitch circle, of candidates."""
 
 
-def estimate(bearing: Designation, given: Mapping[str, float], angle: Normal) -> Geometry:
+def estimate(bearing: Designation, known: Mapping[str, float], angle: Normal) -> Geometry:
     """The internal geometry of a bearing.
 
     **Arguments:**
     - `bearing`: its designation, with the boundary dimensions.
-    - `given`: known numbers, SI, by name: "n_elements", "diameter", "pitch_diameter", "length", "dynamic_capacity",
+    - `known`: numbers, SI, by name: "n_elements", "diameter", "pitch_diameter", "length", "dynamic_capacity",
       "static_capacity".
     - `angle`: contact angle, rad, with a deviation of 0 if it is given.
 
     **Raises:** `ValueError` for numbers that do not fit any geometry of this size.
     """
     rollers = bearing.kind in ("cylindrical", "tapered")
-    terms = {name: np.array(values) for name, values in terms_of(bearing, given, angle).items()}
-    counts, sizes, standard = _candidates(bearing, given, terms)
+    terms = {name: np.array(values) for name, values in terms_of(bearing, known, angle).items()}
+    counts, sizes, standard = _candidates(bearing, known, terms)
     mask = np.arange(LANES) < len(counts)
     padded = [np.resize(column, LANES).astype(float) for column in (counts, sizes)]
     size_weight = np.asarray(0.0 if math.isnan(sizes[0]) else 1.0 / GIVEN)
     program = _PROGRAMS["roller" if rollers else "ball"]
     # without usual sizes the column is NaN and its weight 0, so the number that replaces NaN has no effect
     out = program(padded[0], np.nan_to_num(np.log(padded[1])), size_weight, terms)
-    return _chosen({name: np.asarray(value) for name, value in out.items()}, mask, counts, given, angle, standard)
+    return _chosen({name: np.asarray(value) for name, value in out.items()}, mask, counts, known, angle, standard)
 
 
 def _candidates(
-    bearing: Designation, given: Mapping[str, float], terms: Mapping[str, Any]
+    bearing: Designation, known: Mapping[str, float], terms: Mapping[str, Any]
 ) -> tuple[np.ndarray, np.ndarray, bool]:
     """Numbers of elements and diameters, mm, of the candidates, and whether the diameters are usual sizes. Candidates
     with known diameters come with the likeliest first; a diameter of NaN is an unknown of the least-squares problem."""
     middle, pitch = math.exp(terms["mean"][0]), math.exp(terms["mean"][1])
     spread = 1.0 / terms["weight"][0]
     sizes, standard = np.empty(0), False
-    if "diameter" in given:
-        sizes = np.array([1e3 * given["diameter"]])
+    if "diameter" in known:
+        sizes = np.array([1e3 * known["diameter"]])
     else:
         sizes = _usual_sizes(bearing.kind, middle, spread)
         standard = len(sizes) > 0
     trial = sizes if len(sizes) else np.array([middle * math.exp(-2.0 * spread), middle * math.exp(2.0 * spread)])
     numbers = np.arange(3, 200)
-    if "n_elements" in given:
-        numbers = np.array([round(given["n_elements"])])
+    if "n_elements" in known:
+        numbers = np.array([round(known["n_elements"])])
     if not len(sizes):
         fits = [number for number in numbers if _fills(number, trial, pitch).any() or len(numbers) == 1]
         fits = fits or [round(FILLS[1] * math.pi * pitch / middle)]
@@ -215,8 +215,8 @@ def _chosen(
         least, greatest = spread(values, out["variance"][:, index])
         if field in given or (name == "angle" and angle.is_known):
             # the term that holds it leaves round-off
-            known = float(given.get(field, angle.mean))
-            return Estimate(known, known, known, True)
+            exact = float(given.get(field, angle.mean))
+            return Estimate(exact, exact, exact, True)
         return Estimate(law(float(values[best])), law(least), law(greatest))
 
     length = lambda value: 1e-3 * math.exp(value)

@@ -47,8 +47,8 @@ def kept_geometry(bearing: Designation, angle: Normal) -> Geometry | None:
     values = [*map(int, numbers[:3]), *map(float, numbers[3:])]
     starts = range(0, 3 * len(_INTERVALS), 3)
     intervals = [Estimate(values[i], values[i + 1], values[i + 2]) for i in starts]
-    found = Geometry._make((*intervals, *values[starts.stop :], standard == "True"))
-    return found._replace(contact_angle=found.contact_angle._replace(given=angle.is_known))
+    geometry = Geometry._make((*intervals, *values[starts.stop :], standard == "True"))
+    return geometry._replace(contact_angle=geometry.contact_angle._replace(given=angle.is_known))
 
 
 def row_of(bearing: Designation, angle: Normal, geometry: Geometry) -> str:

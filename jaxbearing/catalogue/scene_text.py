@@ -46,13 +46,13 @@ CLEANLINESS_HINT = (
 """Lines on cleanliness in the table `rating`; only with an oil, whose viscosity ratio the modified life needs."""
 
 
-def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, float], duty: Duty) -> str:
+def scene_text(bearing: Designation, geometry: Geometry, known: Mapping[str, float], duty: Duty) -> str:
     """The file: boundary dimensions, internal geometry with intervals, materials, rating, oil and operation."""
     kind = KINDS.get(bearing.kind, "ball_bearing")
     dry = duty.oil is None
     words = {"name": bearing.text, "best": best_in_words(bearing)}
     laws = [line.format(**words) for line in (LAWS_HINT if dry else LAWS)]
-    parts = [*_head(bearing, geometry, given), "", f'kind = "{kind}"', *laws, ""]
+    parts = [*_head(bearing, geometry, known), "", f'kind = "{kind}"', *laws, ""]
     parts += _table("geometry", list(_geometry(bearing, geometry)))
     if bearing.design in ("NJ", "NUP"):
         side = '"both"' if bearing.design == "NUP" else '"+x"'
@@ -74,7 +74,7 @@ def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, flo
         parts += _table("kinematics", [Line("attitude", '"outer"', 'of a dry scene: take it out with laws = "best"')])
     if not dry:
         parts += _table("oil", list(oil_lines(duty)))
-    rating = list(_rating(given))
+    rating = list(_rating(known))
     left = {0: "C and C0 are", 1: "the other rating is"}.get(len(rating))
     parts += _table("rating", rating, f"  # {left} computed from the geometry" if left else "")
     if not dry:
@@ -83,7 +83,7 @@ def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, flo
     name = Line("designation", quoted(bearing.text), "for `jaxbearing compare`: no result depends on it")
     parts += _table("catalogue", [name])
     mean = 0.5 * (bearing.bore + bearing.outside)
-    capacity = given.get("dynamic_capacity", geometry.dynamic_capacity)
+    capacity = known.get("dynamic_capacity", geometry.dynamic_capacity)
     parts += _table("operation", list(operation_lines(duty, bearing.kind, mean, capacity)))
     if bearing.kind == "tapered":
         parts += [*_middle(geometry), ""]
@@ -91,7 +91,7 @@ def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, flo
     return "\n".join(parts).rstrip() + "\n"
 
 
-def sharper(bearing: Designation, given: Mapping[str, float]) -> str:
+def sharper(bearing: Designation, known: Mapping[str, float]) -> str:
     """Options of the command that would narrow the estimates; empty if everything is given."""
     rollers = bearing.kind in ("cylindrical", "tapered")
     options = {
@@ -105,24 +105,24 @@ def sharper(bearing: Designation, given: Mapping[str, float]) -> str:
         options["length"] = "--roller-length"
     if bearing.kind not in ("deep_groove", "cylindrical") and bearing.contact_angle is None:
         options["contact_angle"] = "--contact-angle"
-    return ", ".join(option for name, option in options.items() if name not in given)
+    return ", ".join(option for name, option in options.items() if name not in known)
 
 
-def _head(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> Iterator[str]:
+def _head(bearing: Designation, geometry: Geometry, known: Mapping[str, float]) -> Iterator[str]:
     sizes = f"{bearing.bore:g} x {bearing.outside:g} x {bearing.width:g} mm"
     yield f"# {bearing.text}: {bearing.in_words}, {sizes} (bore, outside diameter, width)."
     yield "# Boundary dimensions are standard. What is marked `estimated` is not a maker's number: it follows from"
-    yield f"# usual proportions{_told(given)}. The intervals hold 90 % of what is likely."
+    yield f"# usual proportions{_known_in_words(known)}. The intervals hold 90 % of what is likely."
     dynamic, static = _kilo(geometry.dynamic_capacity), _kilo(geometry.static_capacity)
     yield f"# Ratings of this geometry, computed: C = {dynamic} (ISO 281), C0 = {static} (limits of ISO 76)."
-    options = sharper(bearing, given)
+    options = sharper(bearing, known)
     if options:
         yield f"# What would sharpen the estimates: {options}."
     for note in bearing.notes:
         yield f"# {note}" if note.endswith("?") else f"# {note}."
 
 
-def _told(given: Mapping[str, float]) -> str:
+def _known_in_words(known: Mapping[str, float]) -> str:
     words = {
         "dynamic_capacity": lambda value: f"C = {kilonewtons(value)}",
         "static_capacity": lambda value: f"C0 = {kilonewtons(value)}",
@@ -132,8 +132,8 @@ def _told(given: Mapping[str, float]) -> str:
         "length": lambda value: f"a roller length of {text_in('mm', value, LENGTH)}",
         "contact_angle": lambda value: f"a contact angle of {text_in('deg', value, ANGLE)}",
     }
-    said = [words[name](value) for name, value in given.items()]
-    return f" and from {', '.join(said)}" if said else ", without any rating"
+    texts = [words[name](value) for name, value in known.items()]
+    return f" and from {', '.join(texts)}" if texts else ", without any rating"
 
 
 def _geometry(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
@@ -152,8 +152,8 @@ def _balls(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
     size = _millimetres(geometry.diameter)
     yield Line("ball_diameter", f'"{_size(geometry.diameter, 6)}"', size + _usual(geometry))
     yield _pitch(geometry)
-    for race, found in (("inner", geometry.conformity_inner), ("outer", geometry.conformity_outer)):
-        value, least, greatest = found[:3] if bearing.kind == "spindle" else GROOVES[race]
+    for race, conformity in (("inner", geometry.conformity_inner), ("outer", geometry.conformity_outer)):
+        value, least, greatest = conformity[:3] if bearing.kind == "spindle" else GROOVES[race]
         yield Line(f"conformity_{race}", f"{value:.4g}", f"estimated: {least:.4g} to {greatest:.4g}")
     if bearing.kind == "deep_groove":
         yield _clearance(bearing)
@@ -171,8 +171,8 @@ def _cylindrical(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
 
 
 def _pitch(geometry: Geometry) -> Line:
-    found = geometry.pitch_diameter
-    return Line("pitch_diameter", f'"{_size(found)}"', _millimetres(found))
+    pitch = geometry.pitch_diameter
+    return Line("pitch_diameter", f'"{_size(pitch)}"', _millimetres(pitch))
 
 
 def _length(geometry: Geometry) -> Line:
@@ -198,7 +198,7 @@ def _tapered(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
 def shape_of(geometry: Geometry) -> TaperedShape:
     """Cones and ends of the rollers of a tapered roller bearing."""
     sizes = (geometry.diameter, geometry.pitch_diameter, geometry.length, geometry.contact_angle)
-    return tapered_shape(*(one.value for one in sizes))
+    return tapered_shape(*(size.value for size in sizes))
 
 
 def best_in_words(bearing: Designation) -> str:
@@ -226,18 +226,18 @@ def _clearance(bearing: Designation) -> Line:
     return Line("diametral_clearance", f'"{0.5 * sum(limits):g} um"', comment)
 
 
-def _angle(bearing: Designation, found: Estimate) -> Line:
-    comment = _interval(found, 180.0 / math.pi, " deg")
-    if found.given and bearing.contact_angle is not None and found.value == math.radians(bearing.contact_angle):
+def _angle(bearing: Designation, angle: Estimate) -> Line:
+    comment = _interval(angle, 180.0 / math.pi, " deg")
+    if angle.given and bearing.contact_angle is not None and angle.value == math.radians(bearing.contact_angle):
         comment = "as the designation states"
-    value = text_in("deg", found.value, ANGLE) if found.given else _degrees(found.value)
+    value = text_in("deg", angle.value, ANGLE) if angle.given else _degrees(angle.value)
     return Line("contact_angle", f'"{value}"', comment)
 
 
-def _rating(given: Mapping[str, float]) -> Iterator[Line]:
+def _rating(known: Mapping[str, float]) -> Iterator[Line]:
     for name in ("dynamic_capacity", "static_capacity"):
-        if name in given:
-            yield Line(name, f'"{kilonewtons(given[name])}"', "given")
+        if name in known:
+            yield Line(name, f'"{kilonewtons(known[name])}"', "given")
 
 
 def _hints(bearing: Designation) -> Iterator[str]:
@@ -259,23 +259,23 @@ def _table(name: str, lines: list[Line], comment: str = "") -> Iterator[str]:
     yield ""
 
 
-def _interval(found: Estimate, scale: float = 1.0, unit: str = "") -> str:
-    if found.given:
+def _interval(estimate: Estimate, scale: float = 1.0, unit: str = "") -> str:
+    if estimate.given:
         return "given"
-    return f"estimated: {scale * found.least:.4g} to {scale * found.greatest:.4g}{unit}"
+    return f"estimated: {scale * estimate.least:.4g} to {scale * estimate.greatest:.4g}{unit}"
 
 
-def _millimetres(found: Estimate) -> str:
-    return _interval(found, 1e3, " mm")
+def _millimetres(estimate: Estimate) -> str:
+    return _interval(estimate, 1e3, " mm")
 
 
 def _usual(geometry: Geometry) -> str:
     return ", a usual size" if geometry.standard_size else ""
 
 
-def _size(found: Estimate, significant: int = 4) -> str:
+def _size(estimate: Estimate, significant: int = 4) -> str:
     """A length as text: to the last digit if it is given, otherwise with this number of digits."""
-    return text_in("mm", found.value, LENGTH) if found.given else _mm(found.value, significant)
+    return text_in("mm", estimate.value, LENGTH) if estimate.given else _mm(estimate.value, significant)
 
 
 def _mm(value: float, significant: int = 6) -> str:
@@ -290,6 +290,6 @@ def _kilo(value: float) -> str:
     return f"{1e-3 * value:.4g} kN"
 
 
-def kilonewtons(given: float) -> str:
+def kilonewtons(force: float) -> str:
     """A given force as text in kN, to its last digit."""
-    return text_in("kN", given, FORCE)
+    return text_in("kN", force, FORCE)

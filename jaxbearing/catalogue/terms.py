@@ -17,10 +17,10 @@ USUAL_ANGLES = {"angular_contact": Normal(30.0, 5.0), "spindle": Normal(15.0, 3.
 """Contact angle where the designation states none, degrees: the designs without a suffix differ between makers."""
 
 
-def angle_of(bearing: Designation, given: float | None) -> Normal:
+def angle_of(bearing: Designation, angle: float | None) -> Normal:
     """Contact angle, rad; without deviation where it is given or stated by the designation."""
-    if given is not None:
-        return Normal(given, 0.0)
+    if angle is not None:
+        return Normal(angle, 0.0)
     if bearing.contact_angle is not None:
         return Normal(math.radians(bearing.contact_angle), 0.0)
     if bearing.usual_angle is not None and bearing.tightness is not None:
@@ -29,7 +29,7 @@ def angle_of(bearing: Designation, given: float | None) -> Normal:
     return Normal(math.radians(usual.mean), math.radians(usual.deviation))
 
 
-def terms_of(bearing: Designation, given: Mapping[str, float], angle: Normal) -> dict[str, list[float]]:
+def terms_of(bearing: Designation, known: Mapping[str, float], angle: Normal) -> dict[str, list[float]]:
     """Means and weights (1/deviation) of the terms of the least-squares problem; arguments as those of `estimate`."""
     usual = proportions_of(bearing.kind, bearing.series)
     half, mean = 0.5 * (bearing.outside - bearing.bore), 0.5 * (bearing.outside + bearing.bore)
@@ -44,10 +44,10 @@ def terms_of(bearing: Designation, given: Mapping[str, float], angle: Normal) ->
         "angle": angle,
     }
     for name, field in (("diameter", "diameter"), ("pitch", "pitch_diameter"), ("length", "length")):
-        if field in given:
-            priors[name] = Normal(math.log(1e3 * given[field]), GIVEN)
+        if field in known:
+            priors[name] = Normal(math.log(1e3 * known[field]), GIVEN)
     ratings = [
-        _rating(given.get(name), law)
+        _rating(known.get(name), law)
         for name, law in (("dynamic_capacity", usual.dynamic), ("static_capacity", usual.static))
     ]
     weight = lambda law: 1.0 / max(law.deviation, GIVEN)
@@ -72,8 +72,8 @@ def is_usual(bearing: Designation, geometry: Geometry, angle: Normal, reach: flo
     **Arguments:** as for `estimate`; `geometry`: its result; `reach`: number of deviations.
     """
     terms = terms_of(bearing, {}, angle)
-    size = lambda one: math.log(1e3 * one.value)
-    groove = lambda one: math.log(one.value - 0.5)
+    size = lambda estimate: math.log(1e3 * estimate.value)
+    groove = lambda estimate: math.log(estimate.value - 0.5)
     unknowns = [size(geometry.diameter), size(geometry.pitch_diameter), size(geometry.length)]
     unknowns += [groove(geometry.conformity_inner), groove(geometry.conformity_outer), geometry.contact_angle.value]
     laws = zip(unknowns, terms["mean"], terms["weight"], strict=True)

@@ -49,19 +49,19 @@ def _in_words(folder: Path, show: Callable[..., None]) -> Callable[..., None]:
     """Instead of JAX's warning of an entry that it cannot read, as one that a killed run was writing: the entry goes.
     JAX never writes over one, and would compile and warn in every run that follows. Of entries that cannot be written,
     as on a full disk, one sentence is said."""
-    said: set[str] = set()
+    reasons: set[str] = set()
 
     def showwarning(message: Warning | str, *where: object, **options: Any) -> None:
         unwritten = _UNWRITTEN.match(str(message))
         if unwritten is not None:
-            if not said:
+            if not reasons:
                 print(f"warning: compiled programs are not kept in {folder}: {unwritten[1]}", file=sys.stderr)
-            said.add(unwritten[1])
+            reasons.add(unwritten[1])
             return None
-        found = _DAMAGED.match(str(message))
-        if found is None:
+        damaged = _DAMAGED.match(str(message))
+        if damaged is None:
             return show(message, *where, **options)
-        for path in folder.glob(f"{found[1]}-*"):
+        for path in folder.glob(f"{damaged[1]}-*"):
             path.unlink(missing_ok=True)
 
     return showwarning

@@ -148,8 +148,8 @@ def calibrate(
         )
         _check(options.level, options.relative_error, folds)
         further = [_rig(text) for text in rigs or []]
-        given = given_of([(scene, data), *further], split_assignments(changes or []), free, priors or [], bounds or [])
-        wanted = None if candidates is None else read_candidates(candidates, given.sources[0])
+        inputs = given_of([(scene, data), *further], split_assignments(changes or []), free, priors or [], bounds or [])
+        wanted = None if candidates is None else read_candidates(candidates, inputs.sources[0])
         others = [_prediction(text) for text in predictions or []]
         sampling = sampling_of(posterior, samples, plot_posterior)
         pictures = ("--plot", plot, PICTURES), ("--plot-posterior", plot_posterior, PICTURES)
@@ -162,30 +162,32 @@ def calibrate(
     enable_compilation_cache()
     with without_false_alarms():
         with working("compiling", as_json) as tell:
-            found, ranked = _calibrated(given, options, folds, wanted, label, as_json, _counted(tell))
+            calibration, ranked = _calibrated(inputs, options, folds, wanted, label, as_json, _counted(tell))
             outputs = lambda drawn, again: (
-                *(_output(found, drawn, label, file, as_json) for file in out or []),
-                Output(plot, lambda path: _write_plot(found, label, path), long=True),
-                Output(plot_posterior, lambda path: _write_posterior(found, drawn, again, label, path), long=True),
+                *(_output(calibration, drawn, label, file, as_json) for file in out or []),
+                Output(plot, lambda path: _write_plot(calibration, label, path), long=True),
+                Output(
+                    plot_posterior, lambda path: _write_posterior(calibration, drawn, again, label, path), long=True
+                ),
             )
-            plain = lambda: _print(found, label, given.notes, ranked, None, None, {}, as_json)
-            files = outputs(None, None) if found.converged else ()
+            plain = lambda: _print(calibration, label, inputs.notes, ranked, None, None, {}, as_json)
+            files = outputs(None, None) if calibration.converged else ()
             with kept_if_interrupted(plain, files, "without what comes after the fit", tell.stop):
                 if sampling is not None:
                     tell("sampling the posterior")
-                drawn, again = _sampled(found, sampling)
+                drawn, again = _sampled(calibration, sampling)
                 if others:
                     tell("predicting")
-                predicted = _predicted(found, others, drawn)
-        show = lambda: _print(found, label, given.notes, ranked, drawn, again, predicted, as_json)
-        deliver(show, outputs(drawn, again) if found.converged else ())
-    if not found.converged:
+                predicted = _predicted(calibration, others, drawn)
+        show = lambda: _print(calibration, label, inputs.notes, ranked, drawn, again, predicted, as_json)
+        deliver(show, outputs(drawn, again) if calibration.converged else ())
+    if not calibration.converged:
         left_out = [str(path) for path in (*(out or []), plot, plot_posterior) if path is not None]
         if left_out:
             typer.echo(f"not written: {', '.join(left_out)}", err=True)
         if as_json:
-            typer.echo(f"{found.status.replace('_', ' ')}: {label}: {found.failure()}", err=True)
-        raise typer.Exit(UNDETERMINED if found.undetermined else NOT_CONVERGED)
+            typer.echo(f"{calibration.status.replace('_', ' ')}: {label}: {calibration.failure()}", err=True)
+        raise typer.Exit(UNDETERMINED if calibration.undetermined else NOT_CONVERGED)
 
 
 def _counted(tell: "Callable[[str], None]") -> "Callable[[int], None]":
@@ -218,7 +220,7 @@ def _rig(text: str) -> tuple[str, Path]:
 
 
 def _calibrated(
-    given: "Given",
+    inputs: "Given",
     options: Any,
     folds: int,
     candidates: Any,
@@ -232,35 +234,35 @@ def _calibrated(
     from ..numerics.status import SolveError
 
     try:
-        found = calibrate_scenes(
-            given.scenes,
-            given.data,
-            given.free,
-            priors=given.priors,
-            bounds=given.bounds,
+        calibration = calibrate_scenes(
+            inputs.scenes,
+            inputs.data,
+            inputs.free,
+            priors=inputs.priors,
+            bounds=inputs.bounds,
             folds=folds,
             options=options,
             progress=progress,
         )
-        ranked = () if candidates is None or not found.converged else next_points(found, candidates)
+        ranked = () if candidates is None or not calibration.converged else next_points(calibration, candidates)
     except SolveError as error:
         _print_failure(str(error), error.status.name.lower(), label, as_json)
         raise typer.Exit(NOT_CONVERGED) from None
     except ValueError as error:
         refuse(str(error))
-    return found, ranked
+    return calibration, ranked
 
 
-def _sampled(found: "Calibration", sampling: Any) -> "tuple[Posterior | None, Predictive | None]":
+def _sampled(calibration: "Calibration", sampling: Any) -> "tuple[Posterior | None, Predictive | None]":
     """The posterior that is asked for, of a calibration that converged, and what it predicts to be measured again; ends
     the command where they cannot be."""
     from ..calibration.posterior import posterior_of, predictive
 
-    if sampling is None or not found.converged:
+    if sampling is None or not calibration.converged:
         return None, None
     try:
-        drawn = posterior_of(found, sampling)
-        return drawn, predictive(found, drawn)
+        drawn = posterior_of(calibration, sampling)
+        return drawn, predictive(calibration, drawn)
     except ValueError as error:
         refuse(f"--{error}")
 
@@ -276,58 +278,60 @@ def _prediction(text: str) -> tuple[str, Any, str]:
 
 
 def _predicted(
-    found: "Calibration", others: "list[tuple[str, AbstractScene, str]]", drawn: "Posterior | None"
+    calibration: "Calibration", others: "list[tuple[str, AbstractScene, str]]", drawn: "Posterior | None"
 ) -> "dict[str, Predicted]":
     """Results of other scenes, of a calibration that converged; ends the command where there are none."""
     from ..calibration.prediction import predict
 
-    if not found.converged:
+    if not calibration.converged:
         return {}
     predicted = {}
     for text, scene, result in others:
         try:
-            (predicted[text],) = predict(found, scene, [result], posterior=drawn).values()
+            (predicted[text],) = predict(calibration, scene, [result], posterior=drawn).values()
         except ValueError as error:
             refuse(f"--predict: {text}: {error}")
     return predicted
 
 
-def _write_posterior(found: "Calibration", drawn: Any, again: "Predictive | None", label: str, path: Path) -> None:
-    write_posterior(drawn, again, {field.path: field.unit for field in found.fields}, label, path)
+def _write_posterior(
+    calibration: "Calibration", drawn: Any, again: "Predictive | None", label: str, path: Path
+) -> None:
+    write_posterior(drawn, again, {field.path: field.unit for field in calibration.fields}, label, path)
 
 
-def _output(found: "Calibration", drawn: "Posterior | None", label: str, file: Path, as_json: bool) -> Output:
+def _output(calibration: "Calibration", drawn: "Posterior | None", label: str, file: Path, as_json: bool) -> Output:
     """A file of `--out`: by its suffix the scene, or the fields with what they share."""
     if file.suffix.lower() == OUT[0]:
-        said = "" if as_json else f"wrote {file}: the scene with the calibrated values"
-        return Output(file, lambda path: _write_scene(found, path), said)
-    said = "" if as_json else f"wrote {file}: the fields with what they share; jaxbearing tolerances --posterior {file}"
-    return Output(file, lambda path: _write_joint(found, drawn, label, path), said)
+        text = "" if as_json else f"wrote {file}: the scene with the calibrated values"
+        return Output(file, lambda path: _write_scene(calibration, path), text)
+    text = "" if as_json else f"wrote {file}: the fields with what they share; jaxbearing tolerances --posterior {file}"
+    return Output(file, lambda path: _write_joint(calibration, drawn, label, path), text)
 
 
-def _write_joint(found: "Calibration", drawn: "Posterior | None", label: str, out: Path) -> None:
+def _write_joint(calibration: "Calibration", drawn: "Posterior | None", label: str, out: Path) -> None:
     from ..calibration.prediction import joint_of
     from ..report.joint_file import write_joint
 
-    units = {field.path: field.unit for field in found.fields}
-    write_joint(joint_of(found, drawn), units, out, f"Calibration of {label}")
+    units = {field.path: field.unit for field in calibration.fields}
+    write_joint(joint_of(calibration, drawn), units, out, f"Calibration of {label}")
 
 
-def _write_scene(found: "Calibration", out: Path) -> None:
+def _write_scene(calibration: "Calibration", out: Path) -> None:
     from ..scenes.save import save_scene
 
-    save_scene(found.scenes[0], out)
+    save_scene(calibration.scenes[0], out)
 
 
-def _write_plot(found: "Calibration", label: str, plot: Path) -> None:
+def _write_plot(calibration: "Calibration", label: str, plot: Path) -> None:
     from ..plots import calibration as draw
     from ..report.plots import save_plot
 
-    save_plot(draw(found, title=label), plot)
+    save_plot(draw(calibration, title=label), plot)
 
 
 def _print(
-    found: "Calibration",
+    calibration: "Calibration",
     label: str,
     notes: list[str],
     ranked: "tuple[Candidate, ...]",
@@ -339,9 +343,11 @@ def _print(
     from ..calibration.report import calibration_to_dict, print_calibration
 
     if as_json:
-        typer.echo(json.dumps(calibration_to_dict(found, notes, ranked, drawn, predicted, again), allow_nan=False))
+        typer.echo(
+            json.dumps(calibration_to_dict(calibration, notes, ranked, drawn, predicted, again), allow_nan=False)
+        )
     else:
-        print_calibration(found, label, notes, ranked, drawn, predicted, console(), again)
+        print_calibration(calibration, label, notes, ranked, drawn, predicted, console(), again)
 
 
 def _print_failure(failure: str, status: str, label: str, as_json: bool) -> None:

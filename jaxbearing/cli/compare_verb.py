@@ -47,17 +47,17 @@ def compare(
         if not bool(solution.converged):
             _print_failure(solution, label, as_json)
             raise typer.Exit(NOT_CONVERGED)
-        found = compared(model, solution, catalogue)
-        deliver(lambda: _print(found, label, as_json, full), ())
+        comparison = compared(model, solution, catalogue)
+        deliver(lambda: _print(comparison, label, as_json, full), ())
 
 
-def _print(found: "Comparison", label: str, as_json: bool, full: bool) -> None:
+def _print(comparison: "Comparison", label: str, as_json: bool, full: bool) -> None:
     from ..report.makers_table import comparison_to_dict, print_comparison
 
     if as_json:
-        typer.echo(json.dumps(comparison_to_dict(found), allow_nan=False))
+        typer.echo(json.dumps(comparison_to_dict(comparison), allow_nan=False))
     else:
-        print_comparison(found, label, console(), full)
+        print_comparison(comparison, label, console(), full)
 
 
 def _print_failure(solution: object, label: str, as_json: bool) -> None:

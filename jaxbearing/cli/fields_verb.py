@@ -32,14 +32,14 @@ def fields(
 
         kind = kind_named(kind)
         if kind is not None and kind not in KINDS:
-            found, near = kind_refused(kind, KINDS)
-            raise SceneError("fields", "", found, f"a kind of scene: {one_of(KINDS)}", near)
+            actual, near = kind_refused(kind, KINDS)
+            raise SceneError("fields", "", actual, f"a kind of scene: {one_of(KINDS)}", near)
     if kind is None:
         typer.echo(json.dumps(KINDS) if as_json else "\n".join(KINDS))
         return
     tables = _tables(kind)
     if as_json:
-        rows = [_row(path, field) for path, found in tables for field in found]
+        rows = [_row(path, field) for path, table_fields in tables for field in table_fields]
         typer.echo(json.dumps(rows))
         return
     _print(kind, tables)
@@ -76,11 +76,11 @@ def _print(kind: str, tables: "list[tuple[str, list[Field]]]") -> None:
         print_rule('laws = "best" stands for', out)
         for path, value in stands_for:
             print_line(path, value, out, _PATHS)
-    for path, found in tables:
+    for path, table_fields in tables:
         print_rule(path, out)
         grid = Table.grid(padding=(0, 2, 0, 2))
         for ratio in (None, None, 1, 1):
             grid.add_column(overflow="fold", ratio=ratio, no_wrap=ratio is None)
-        for field in found:
+        for field in table_fields:
             grid.add_row(field.name, field.default, field.expected or "a table", field.description)
         out.print(grid)

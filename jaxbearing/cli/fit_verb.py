@@ -196,13 +196,13 @@ def fit(
         raise typer.Exit(NOT_CONVERGED)
 
 
-def _models(given: str | None, known: list[str]) -> list[str | None]:
+def _models(model: str | None, known: list[str]) -> list[str | None]:
     """Names of the viscous functions to fit; `None` stands for the one of the scene."""
     from fitting.io.typed import choice
 
-    if given == ALL:
+    if model == ALL:
         return [*known]
-    return [None if given is None else choice("--model", given, [*known, ALL])]
+    return [None if model is None else choice("--model", model, [*known, ALL])]
 
 
 def _check_options(options: "FitOptions") -> None:
@@ -327,12 +327,12 @@ def _print(
         from fitting.io.json_report import fit_to_dict
 
         oil = str(out) if out is not None and result.status != "not_converged" else None
-        found = fit_to_dict(result, str(data), label, notes, oil, rows)
+        report = fit_to_dict(result, str(data), label, notes, oil, rows)
         if drawn is not None:
-            found["posterior"] = drawn.to_dict()
+            report["posterior"] = drawn.to_dict()
         if again is not None:
-            found["predictive"] = again.to_dict()
-        typer.echo(json.dumps(found, allow_nan=False))
+            report["predictive"] = again.to_dict()
+        typer.echo(json.dumps(report, allow_nan=False))
         return
     from fitting.io.summary import print_comparison, print_fit
 

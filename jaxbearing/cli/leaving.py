@@ -16,7 +16,7 @@ def leave(code: int) -> NoReturn:
     compiled program apart first, which takes a sixth of the time of a warm solve. A program that calls `main`, and a
     process whose threads are still at work, end in Python's way.
     """
-    alone = all(one.daemon for one in threading.enumerate() if one is not threading.main_thread())
+    alone = all(thread.daemon for thread in threading.enumerate() if thread is not threading.main_thread())
     if is_the_command() and alone:
         atexit._run_exitfuncs()
         if _flushed():

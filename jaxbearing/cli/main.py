@@ -104,10 +104,10 @@ def _usage(error: Any) -> int:
         return BAD_INPUT
     hint = f" See '{context.command_path} --help'." if context is not None else ""
     message = error.format_message()
-    return say(f"{message.removesuffix('.')}.{hint}{_of_two_words() if 'extra argument' in message else ''}", BAD_INPUT)
+    return say(f"{message.removesuffix('.')}.{hint}{_new_hint() if 'extra argument' in message else ''}", BAD_INPUT)
 
 
-def _of_two_words() -> str:
+def _new_hint() -> str:
     """The command that writes a scene, if a verb got a designation such as NU 2210 in place of a scene."""
     from ..catalogue.designation import parse
     from ..scenes.errors import SceneError

@@ -32,26 +32,26 @@ def bad_input(notes: list[str] | None = None) -> Iterator[None]:
     from ..scenes.input_files import remembered_inputs
 
     notable = (MeanUsedWarning, PresetUsedWarning, StatesUnusedWarning)
-    said: list[str] = []
+    texts: list[str] = []
     try:
         with warnings.catch_warnings(record=True) as caught, remembered_inputs():
             for category in notable:
                 warnings.simplefilter("always", category)
             yield
-        for one in caught:
-            if not issubclass(one.category, notable):
-                warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
-            elif str(one.message) not in said:
-                said.append(_noted(one))
+        for warning in caught:
+            if not issubclass(warning.category, notable):
+                warnings.warn_explicit(warning.message, warning.category, warning.filename, warning.lineno)
+            elif str(warning.message) not in texts:
+                texts.append(_note(warning))
     except SceneError as error:
-        refuse(str(error) + _of_a_bearing(error))
-    for text in said if notes is None else ():
+        refuse(str(error) + _new_hint(error))
+    for text in texts if notes is None else ():
         typer.echo(f"note: {text}", err=True)
     if notes is not None:
-        notes += said
+        notes += texts
 
 
-def _noted(warning: warnings.WarningMessage) -> str:
+def _note(warning: warnings.WarningMessage) -> str:
     """The text of a warning as a note, in the group that it has."""
     from ..scenes.errors import PresetUsedWarning
 
@@ -62,7 +62,7 @@ def _noted(warning: warnings.WarningMessage) -> str:
     return Information(warning.message)
 
 
-def _of_a_bearing(error: "SceneError") -> str:
+def _new_hint(error: "SceneError") -> str:
     """The command that writes a scene, if what should be a file is the designation of a standard bearing."""
     from ..scenes.errors import SceneError
 

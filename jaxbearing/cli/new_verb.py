@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from ..catalogue import Bearing
 
 
-def _quantity(name: str, what: str) -> Any:
-    return typer.Option(f"--{name}", metavar="VALUE", help=what)
+def _quantity(name: str, text: str) -> Any:
+    return typer.Option(f"--{name}", metavar="VALUE", help=text)
 
 
 def _known(incomplete: str) -> list[str]:
@@ -84,7 +84,7 @@ def new(
         from ..catalogue.designation import parse_several
         from ..scenes.units import ANGLE, FLOW, FORCE, LENGTH, SPEED, TEMPERATURE
 
-        names = [one.text for one in parse_several(name)]
+        names = [parsed.text for parsed in parse_several(name)]
         of_one = {
             "dynamic_capacity": ("--dynamic-capacity", dynamic_capacity, FORCE, "> 0"),
             "static_capacity": ("--static-capacity", static_capacity, FORCE, "> 0"),
@@ -100,46 +100,46 @@ def new(
             "oil_temperature": ("--oil-temperature", oil_temperature, TEMPERATURE, "> 0"),
             "oil_flow": ("--oil-flow", oil_flow, FLOW, ">= 0"),
         }
-        given: dict[str, Any] = {
+        quantities: dict[str, Any] = {
             field: option_quantity(option, text, dimension, bound)
             for field, (option, text, dimension, bound) in texts.items()
             if text is not None
         }
-        if len(names) > 1 and (balls is not None or given.keys() & of_one):
+        if len(names) > 1 and (balls is not None or quantities.keys() & of_one):
             refuse(f"new {name}: found {len(names)} designations with facts about the inside of one; expected one")
         if len(names) > 1 and output is not None and not output.is_dir():
             refuse(f"--output: found '{output}' for {len(names)} designations; expected a folder that exists")
         bearings = {}
-        for one in names:
-            found = _found(one, n_elements=balls, oil=oil, base=base, **given)
-            bearings[_target(output, f"{found.designation.name}.toml", force)] = found
+        for label in names:
+            bearing = _bearing(label, n_elements=balls, oil=oil, base=base, **quantities)
+            bearings[_target(output, f"{bearing.designation.name}.toml", force)] = bearing
         if len(bearings) < len(names):
             refuse(f"new {name}: found a designation twice; expected each once")
-    for target, found in bearings.items():
-        _write(target, found.text())
+    for target, bearing in bearings.items():
+        _write(target, bearing.text())
     if as_json:
-        objects = [_as_json(found, target) for target, found in bearings.items()]
+        objects = [_as_json(made, target) for target, made in bearings.items()]
         typer.echo(json.dumps(objects[0] if len(objects) == 1 else {"bearings": objects}))
         return
-    for target, found in bearings.items():
-        _show(found)
+    for target, bearing in bearings.items():
+        _show(bearing)
         typer.echo(f"wrote {target}: jaxbearing solve {target}")
 
 
-def _found(name: str, **given: Any) -> "Bearing":
+def _bearing(name: str, **facts: Any) -> "Bearing":
     """The bearing with a scene that can be built. **Raises:** `SceneError` if it cannot."""
     from ..catalogue import find
 
     try:
-        found = find(name, **given)
+        bearing = find(name, **facts)
     except ValueError as error:
         if type(error) is not ValueError:
             raise
         refuse(f"new {name}: {error}")
-    if not found.is_usual:
+    if not bearing.is_usual:
         # a scene that cannot be built is said before anything is written
-        found.scene()
-    return found
+        bearing.scene()
+    return bearing
 
 
 def _target(output: Path | None, file: str, force: bool) -> Path:
@@ -174,69 +174,69 @@ _SHOWN = {
 """Field of the geometry -> words, factor to the unit of the screen, unit."""
 
 
-def _fields(found: "Bearing") -> list[str]:
+def _fields(bearing: "Bearing") -> list[str]:
     """Fields of the geometry that the type of bearing has."""
-    kind = found.designation.kind
+    kind = bearing.designation.kind
     left_out = {"length"} if kind not in ("cylindrical", "tapered") else set()
     if kind in ("deep_groove", "cylindrical"):
         left_out.add("contact_angle")
     return [name for name in _SHOWN if name not in left_out]
 
 
-def _show(found: "Bearing") -> None:
+def _show(bearing: "Bearing") -> None:
     from rich.table import Table
 
     from ..catalogue.scene_text import best_in_words, kilonewtons, sharper
     from ..scenes.quantity_texts import text_in
     from ..scenes.units import ANGLE, LENGTH
 
-    bearing, geometry = found.designation, found.geometry
-    element = "roller" if bearing.kind in ("cylindrical", "tapered") else "ball"
+    designation, geometry = bearing.designation, bearing.geometry
+    element = "roller" if designation.kind in ("cylindrical", "tapered") else "ball"
     out = console()
-    sizes = f"{bearing.bore:g} x {bearing.outside:g} x {bearing.width:g} mm"
-    out.print(f"{bearing.text}: {bearing.in_words}, {sizes}", style="bold", markup=False)
+    sizes = f"{designation.bore:g} x {designation.outside:g} x {designation.width:g} mm"
+    out.print(f"{designation.text}: {designation.in_words}, {sizes}", style="bold", markup=False)
     table = Table.grid(padding=(0, 2, 0, 0))
     for wrapped in (False, False, True):
         table.add_column(no_wrap=not wrapped, overflow="fold")
-    for name in _fields(found):
+    for name in _fields(bearing):
         label, scale, unit = _SHOWN[name]
-        one = getattr(geometry, name)
-        value = f"{scale * one.value:.5g} {unit}".strip()
-        if one.given and unit:
-            value = text_in(unit, one.value, ANGLE if unit == "deg" else LENGTH)
-        least, greatest = f"{scale * one.least:.4g}", f"{scale * one.greatest:.4g}"
-        source = "known" if one.given else f"estimated, {least} to {greatest}"
+        estimate = getattr(geometry, name)
+        value = f"{scale * estimate.value:.5g} {unit}".strip()
+        if estimate.given and unit:
+            value = text_in(unit, estimate.value, ANGLE if unit == "deg" else LENGTH)
+        least, greatest = f"{scale * estimate.least:.4g}", f"{scale * estimate.greatest:.4g}"
+        source = "known" if estimate.given else f"estimated, {least} to {greatest}"
         table.add_row(label.format(f"{element}s" if name == "n_elements" else element), value, source)
     ratings = (("C", "dynamic_capacity", "ISO 281"), ("C0", "static_capacity", "limits of ISO 76"))
     for symbol, field, source in ratings:
-        printed = f"; given {kilonewtons(found.given[field])}" if field in found.given else ""
+        printed = f"; given {kilonewtons(bearing.given[field])}" if field in bearing.given else ""
         table.add_row(symbol, f"{1e-3 * getattr(geometry, field):.4g} kN", f"of this geometry, {source}{printed}")
     out.print(table)
-    if found.duty.oil is None:
+    if bearing.duty.oil is None:
         out.print("dry: no films and no losses; --oil 'ISO VG 68' adds both", markup=False)
     else:
-        words = f"{best_in_words(bearing)} by laws = 'best', which solve lists"
-        out.print(f"oil {found.duty.oil}: {words}", markup=False)
-    options = sharper(bearing, found.given)
+        words = f"{best_in_words(designation)} by laws = 'best', which solve lists"
+        out.print(f"oil {bearing.duty.oil}: {words}", markup=False)
+    options = sharper(designation, bearing.given)
     if options:
         out.print(f"sharper with {options}", markup=False)
-    for note in bearing.notes:
+    for note in designation.notes:
         out.print(f"note: {note}", markup=False)
 
 
-def _as_json(found: "Bearing", target: Path) -> dict[str, Any]:
-    bearing, geometry = found.designation, found.geometry
+def _as_json(bearing: "Bearing", target: Path) -> dict[str, Any]:
+    designation, geometry = bearing.designation, bearing.geometry
     return {
-        "designation": bearing.text,
-        "kind": bearing.kind,
-        "bore": 1e-3 * bearing.bore,
-        "outside_diameter": 1e-3 * bearing.outside,
-        "width": 1e-3 * bearing.width,
-        "clearance_class": bearing.clearance_class,
-        "geometry": {name: getattr(geometry, name)._asdict() for name in _fields(found)},
+        "designation": designation.text,
+        "kind": designation.kind,
+        "bore": 1e-3 * designation.bore,
+        "outside_diameter": 1e-3 * designation.outside,
+        "width": 1e-3 * designation.width,
+        "clearance_class": designation.clearance_class,
+        "geometry": {name: getattr(geometry, name)._asdict() for name in _fields(bearing)},
         "dynamic_capacity": geometry.dynamic_capacity,
         "static_capacity": geometry.static_capacity,
-        "oil": found.duty.oil,
-        "notes": list(bearing.notes),
+        "oil": bearing.duty.oil,
+        "notes": list(designation.notes),
         "file": str(target),
     }

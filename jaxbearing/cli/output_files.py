@@ -103,7 +103,7 @@ def deliver(show: Callable[[], None], files: Sequence[Output] = (), notes_to_std
     code = 0
     try:
         with deferred_interrupts() as interrupt:
-            _if_ended(left)
+            _set_if_interrupted(left)
             try:
                 show()
                 sys.stdout.flush()
@@ -113,7 +113,7 @@ def deliver(show: Callable[[], None], files: Sequence[Output] = (), notes_to_std
         while left:
             code = max(code, _write(left, written))
     except KeyboardInterrupt:
-        if_interrupted(f"not written: {_named(left)}" if left else ALL)
+        if_interrupted(f"not written: {_file_names(left)}" if left else ALL)
         tell()
         code = INTERRUPTED
     else:
@@ -148,7 +148,7 @@ def kept_if_interrupted(
                     file.write(file.path)
                 except (OSError, MemoryError):
                     left.append(file)
-        return f"{without}; not written: {_named(left)}" if left else without
+        return f"{without}; not written: {_file_names(left)}" if left else without
 
     if_interrupted(words)
     try:
@@ -160,7 +160,7 @@ def kept_if_interrupted(
 
 def _write(left: list[Output], written: list[Output]) -> int:
     """Write the first of the files that are left; returns the exit code."""
-    _if_ended(left)
+    _set_if_interrupted(left)
     file = left[0]
     code = 0
     try:
@@ -173,9 +173,9 @@ def _write(left: list[Output], written: list[Output]) -> int:
     return code
 
 
-def _if_ended(left: Sequence[Output]) -> None:
-    if_interrupted(f"not written: {_named(left)}" if left else "while the results were printed")
+def _set_if_interrupted(left: Sequence[Output]) -> None:
+    if_interrupted(f"not written: {_file_names(left)}" if left else "while the results were printed")
 
 
-def _named(files: Sequence[Output]) -> str:
+def _file_names(files: Sequence[Output]) -> str:
     return ", ".join(str(file.path) for file in files)

@@ -43,10 +43,10 @@ def sampling_of(wanted: bool, samples: int, plot: Path | None) -> "Sampling | No
 
 
 def write_posterior(
-    found: "Posterior", again: "Predictive | None", units: Mapping[str, str], label: str, path: Path
+    drawn: "Posterior", again: "Predictive | None", units: Mapping[str, str], label: str, path: Path
 ) -> None:
     """Draws the samples and what they predict into a file."""
     from ..plots import posterior as draw
     from ..report.plots import save_plot
 
-    save_plot(draw(found, units, title=label, predictive=again), path)
+    save_plot(draw(drawn, units, title=label, predictive=again), path)

@@ -40,8 +40,8 @@ def report(
     convergence and validity. The power loss has an interval where inputs are known by a distribution only. With
     `--json` the object that `solve` prints, and the page's name on stderr."""
     target = out if out is not None else Path(f"{Path(scene).stem}_report.html")
-    said: list[str] = []
-    with bad_input(said):
+    notes: list[str] = []
+    with bad_input(notes):
         from ..scenes.bearing.catalogue import load_catalogue
         from ..scenes.inputs import scene_inputs
         from ..scenes.marks import notes_of_file
@@ -53,7 +53,7 @@ def report(
         model = base_scene(scene, overrides)
         states = load_states(scene, overrides) if has_states(scene) else ()
         try:
-            require_rated({one.name: one.scene for one in states})
+            require_rated({state.name: state.scene for state in states})
         except (TypeError, ValueError) as error:
             refuse(f"{scene}: {error}")
         inputs = scene_inputs(scene, overrides, model)
@@ -65,13 +65,13 @@ def report(
     from .quiet import without_false_alarms
 
     label = labelled(scene, changes)
-    said += marked
+    notes += marked
     enable_compilation_cache()
     with without_false_alarms():
         from ..solve import solve_once
 
         solution = solve_once(model)
-        solution = dataclasses.replace(solution, notes=(*solution.notes, *said)) if said else solution
+        solution = dataclasses.replace(solution, notes=(*solution.notes, *notes)) if notes else solution
         converged = bool(solution.converged)
         title = labelled(Path(scene).name, changes)
         listings = [_spectrum(states)] if states and converged else []
@@ -98,7 +98,9 @@ def _spectrum(states: "Sequence[FileState]") -> "Listing":
     from ..spectrum.tables import spectrum_listing
     from ..spectrum.verb import solve_states
 
-    return spectrum_listing(solve_states({one.name: one.scene for one in states}, [one.share for one in states]))
+    return spectrum_listing(
+        solve_states({state.name: state.scene for state in states}, [state.share for state in states])
+    )
 
 
 def _interval(
@@ -110,10 +112,10 @@ def _interval(
     from ..scenes.reader import load_distributions
     from ..solve import solve_once
 
-    given: dict[str, Any] = {}
+    distributions: dict[str, Any] = {}
     with suppress(SceneError):  # a pipe cannot be read twice
-        given |= load_distributions(source, changes)
-    return power_interval(model, solution, solve_once, numbers_among(model, given), drag_prior)
+        distributions |= load_distributions(source, changes)
+    return power_interval(model, solution, solve_once, numbers_among(model, distributions), drag_prior)
 
 
 def _show(solution: "AbstractSolution", label: str, as_json: bool) -> None:

@@ -94,6 +94,6 @@ def _copy(scene: str, changes: list[str], to: Path | None, force: bool) -> None:
         if isinstance(error, OSError) and error.errno in _FULL:
             raise typer.Exit(unwritten(target, error)) from None
         # ValueError: a path with a null byte
-        found = f"a place that cannot be written: {getattr(error, 'strerror', None) or error}"
-        raise SceneError(str(target), "", found, "a file in an existing folder") from None
+        actual = f"a place that cannot be written: {getattr(error, 'strerror', None) or error}"
+        raise SceneError(str(target), "", actual, "a file in an existing folder") from None
     typer.echo(f"wrote {target}")

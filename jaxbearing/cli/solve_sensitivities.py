@@ -122,29 +122,29 @@ def moved(
     tolerances = usual_tolerances(model, own)
     interval = None
     if slopes.power_loss is not None:
-        numbers = {path: one for path, one in own.items() if path in slopes.power_loss}
+        numbers = {path: distribution for path, distribution in own.items() if path in slopes.power_loss}
         interval = power_interval(model, solution, given=numbers, drag_prior=wanted.drag_prior)
     return Moved(model, slopes, effects(model, slopes, tolerances), tolerances, interval, wanted.by)
 
 
-def as_json(found: Moved) -> dict[str, Any]:
+def as_json(results: Moved) -> dict[str, Any]:
     """The entries of the JSON object."""
     from ..report.json_report import effects_to_dict, sensitivities_to_dict
 
     entries: dict[str, Any] = {
-        "sensitivities": sensitivities_to_dict(found.slopes),
-        "sensitivities_by_tolerance": effects_to_dict(found.effects, found.tolerances),
+        "sensitivities": sensitivities_to_dict(results.slopes),
+        "sensitivities_by_tolerance": effects_to_dict(results.effects, results.tolerances),
     }
-    if found.interval is not None:
-        entries["power_loss_interval"] = found.interval.as_dict()
+    if results.interval is not None:
+        entries["power_loss_interval"] = results.interval.as_dict()
     return entries
 
 
-def print_screen(found: Moved) -> None:
+def print_screen(results: Moved) -> None:
     """The tables below the summary."""
     from ..report.sensitivity_table import print_effects, print_sensitivities
 
-    if found.by == "percent":
-        print_sensitivities(found.slopes, console(), found.interval)
+    if results.by == "percent":
+        print_sensitivities(results.slopes, console(), results.interval)
     else:
-        print_effects(found.scene, found.effects, found.tolerances, console(), found.interval)
+        print_effects(results.scene, results.effects, results.tolerances, console(), results.interval)

@@ -74,8 +74,8 @@ def solve(
 ) -> None:
     """Steady state: life, power loss, loads, films, pressures, speeds; of a two-disk machine, its traction curves; of a
     line contact, its film."""
-    said: list[str] = []
-    with bad_input(said):
+    notes: list[str] = []
+    with bad_input(notes):
         from ..scenes.marks import notes_of_file
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
@@ -93,11 +93,11 @@ def solve(
     from .quiet import without_false_alarms
 
     label = labelled(scene, changes)
-    said += marked
+    notes += marked
     enable_compilation_cache()
     with without_false_alarms():
         solution, slopes = extra.solved(model, asked)
-        solution = dataclasses.replace(solution, notes=(*solution.notes, *said)) if said else solution
+        solution = dataclasses.replace(solution, notes=(*solution.notes, *notes)) if notes else solution
         failure = "" if bool(solution.converged) else solution.failure()
         moved = extra.moved(model, solution, slopes, asked, scene, assignments)
         needless = _without_equilibrium(model, solution)
@@ -187,8 +187,8 @@ def _without_equilibrium(model: "AbstractScene", solution: "AbstractSolution") -
         return None
     from ..bearings.bearing_life import catalogue_life
 
-    found = catalogue_life(model)
-    return found if math.isfinite(float(found.L10)) else None
+    life = catalogue_life(model)
+    return life if math.isfinite(float(life.L10)) else None
 
 
 def _print_json(

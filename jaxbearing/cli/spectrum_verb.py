@@ -41,8 +41,8 @@ def spectrum(
     share, life, loss, pressure and static safety by state, then the life, the equivalent load and the state that
     governs; with --over the life at each value of a field."""
     begin = time.monotonic()
-    said: list[str] = []
-    with bad_input(said):
+    notes: list[str] = []
+    with bad_input(notes):
         from ..scenes.marks import notes_of_file
         from ..scenes.overrides import split_assignments
         from ..scenes.states import load_states
@@ -63,24 +63,24 @@ def spectrum(
     from .quiet import without_false_alarms
 
     label = labelled(scene, changes)
-    said += marked
+    notes += marked
     enable_compilation_cache()
     with without_false_alarms():
         from ..spectrum.verb import solve_cases
 
-        found = solve_cases([_scenes(states) for states in cases], [one.share for one in cases[0]])
-        found = [dataclasses.replace(one, notes=tuple(said)) for one in found]
+        spectra = solve_cases([_scenes(states) for states in cases], [state.share for state in cases[0]])
+        spectra = [dataclasses.replace(solved, notes=tuple(notes)) for solved in spectra]
         seconds = time.monotonic() - begin
         if varied is None:
-            typed = {one.name: one.changes for one in cases[0]}
-            deliver(lambda: _print(found[0], typed, label, seconds, as_json, full))
+            typed = {state.name: state.changes for state in cases[0]}
+            deliver(lambda: _print(spectra[0], typed, label, seconds, as_json, full))
         else:
-            deliver(lambda: _print_over(*varied, found, label, seconds, as_json, full))
-    _end_if_failed(found, label, as_json)
+            deliver(lambda: _print_over(*varied, spectra, label, seconds, as_json, full))
+    _end_if_failed(spectra, label, as_json)
 
 
 def _scenes(states: "tuple[FileState, ...]") -> dict[str, Any]:
-    return {one.name: one.scene for one in states}
+    return {state.name: state.scene for state in states}
 
 
 def _values(scene: str, over: str, overrides: dict[str, str]) -> "tuple[Field, list[float]]":
@@ -97,31 +97,31 @@ def _values(scene: str, over: str, overrides: dict[str, str]) -> "tuple[Field, l
     return next(iter(fields.values())), [float(value) for value in cases.values[0]]
 
 
-def _end_if_failed(found: "list[Spectrum]", label: str, as_json: bool) -> None:
-    failures = [(name, text) for one in found for name, text in one.failures.items()]
+def _end_if_failed(spectra: "list[Spectrum]", label: str, as_json: bool) -> None:
+    failures = [(name, text) for solved in spectra for name, text in solved.failures.items()]
     if not failures:
         return
     if as_json:
-        said = "; ".join(f"state '{name}': {text}" for name, text in failures)
-        typer.echo(f"not converged: {label}: {said}", err=True)
+        summary = "; ".join(f"state '{name}': {text}" for name, text in failures)
+        typer.echo(f"not converged: {label}: {summary}", err=True)
     raise typer.Exit(NOT_CONVERGED)
 
 
 def _print(
-    found: "Spectrum", changes: dict[str, dict[str, str]], label: str, seconds: float, as_json: bool, full: bool
+    solved: "Spectrum", changes: dict[str, dict[str, str]], label: str, seconds: float, as_json: bool, full: bool
 ) -> None:
     from ..spectrum.tables import print_spectrum, spectrum_to_dict
 
     if as_json:
-        typer.echo(json.dumps(spectrum_to_dict(found, changes), allow_nan=False))
+        typer.echo(json.dumps(spectrum_to_dict(solved, changes), allow_nan=False))
     else:
-        print_spectrum(found, changes, label, seconds, console(), full)
+        print_spectrum(solved, changes, label, seconds, console(), full)
 
 
 def _print_over(
     field: "Field",
     values: list[float],
-    found: "list[Spectrum]",
+    spectra: "list[Spectrum]",
     label: str,
     seconds: float,
     as_json: bool,
@@ -131,6 +131,6 @@ def _print_over(
 
     unit = "" if field.dimension is None else field.dimension.si
     if as_json:
-        typer.echo(json.dumps(over_to_dict(field.path, unit, values, found), allow_nan=False))
+        typer.echo(json.dumps(over_to_dict(field.path, unit, values, spectra), allow_nan=False))
     else:
-        print_over(field.path, unit, values, found, label, seconds, console(), full)
+        print_over(field.path, unit, values, spectra, label, seconds, console(), full)

@@ -186,8 +186,8 @@ def _print(table: "StiffnessTable | ShaftStiffness", label: str, as_json: bool, 
 
     if as_json:
         numbers = shaft_stiffness_to_dict(table) if isinstance(table, ShaftStiffness) else stiffness_to_dict(table)
-        found = {"converged": True, "failure": None, **numbers}
-        typer.echo(json.dumps(found, allow_nan=False))
+        report = {"converged": True, "failure": None, **numbers}
+        typer.echo(json.dumps(report, allow_nan=False))
     elif isinstance(table, ShaftStiffness):
         print_shaft_stiffness(table, label, console(), full)
     else:

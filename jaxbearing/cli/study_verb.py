@@ -64,42 +64,42 @@ def study(
         from ..studies import claims_of, power_loss_study
 
         try:
-            found = power_loss_study(model)
+            result = power_loss_study(model)
         except ValueError as error:
             refuse(str(error))
-        failed = found.failed == found.cases
-        claims = [] if failed else claims_of(found)
+        failed = result.failed == result.cases
+        claims = [] if failed else claims_of(result)
         seconds = time.monotonic() - begin
         outputs = (
-            Output(out, lambda path: _write_data(found, path)),
-            Output(plot, lambda path: _write_plot(found, label, path), long=True),
+            Output(out, lambda path: _write_data(result, path)),
+            Output(plot, lambda path: _write_plot(result, label, path), long=True),
         )
-        deliver(lambda: _print(found, claims, label, seconds, as_json), () if failed else outputs)
+        deliver(lambda: _print(result, claims, label, seconds, as_json), () if failed else outputs)
     if failed:
         left_out = [str(path) for path in (plot, out) if path is not None]
         if left_out:
             typer.echo(f"not written: {', '.join(left_out)}", err=True)
-        typer.echo(f"not converged: {label}: none of {found.cases} cases", err=True)
+        typer.echo(f"not converged: {label}: none of {result.cases} cases", err=True)
         raise typer.Exit(NOT_CONVERGED)
 
 
-def _write_data(found: "PowerLossStudy", out: Path) -> None:
+def _write_data(result: "PowerLossStudy", out: Path) -> None:
     from ..report.dataset import write_netcdf
 
-    write_netcdf(found.tree(), out)
+    write_netcdf(result.tree(), out)
 
 
-def _write_plot(found: "PowerLossStudy", label: str, plot: Path) -> None:
+def _write_plot(result: "PowerLossStudy", label: str, plot: Path) -> None:
     from ..report.plots import save_plot
     from ..studies.pictures import study_page
 
-    save_plot(study_page(found, label), plot)
+    save_plot(study_page(result, label), plot)
 
 
-def _print(found: "PowerLossStudy", claims: "Sequence[Claim]", label: str, seconds: float, as_json: bool) -> None:
+def _print(result: "PowerLossStudy", claims: "Sequence[Claim]", label: str, seconds: float, as_json: bool) -> None:
     from ..studies.tables import print_study, study_to_dict
 
     if as_json:
-        typer.echo(json.dumps(study_to_dict(found, claims), allow_nan=False))
-    elif found.failed < found.cases:
-        print_study(found, claims, label, seconds, console())
+        typer.echo(json.dumps(study_to_dict(result, claims), allow_nan=False))
+    elif result.failed < result.cases:
+        print_study(result, claims, label, seconds, console())

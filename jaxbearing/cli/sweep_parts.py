@@ -94,8 +94,8 @@ def ends_in_words(
     except StoppedError as stopped:
         if when_stopped is not None:
             when_stopped(stopped)
-        said = f"the output cannot be written: {target}: {stopped.strerror}; {stopped.kept}"
-        raise typer.Exit(say(said, NO_OUTPUT)) from None
+        message = f"the output cannot be written: {target}: {stopped.strerror}; {stopped.kept}"
+        raise typer.Exit(say(message, NO_OUTPUT)) from None
     except OSError as error:
         raise typer.Exit(unwritten(target, error)) from None
     except SweepError as error:

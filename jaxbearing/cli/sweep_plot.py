@@ -71,7 +71,7 @@ def write_plot(plot: Path, target: Path, label: str, point: "Mapping[str, float]
         save_plot(_page(with_stiffness(whole.squeeze()), label, point), plot)
 
 
-def _page(found: "xr.Dataset", label: str, point: "Mapping[str, float]") -> "matplotlib.figure.Figure":
+def _page(dataset: "xr.Dataset", label: str, point: "Mapping[str, float]") -> "matplotlib.figure.Figure":
     """The page: head, and one chart."""
     from ..plots import map_of, power_loss_against, result_against
     from ..plots.sweeps import failed_note, name_of, swept
@@ -79,46 +79,50 @@ def _page(found: "xr.Dataset", label: str, point: "Mapping[str, float]") -> "mat
     from ..report.backends.matplotlib.sheet import foot, head, title_of
 
     # dry scenes have a loss, which is zero
-    there = [name for name in MAIN if name in found]
-    main = next((name for name in there if bool((found[name] != 0.0).any())), there[0])
+    there = [name for name in MAIN if name in dataset]
+    main = next((name for name in there if bool((dataset[name] != 0.0).any())), there[0])
     page = Page(_WIDTH, _HEIGHT)
-    head(page, label, _operation(found))
-    lines = foot(page, filter(None, [failed_note(found, "Gaps, or hatched").strip()]))
+    head(page, label, _operation(dataset))
+    lines = foot(page, filter(None, [failed_note(dataset, "Gaps, or hatched").strip()]))
     below = 0.1 + 0.16 * lines
     page.set_layout_engine("constrained", rect=(0.015, below / _HEIGHT, 0.97, 1.0 - (below + _HEAD) / _HEIGHT))
     axes = page.add_subplot()
-    if len(swept(found)) == 2:
-        map_of(found, main, axes=axes, operating_point=point)
+    if len(swept(dataset)) == 2:
+        map_of(dataset, main, axes=axes, operating_point=point)
     elif main == MAIN[0]:
-        power_loss_against(found, axes=axes, operating_point=point)
+        power_loss_against(dataset, axes=axes, operating_point=point)
     else:
-        result_against(found, main, axes=axes, operating_point=point)
-    name = "power loss by location" if main == MAIN[0] and len(swept(found)) == 1 else name_of(found, main)
+        result_against(dataset, main, axes=axes, operating_point=point)
+    name = "power loss by location" if main == MAIN[0] and len(swept(dataset)) == 1 else name_of(dataset, main)
     title_of(axes, f"{name[:1].upper()}{name[1:]}")
     return page
 
 
-def with_stiffness(found: "xr.Dataset") -> "xr.Dataset":
+def with_stiffness(dataset: "xr.Dataset") -> "xr.Dataset":
     """The data set with the diagonal of the stiffness, of degrees of freedom that the model has, as results of their
     own."""
-    if "stiffness" not in found:
-        return found
+    if "stiffness" not in dataset:
+        return dataset
     for freedom in ("radial", "axial"):
-        one = found["stiffness"].sel(freedom=freedom, freedom_displaced=freedom)
-        if bool(found["freedom_modelled"].sel(freedom=freedom)):
-            one.attrs = {"units": str(one["stiffness_units"].values), "long_name": f"{freedom} stiffness"}
-            found = found.assign({f"stiffness_{freedom}": one.reset_coords(drop=True)})
-    return found
+        stiffness = dataset["stiffness"].sel(freedom=freedom, freedom_displaced=freedom)
+        if bool(dataset["freedom_modelled"].sel(freedom=freedom)):
+            stiffness.attrs = {"units": str(stiffness["stiffness_units"].values), "long_name": f"{freedom} stiffness"}
+            dataset = dataset.assign({f"stiffness_{freedom}": stiffness.reset_coords(drop=True)})
+    return dataset
 
 
-def _operation(found: "xr.Dataset") -> str:
+def _operation(dataset: "xr.Dataset") -> str:
     """The caption of all cases in common: the numbers of the operating point that were not swept."""
     from ..plots.style import axis_name, shown
 
-    said = []
-    for name, one in found.coords.items():
-        if str(name).startswith("operation_") and one.ndim == 0 and str(one.attrs.get("units", "1")) != "1":
-            value, unit = shown(one)
-            if float(one) != 0.0:
-                said.append(f"{axis_name(one, '')} {float(value):.6g} {unit}")
-    return "   ·   ".join(said)
+    texts = []
+    for name, coordinate in dataset.coords.items():
+        if (
+            str(name).startswith("operation_")
+            and coordinate.ndim == 0
+            and str(coordinate.attrs.get("units", "1")) != "1"
+        ):
+            value, unit = shown(coordinate)
+            if float(coordinate) != 0.0:
+                texts.append(f"{axis_name(coordinate, '')} {float(value):.6g} {unit}")
+    return "   ·   ".join(texts)

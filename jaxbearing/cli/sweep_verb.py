@@ -210,8 +210,12 @@ def _refused(option: str) -> Iterator[None]:
 def _print_stopped(stopped: "StoppedError", label: str, seconds: float, as_json: bool) -> None:
     """Shows the counts of a sweep whose file could not be written."""
     if as_json:
-        found = {"cases": stopped.cases, "converged": stopped.converged, "failed": stopped.computed - stopped.converged}
-        typer.echo(json.dumps(found | {"file": None, "seconds": round(seconds, 3)}))
+        counts = {
+            "cases": stopped.cases,
+            "converged": stopped.converged,
+            "failed": stopped.computed - stopped.converged,
+        }
+        typer.echo(json.dumps(counts | {"file": None, "seconds": round(seconds, 3)}))
         return
     from ..report.backends.screen import headline
 
@@ -221,8 +225,8 @@ def _print_stopped(stopped: "StoppedError", label: str, seconds: float, as_json:
 
 def _print(outcome: "Outcome", label: str, target: Path, seconds: float, as_json: bool) -> None:
     if as_json:
-        found = {"cases": outcome.cases, "converged": outcome.converged, "failed": outcome.failed}
-        typer.echo(json.dumps(found | {"file": str(target), "seconds": round(seconds, 3)}))
+        counts = {"cases": outcome.cases, "converged": outcome.converged, "failed": outcome.failed}
+        typer.echo(json.dumps(counts | {"file": str(target), "seconds": round(seconds, 3)}))
         return
     from ..report.sweep_summary import print_sweep
 

@@ -18,8 +18,8 @@ def console() -> "Console":
     from rich.console import Console
 
     columns = os.environ.get("COLUMNS", "")
-    said = int(columns) if columns.isdecimal() and int(columns) > 0 else None
-    return Console(highlight=False, width=said or (None if sys.stdout.isatty() else PIPE_WIDTH))
+    width = int(columns) if columns.isdecimal() and int(columns) > 0 else None
+    return Console(highlight=False, width=width or (None if sys.stdout.isatty() else PIPE_WIDTH))
 
 
 class Working(NamedTuple):

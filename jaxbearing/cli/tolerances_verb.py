@@ -122,22 +122,22 @@ def tolerances(
 
         try:
             with working("solving at the means, with derivatives", as_json):
-                found = analysis.tolerances(wanted)
+                result = analysis.tolerances(wanted)
         except SolveError as error:
             _print_failure(str(error), error.status.name.lower(), label, as_json)
             raise typer.Exit(NOT_CONVERGED) from None
         except ValueError as error:
             refuse(f"--{error}")
         if samples:
-            found = _sampled(
-                analysis, found, target, (samples, seed, chunk), (devices, workers, scheduler), overwrite, as_json
+            result = _sampled(
+                analysis, result, target, (samples, seed, chunk), (devices, workers, scheduler), overwrite, as_json
             )
         seconds = time.monotonic() - begin
         outputs = (
-            Output(out, lambda path: _write_data(found, label, path)),
-            Output(plot, lambda path: _write_plot(found, label, path), long=True),
+            Output(out, lambda path: _write_data(result, label, path)),
+            Output(plot, lambda path: _write_plot(result, label, path), long=True),
         )
-        deliver(lambda: _print(found, label, seconds, as_json), outputs)
+        deliver(lambda: _print(result, label, seconds, as_json), outputs)
     if samples and not as_json:
         typer.echo(f"wrote {target}: the samples; open it with xarray.open_dataset")
 
@@ -164,7 +164,7 @@ def _samples_file(scene: str, out: Path | None) -> Path:
 
 def _sampled(
     analysis: "Analysis",
-    found: "Tolerances",
+    result: "Tolerances",
     target: Path,
     sizes: tuple[int, int, int | None],
     runner: tuple[int | None, int | None, str | None],
@@ -179,35 +179,35 @@ def _sampled(
     count, seed, chunk = sizes
     with ends_in_words(target, "samples"):
         computes = runner_of(*runner)
-        plan = analysis.plan(found, count, seed, chunk)
+        plan = analysis.plan(result, count, seed, chunk)
         if_interrupted(lambda: kept_words(plan, target))
         with shown_progress(count, as_json) as watcher:
             run(plan, target, runner=computes, overwrite=overwrite, watcher=watcher)
         with opened(target) as dataset:
-            return analysis.with_samples(found, dataset, seed, str(target))
+            return analysis.with_samples(result, dataset, seed, str(target))
 
 
-def _write_data(found: "Tolerances", label: str, out: Path) -> None:
+def _write_data(result: "Tolerances", label: str, out: Path) -> None:
     from ..report.dataset import write_netcdf
     from ..tolerance.tables import tolerances_to_dataset
 
-    write_netcdf(tolerances_to_dataset(found, label), out)
+    write_netcdf(tolerances_to_dataset(result, label), out)
 
 
-def _write_plot(found: "Tolerances", label: str, plot: Path) -> None:
+def _write_plot(result: "Tolerances", label: str, plot: Path) -> None:
     from ..plots import tolerances as draw
     from ..report.plots import save_plot
 
-    save_plot(draw(found, title=label), plot)
+    save_plot(draw(result, title=label), plot)
 
 
-def _print(found: "Tolerances", label: str, seconds: float, as_json: bool) -> None:
+def _print(result: "Tolerances", label: str, seconds: float, as_json: bool) -> None:
     from ..tolerance.tables import print_tolerances, tolerances_to_dict
 
     if as_json:
-        typer.echo(json.dumps(tolerances_to_dict(found), allow_nan=False))
+        typer.echo(json.dumps(tolerances_to_dict(result), allow_nan=False))
     else:
-        print_tolerances(found, label, seconds, console())
+        print_tolerances(result, label, seconds, console())
 
 
 def _print_failure(failure: str, status: str, label: str, as_json: bool) -> None:

@@ -54,12 +54,12 @@ class Comparison:
     notes: tuple[str, ...]
 
     def __getitem__(self, law: str) -> Law:
-        return next(one for one in self.laws if one.law == law)
+        return next(result for result in self.laws if result.law == law)
 
     @property
     def spread(self) -> float | None:
         """Largest over smallest total moment of the formulas; `None` for fewer than two totals."""
-        totals = [one.total for one in self.laws if one.total]
+        totals = [law.total for law in self.laws if law.total]
         return max(totals) / min(totals) if len(totals) > 1 else None
 
 
@@ -81,16 +81,16 @@ def compared(scene: AbstractBearing, solution: Solution, catalogue: Catalogue | 
     catalogue = Catalogue() if catalogue is None else catalogue
     known = known_of(scene, solution, catalogue)
     physical = _physical(solution, known.values["speed"])
-    laws = tuple(_beside(one, physical, known) for one in laws_of(known))
-    found = Comparison(physical, laws, {name: known.values.get(name) for name in _OF_DUTY}, ())
-    notes = [*contradictions(known, catalogue, scene.kind), *_notes(found)]
-    return dataclasses.replace(found, notes=tuple(notes))
+    laws = tuple(_with_ratio(law, physical, known) for law in laws_of(known))
+    comparison = Comparison(physical, laws, {name: known.values.get(name) for name in _OF_DUTY}, ())
+    notes = [*contradictions(known, catalogue, scene.kind), *_notes(comparison)]
+    return dataclasses.replace(comparison, notes=tuple(notes))
 
 
 def _physical(solution: Solution, speed: float) -> Physical:
     loss = solution.power_loss
-    found = {one.name: getattr(loss, one.name) for one in dataclasses.fields(loss) if one.name != "total"}
-    watts = {name: float(value) for name, value in found.items() if value is not None}
+    losses = {field.name: getattr(loss, field.name) for field in dataclasses.fields(loss) if field.name != "total"}
+    watts = {name: float(value) for name, value in losses.items() if value is not None}
     if not watts:
         return Physical(None, None, {}, {})
     others = [value for name, value in watts.items() if name not in (_ROLLING, _DRAG)]
@@ -107,18 +107,18 @@ def _physical(solution: Solution, speed: float) -> Physical:
     return Physical(power / speed, power, parts, watts)
 
 
-def _beside(law: Law, physical: Physical, known: Known) -> Law:
+def _with_ratio(law: Law, physical: Physical, known: Known) -> Law:
     if law.total is None:
         return law
     ratio = law.total / physical.total if physical.total else None
     return dataclasses.replace(law, power=law.total * known.values["speed"], ratio=ratio)
 
 
-def _notes(found: Comparison) -> list[str]:
-    notes, parts = [], found.physical.parts
-    if found.spread is not None and found.spread > CLOSE:
-        notes.append(f"the makers' formulas differ by a factor of {found.spread:.3g} among themselves")
-    if found.physical.power is None:
+def _notes(comparison: Comparison) -> list[str]:
+    notes, parts = [], comparison.physical.parts
+    if comparison.spread is not None and comparison.spread > CLOSE:
+        notes.append(f"the makers' formulas differ by a factor of {comparison.spread:.3g} among themselves")
+    if comparison.physical.power is None:
         notes.append("the scene models no loss: nothing stands beside the formulas")
     elif parts.get("rolling") is None:
         notes.append("the scene leaves rolling resistance out (contact.rolling_resistance), the makers have it")

@@ -36,9 +36,9 @@ def read_designation(text: str) -> Said:
     NU 205, N 205, NJ 205, NUP 205 (cylindrical), NCF 3005, SL18 3005 (full complement), 30206, 32008 X, 32206 B
     (tapered) and inch-size tapered bearings by their letters (LM, HM and others).
     """
-    found = next(readings(text), None)
-    if found is None:
+    reading = next(readings(text), None)
+    if reading is None:
         return Said()
-    marks = suffixes(found)
-    bore = None if found.bore is None else 1e-3 * found.bore
-    return Said(found.family, found.series + marks.letters, bore, *marks.seal)
+    marks = suffixes(reading)
+    bore = None if reading.bore is None else 1e-3 * reading.bore
+    return Said(reading.family, reading.series + marks.letters, bore, *marks.seal)

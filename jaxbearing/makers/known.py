@@ -69,12 +69,12 @@ class Reader:
 
 def known_of(scene: AbstractBearing, solution: Solution, catalogue: Catalogue) -> Known:
     """All inputs that the formulas may need."""
-    known, said = Known(), read_designation(catalogue.designation or "")
-    _names(known, scene, catalogue, said)
-    _sizes(known, scene, catalogue, said)
+    known, parsed = Known(), read_designation(catalogue.designation or "")
+    _names(known, scene, catalogue, parsed)
+    _sizes(known, scene, catalogue, parsed)
     _oil(known, scene, catalogue)
     _ratings(known, scene, solution, catalogue)
-    _seals(known, catalogue, said)
+    _seals(known, catalogue, parsed)
     _frictions(known, catalogue)
     _loads(known, solution)
     for name in ("g1", "g2", "k", "f2", "f3"):
@@ -84,27 +84,27 @@ def known_of(scene: AbstractBearing, solution: Solution, catalogue: Catalogue) -
 
 def contradictions(known: Known, catalogue: Catalogue, kind: str) -> Iterator[str]:
     """Notes on a designation that contradicts other fields or is of an unknown form."""
-    said = read_designation(catalogue.designation or "")
-    if catalogue.designation is not None and not said.family:
+    parsed = read_designation(catalogue.designation or "")
+    if catalogue.designation is not None and not parsed.family:
         yield f"catalogue.designation: '{catalogue.designation}' has no form that is known here; it says nothing"
-    elif said.family and said.family not in FAMILIES[kind]:
+    elif parsed.family and parsed.family not in FAMILIES[kind]:
         yield f"catalogue.designation: '{catalogue.designation}' is no bearing of the kind {kind}"
     bore = known.values.get("bore")
-    if said.bore is not None and bore is not None and abs(bore - said.bore) > ROUND_BORE:
+    if parsed.bore is not None and bore is not None and abs(bore - parsed.bore) > ROUND_BORE:
         yield (
-            f"catalogue.designation: '{catalogue.designation}' has a bore of {1e3 * said.bore:g} mm, the scene "
+            f"catalogue.designation: '{catalogue.designation}' has a bore of {1e3 * parsed.bore:g} mm, the scene "
             f"{1e3 * bore:g} mm; the scene's is used"
         )
 
 
-def _names(known: Known, scene: AbstractBearing, catalogue: Catalogue, said: Said) -> None:
+def _names(known: Known, scene: AbstractBearing, catalogue: Catalogue, parsed: Said) -> None:
     own = FAMILIES[scene.kind]
-    family = catalogue.family or said.family or (own[0] if len(own) == 1 else "")
+    family = catalogue.family or parsed.family or (own[0] if len(own) == 1 else "")
     expected = "catalogue.designation, or catalogue.family"
     known.put("family", family if family in own else None, f"{expected} ({', '.join(own)})")
     if scene.kind == "cylindrical_roller_bearing":
         known.assume("family", "cylindrical", "bearing with a cage (catalogue.family)")
-    series = _series(catalogue.series or said.series)
+    series = _series(catalogue.series or parsed.series)
     known.put("series", series or None, "catalogue.designation, or catalogue.series")
 
 
@@ -115,13 +115,13 @@ def _series(text: str) -> str:
     return re.sub(r"^(NUP|NU|NJ|N)(?=[0-9])", "", re.sub(r"\s", "", text.upper()))
 
 
-def _sizes(known: Known, scene: AbstractBearing, catalogue: Catalogue, said: Said) -> None:
+def _sizes(known: Known, scene: AbstractBearing, catalogue: Catalogue, parsed: Said) -> None:
     geometry = scene.geometry
     for name in ("bore", "outside_diameter", "width"):
-        given = getattr(catalogue, name)
-        value = getattr(geometry, name, None) if given is None else given
+        stated = getattr(catalogue, name)
+        value = getattr(geometry, name, None) if stated is None else stated
         known.put(name, value, f"catalogue.{name}")
-    known.assume("bore", said.bore, "bore by the designation")
+    known.assume("bore", parsed.bore, "bore by the designation")
     if "bore" in known.values and "outside_diameter" in known.values:
         known.put("mean_diameter", 0.5 * (known.values["bore"] + known.values["outside_diameter"]), "")
         if "bore" in known.assumed:
@@ -169,11 +169,11 @@ def _ratings(known: Known, scene: AbstractBearing, solution: Solution, catalogue
         known.assume(name, getattr(life, name, None), f"{name.replace('_', ' ')} computed from the geometry")
 
 
-def _seals(known: Known, catalogue: Catalogue, said: Said) -> None:
-    known.put("seal", catalogue.seal or said.seal or None, "")
+def _seals(known: Known, catalogue: Catalogue, parsed: Said) -> None:
+    known.put("seal", catalogue.seal or parsed.seal or None, "")
     words = "no seals" if not catalogue.designation else "no seals, by the designation"
     known.assume("seal", "none", f"{words} (catalogue.seal)")
-    known.put("n_seals", catalogue.n_seals or said.n_seals or 2, "")
+    known.put("n_seals", catalogue.n_seals or parsed.n_seals or 2, "")
     known.put("seal_diameter", catalogue.seal_diameter, "catalogue.seal_diameter")
 
 
@@ -192,9 +192,9 @@ def _loads(known: Known, solution: Solution) -> None:
     force = np.asarray(solution.force, dtype=float)
     loads = {}
     for place, name in enumerate(RING_FREEDOMS):
-        given = operation.load(name)
+        load = operation.load(name)
         held = operation.held_at(name) is not None and name not in TILTS
-        loads[name] = float(force[place]) if held else 0.0 if given is None else float(np.asarray(given))
+        loads[name] = float(force[place]) if held else 0.0 if load is None else float(np.asarray(load))
     known.put("axial", abs(loads["axial"]), "")
     known.put("radial", math.hypot(loads["radial"], loads["lateral"]), "")
     known.put("moment", math.hypot(loads["tilt"], loads["tilt_lateral"]), "")

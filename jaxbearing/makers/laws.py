@@ -68,10 +68,10 @@ class Law:
 
 def laws_of(known: Known) -> tuple[Law, ...]:
     """Results of all formulas; a formula that does not cover the bearing says why."""
-    found = [_skf(known), _palmgren(known, "palmgren_ina"), _palmgren(known, "palmgren_timken")]
+    laws = [_skf(known), _palmgren(known, "palmgren_ina"), _palmgren(known, "palmgren_timken")]
     if known.values.get("family") == "tapered":
-        found[-1] = _timken_tapered(known)
-    return tuple(found)
+        laws[-1] = _timken_tapered(known)
+    return tuple(laws)
 
 
 Constants = TypeVar("Constants")
@@ -88,7 +88,7 @@ def _uncovered(law: str, family: str, series: str, table: Mapping[tuple[str, ...
     return Law(law, None, {}, missing=(words,))
 
 
-def _without(law: str, read: Reader) -> Law:
+def _incomplete(law: str, read: Reader) -> Law:
     words = tuple(f"give {text}" for text in dict.fromkeys(read.missing))
     return Law(law, None, {}, missing=words)
 
@@ -131,12 +131,12 @@ def _skf(known: Known) -> Law:
         constants = None if None in (family, series) else _constants(_TABLES[family], series)
     speed, viscosity, dm = read("speed"), read("viscosity"), read("mean_diameter")
     radial, axial = read("radial"), read("axial")
-    further = _further(family, axial, read)
+    further = _further_input(family, axial, read)
     boundary, film, supply = (read(name) for name in ("boundary_friction", "film_friction", "starvation_constant"))
     if family is not None and series is not None and constants is None:
         return _uncovered("skf", family, series, _TABLES[family])
     if read.missing or family is None or constants is None:
-        return _without("skf", read)
+        return _incomplete("skf", read)
     size = GEOMETRY["angular_contact_double" if _is_double(family, series) else family]
     starvation, missing, flags = 1.0, [], list(_range_flags(known, read, family))
     if read("lubrication") == "grease":
@@ -144,7 +144,7 @@ def _skf(known: Known) -> Law:
     if supply > 0.0:
         bore, outside = read("bore"), read("outside_diameter")
         if bore is None or outside is None:
-            return _without("skf", read)
+            return _incomplete("skf", read)
         starvation = skf.starvation_factor(speed, viscosity, bore, outside, supply, size)
     rolling, sliding = _variables(family, constants, dm, radial, axial, speed, further)
     friction = skf.sliding_friction(speed, viscosity, dm, boundary, film)
@@ -162,7 +162,7 @@ def _is_double(family: str | None, series: str | None) -> bool:
     return family == "angular_contact" and series in ("double row", "32A", "33A", "32B", "33B")
 
 
-def _further(family: str | None, axial: float, read: Reader) -> float | None:
+def _further_input(family: str | None, axial: float, read: Reader) -> float | None:
     """The further input of a family: C0 of deep groove bearings under axial load, Y of tapered ones, else `None`."""
     if family == "deep_groove" and axial > 0.0:
         return read("static_capacity")
@@ -202,7 +202,7 @@ def _seal(read: Reader, family: str, missing: list[str]) -> float | None:
         missing.append("seal: give catalogue.outside_diameter")
         return None
     # to the nanometre: 52 mm is not above 52 mm
-    fitting = [one for one in known if one.over < round(1e3 * outside, 6) <= one.to]
+    fitting = [constants for constants in known if constants.over < round(1e3 * outside, 6) <= constants.to]
     if not fitting:
         missing.append(f"seal: no constants of {seal} at D = {1e3 * outside:g} mm are known")
         return None
@@ -245,16 +245,16 @@ def _palmgren(known: Known, law: str) -> Law:
     family, series, tables = read("family"), read("series"), _TABLES_OF_PALMGREN[law]
     speed, viscosity, dm = read("speed"), read("viscosity"), read("mean_diameter")
     table = {} if family is None else tables.get(family, {})
-    found = None if series is None else _constants(table, series)
-    if found is None and family is not None and series is not None:
+    constants = None if series is None else _constants(table, series)
+    if constants is None and family is not None and series is not None:
         return _uncovered(law, family, series, table)
     if read.missing or family is None or series is None:
-        return _without(law, read)
+        return _incomplete(law, read)
     flags = list(_common_flags(known, read, family))
     moments: Callable[..., tuple[float, float, float]] = _ina if law == "palmgren_ina" else _timken
-    f0, f1, load = moments(read, family, series, found, flags)
+    f0, f1, load = moments(read, family, series, constants, flags)
     if read.missing:
-        return _without(law, read)
+        return _incomplete(law, read)
     parts = {
         "viscous": float(palmgren.viscous_moment(f0, speed, viscosity, dm)),
         "load": float(palmgren.load_moment(f1, load, dm)),
@@ -265,37 +265,37 @@ def _palmgren(known: Known, law: str) -> Law:
 _NONE = (np.nan, np.nan, np.nan)
 
 
-def _ina(read: Reader, family: str, series: str, found: Frictions, flags: list[str]) -> tuple[float, float, float]:
+def _ina(read: Reader, family: str, series: str, constants: Frictions, flags: list[str]) -> tuple[float, float, float]:
     """Factors f0 and f1, and load P1, N, of INA; NaN where an input is missing."""
     radial, axial = read("radial"), read("axial")
     _flag_axial(family, axial, flags)
     if family == "cylindrical" and series in REINFORCED:
         read.assumed.append("constants of the reinforced series (E)")
-    f0 = found.grease if read("lubrication") in ("grease", "oil_air") else found.bath
-    f1 = found.size
-    if found.exponent:
+    f0 = constants.grease if read("lubrication") in ("grease", "oil_air") else constants.bath
+    f1 = constants.size
+    if constants.exponent:
         double = _is_double(family, series)
         static, capacity = _static_load(read, family, radial, axial, double), read("static_capacity")
         if static is None or capacity is None:
             return _NONE
-        f1 = float(palmgren.load_factor(found.size, found.exponent, static, capacity))
+        f1 = float(palmgren.load_factor(constants.size, constants.exponent, static, capacity))
     factor = read("axial_factor") if family == "tapered" else None
     return f0, f1, float(palmgren.ina_load(family, radial, axial, factor, _is_double(family, series)))
 
 
 def _timken(
-    read: Reader, family: str, series: str, found: tuple[float, float], flags: list[str]
+    read: Reader, family: str, series: str, constants: tuple[float, float], flags: list[str]
 ) -> tuple[float, float, float]:
     """Factors f0 and f1, and load P1, N, of Timken; NaN where an input is missing."""
     radial, axial = read("radial"), read("axial")
     _flag_axial(family, axial, flags)
     if family.startswith("cylindrical") or not axial:
-        return (*found, radial)
+        return (*constants, radial)
     angle = read.known.values.get("contact_angle")
     if not angle:
         read.missing.append("geometry.contact_angle above 0, of whose cotangent the load P1 is made")
         return _NONE
-    return (*found, float(palmgren.timken_load(radial, axial, angle)))
+    return (*constants, float(palmgren.timken_load(radial, axial, angle)))
 
 
 def _flag_axial(family: str, axial: float, flags: list[str]) -> None:
@@ -316,7 +316,7 @@ def _static_load(read: Reader, family: str, radial: float, axial: float, double:
     if angle is None:
         return None
     known = sorted(_AXIAL_STATIC)
-    y0 = float(np.interp(np.degrees(angle), known, [_AXIAL_STATIC[one] for one in known]))
+    y0 = float(np.interp(np.degrees(angle), known, [_AXIAL_STATIC[degrees] for degrees in known]))
     both = 2.0 if double else 1.0
     return max(both * (0.5 * radial + y0 * axial), radial)
 
@@ -326,7 +326,7 @@ def _timken_tapered(known: Known) -> Law:
     g1, factor, speed, viscosity = read("timken_g1"), read("timken_k"), read("speed"), read("dynamic_viscosity")
     radial, axial = read("radial"), read("axial")
     if read.missing:
-        return _without(law, read)
+        return _incomplete(law, read)
     ratio = factor * axial / radial if radial > 0.0 else np.inf
     if ratio > 2.0:
         equivalent = axial

@@ -56,17 +56,17 @@ def ina_load(
     """
     fr, fa = jnp.asarray(radial), jnp.asarray(axial)
     if family == "deep_groove":
-        found = 3.3 * fa - 0.1 * fr
+        load = 3.3 * fa - 0.1 * fr
     elif family == "angular_contact":
-        found = (1.4 if double_row else 1.0) * fa - 0.1 * fr
+        load = (1.4 if double_row else 1.0) * fa - 0.1 * fr
     elif family == "four_point":
-        found = 1.5 * fa + 3.6 * fr
+        load = 1.5 * fa + 3.6 * fr
     elif family == "tapered":
         assert axial_factor is not None
-        found = 2.0 * axial_factor * fa
+        load = 2.0 * axial_factor * fa
     else:
-        found = fr
-    return jnp.maximum(found, fr)
+        load = fr
+    return jnp.maximum(load, fr)
 
 
 def timken_load(radial: Values, axial: Values, contact_angle: Scalar) -> Batch:

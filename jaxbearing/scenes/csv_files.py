@@ -157,8 +157,8 @@ class CsvTable:
         **Raises:** `SceneError` for the first cell without a finite number.
         """
 
-        def refuse(line: int, column: str, found: str, expected: str) -> NoReturn:
-            raise SceneError(self.at(line), column, found, expected)
+        def refuse(line: int, column: str, actual: str, expected: str) -> NoReturn:
+            raise SceneError(self.at(line), column, actual, expected)
 
         reader = NumberReader(refuse, comma_allowed=self.separator != ",")
         read = lambda row: [
@@ -175,14 +175,14 @@ def _parted(file: str, line: Line, separator: str) -> Row:
     try:
         return Row(line.number, cells_of(line.text, separator))
     except ValueError as error:
-        found = f"a line that cannot be parted into cells ({error})"
+        actual = f"a line that cannot be parted into cells ({error})"
         expected = f"cells separated by {SEPARATORS[separator]}, quotation marks in pairs"
-        raise SceneError(f"{file}, line {line.number}", "", found, expected) from None
+        raise SceneError(f"{file}, line {line.number}", "", actual, expected) from None
 
 
 def _check_width(file: str, row: Row, header: Row, separator: str) -> None:
     count, width = len(row.cells), len(header.cells)
     if count != width:
-        found = f"{count} cell{'s' * (count != 1)}"
+        actual = f"{count} cell{'s' * (count != 1)}"
         expected = f"{width} separated by {SEPARATORS[separator]}, as in the header (line {header.number})"
-        raise SceneError(f"{file}, line {row.number}", "", found, expected)
+        raise SceneError(f"{file}, line {row.number}", "", actual, expected)

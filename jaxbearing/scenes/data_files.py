@@ -34,9 +34,9 @@ def oil_names() -> tuple[str, ...]:
     return _names(_oils())
 
 
-def oil_named(given: object) -> str | None:
+def oil_named(value: object) -> str | None:
     """Catalogue name of an oil that a person may write as "FVA3" or "Mobil Jet II"; `None` if there is no such oil."""
-    name = given.strip().lower().replace(" ", "_").replace("-", "_") if isinstance(given, str) else ""
+    name = value.strip().lower().replace(" ", "_").replace("-", "_") if isinstance(value, str) else ""
     return name if name in oil_names() else None
 
 

@@ -31,12 +31,12 @@ def means_of(
 
     **Raises:** `SceneError` with all errors in the distributions.
     """
-    found: dict[str, Distribution] = {}
+    distributions: dict[str, Distribution] = {}
     problems: list[SceneError] = []
-    plain = _plain(raw, (), model, file, found, problems)
+    plain = _plain(raw, (), model, file, distributions, problems)
     if problems:
         raise SceneError.of_all(problems)
-    return plain, found
+    return plain, distributions
 
 
 def _plain(
@@ -44,7 +44,7 @@ def _plain(
     inside: tuple[str, ...],
     model: type[BaseModel],
     file: str,
-    found: dict[str, Distribution],
+    distributions: dict[str, Distribution],
     problems: list[SceneError],
 ) -> dict[str, Any]:
     plain = dict(table)
@@ -53,66 +53,66 @@ def _plain(
         if not isinstance(value, Mapping):
             continue
         if tables_at(model, path):
-            plain[name] = _plain(value, path, model, file, found, problems)
+            plain[name] = _plain(value, path, model, file, distributions, problems)
         elif is_known(model, path) and any(key in _NAMES for key in value):
             try:
-                plain[name], found[".".join(path)] = _read(value, path, model, file)
+                plain[name], distributions[".".join(path)] = _read(value, path, model, file)
             except SceneError as error:
                 problems.append(error)
     return plain
 
 
 def _read(
-    given: Mapping[str, object], path: tuple[str, ...], model: type[BaseModel], file: str
+    table: Mapping[str, object], path: tuple[str, ...], model: type[BaseModel], file: str
 ) -> tuple[Any, Distribution]:
     """The number that replaces a distribution in the tables, and the distribution. **Raises:** `SceneError`."""
     kind = type_at(model, path)
-    what = no_number(kind)
+    description = no_number(kind)
     where = ".".join(path)
-    if what:
+    if description:
         raise SceneError(
-            file, where, f"a distribution of {what}", "one value: only a field that is one number scatters"
+            file, where, f"a distribution of {description}", "one value: only a field that is one number scatters"
         )
-    unknown = next((str(key) for key in given if key not in _NAMES), None)
+    unknown = next((str(key) for key in table if key not in _NAMES), None)
     if unknown is not None:
         expected = f"a distribution: {_FORMS}, and 'shape'"
         raise SceneError(
             file, f"{where}.{unknown}", f"the unknown name '{unknown}'", expected, nearest(unknown, _NAMES)
         )
-    names = [name for name in _NAMES[:-1] if name in given]
-    if names[:2] == ["median", "log_deviation"] and given.get("shape", "lognormal") == "lognormal":
-        return _lognormal(given, names, path, model, file)
+    names = [name for name in _NAMES[:-1] if name in table]
+    if names[:2] == ["median", "log_deviation"] and table.get("shape", "lognormal") == "lognormal":
+        return _lognormal(table, names, path, model, file)
     if names not in (["mean", "deviation"], ["low", "high"]):
-        said = " and ".join(f"'{name}'" for name in names) or "neither"
-        raise SceneError(file, where, f"a distribution with {said}", f"either {_FORMS}")
-    shape = given.get("shape", SHAPES[0])
+        quoted = " and ".join(f"'{name}'" for name in names) or "neither"
+        raise SceneError(file, where, f"a distribution with {quoted}", f"either {_FORMS}")
+    shape = table.get("shape", SHAPES[0])
     if shape not in SHAPES:
         near = nearest(shape, SHAPES) if isinstance(shape, str) else ""
         raise SceneError(file, f"{where}.shape", describe(shape), one_of(SHAPES), near)
-    first, second = (_value(given[name], name, path, model, file) for name in names)
+    first, second = (_value(table[name], name, path, model, file) for name in names)
     if names == ["mean", "deviation"]:
         if shape == "lognormal" and first <= 0.0:
-            raise SceneError(file, f"{where}.mean", describe(given["mean"]), "a number above 0: it is lognormal")
+            raise SceneError(file, f"{where}.mean", describe(table["mean"]), "a number above 0: it is lognormal")
         distribution = Distribution(first, second, shape)
-        mean = given["mean"] if shape != "lognormal" else text_of(distribution.nominal, dimension_of(kind))
+        mean = table["mean"] if shape != "lognormal" else text_of(distribution.nominal, dimension_of(kind))
         return mean, distribution
     if first > second:
-        expected = f"at most the high limit, {given['high']!r}"
-        raise SceneError(file, f"{where}.low", describe(given["low"]), expected)
+        expected = f"at most the high limit, {table['high']!r}"
+        raise SceneError(file, f"{where}.low", describe(table["low"]), expected)
     if shape == "lognormal" and first <= 0.0:
-        raise SceneError(file, f"{where}.low", describe(given["low"]), "a number above 0: it is lognormal")
+        raise SceneError(file, f"{where}.low", describe(table["low"]), "a number above 0: it is lognormal")
     distribution = Distribution.between(first, second, shape)
     return text_of(distribution.nominal, dimension_of(kind)), distribution
 
 
 def _lognormal(
-    given: Mapping[str, object], names: list[str], path: tuple[str, ...], model: type[BaseModel], file: str
+    table: Mapping[str, object], names: list[str], path: tuple[str, ...], model: type[BaseModel], file: str
 ) -> tuple[object, Distribution]:
     """The median, which replaces it in the tables, and the lognormal distribution. **Raises:** `SceneError`."""
     where = ".".join(path)
-    values = {name: _value(given[name], name, path, model, file) for name in names if name != "log_deviation"}
+    values = {name: _value(table[name], name, path, model, file) for name in names if name != "log_deviation"}
     try:
-        return given["median"], Distribution.lognormal(log_deviation=number(given["log_deviation"], ">= 0"), **values)
+        return table["median"], Distribution.lognormal(log_deviation=number(table["log_deviation"], ">= 0"), **values)
     except PydanticCustomError as error:
         context = error.context or {}
         raise SceneError(file, f"{where}.log_deviation", context["found"], context["expected"]) from None
@@ -120,14 +120,14 @@ def _lognormal(
         raise SceneError(file, where, "a distribution", f"another one: {error}") from None
 
 
-def _value(given: object, name: str, path: tuple[str, ...], model: type[BaseModel], file: str) -> float:
+def _value(value: object, name: str, path: tuple[str, ...], model: type[BaseModel], file: str) -> float:
     """SI value of a number of a distribution, within the bounds of its field. **Raises:** `SceneError`."""
     kind = type_at(model, path)
     where = f"{'.'.join(path)}.{name}"
     try:
         if name == "deviation":
-            return _deviation(given, dimension_of(kind))
-        return float(TypeAdapter(kind).validate_python(given))
+            return _deviation(value, dimension_of(kind))
+        return float(TypeAdapter(kind).validate_python(value))
     except ValidationError as error:
         context = error.errors(include_url=False)[0].get("ctx", {})
     except PydanticCustomError as error:
@@ -135,17 +135,17 @@ def _value(given: object, name: str, path: tuple[str, ...], model: type[BaseMode
     raise SceneError(
         file,
         where,
-        context.get("found", describe(given)),
+        context.get("found", describe(value)),
         context.get("expected", "a number"),
         context.get("suggestion", ""),
     )
 
 
-def _deviation(given: object, dimension: Dimension | None) -> float:
+def _deviation(value: object, dimension: Dimension | None) -> float:
     if dimension is None:
-        return number(given, ">= 0")
+        return number(value, ">= 0")
     # a deviation of a temperature is a difference
-    return quantity(given, dimension_of_unit("K", difference=True) if dimension.offset_allowed else dimension, ">= 0")
+    return quantity(value, dimension_of_unit("K", difference=True) if dimension.offset_allowed else dimension, ">= 0")
 
 
 def no_number(kind: object) -> str:

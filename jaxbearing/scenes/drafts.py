@@ -32,14 +32,14 @@ class Draft:
     def __init__(self, model: type[Table], raw: Mapping[str, Any], refused: Collection[str] = (), nested: bool = False):
         self._model, self._raw, self._nested = model, raw, nested
         absent = [name for name in model.model_fields if name not in raw]
-        near = [_meant(str(name), model, absent) for name in raw if name not in model.model_fields]
+        near = [_meant_field(str(name), model, absent) for name in raw if name not in model.model_fields]
         self._refused = {*refused, *(absent if "" in near else near)}
 
     def __getattr__(self, name: str) -> Any:
         info = self._model.model_fields.get(name)
         if info is None:
-            found = inspect.getattr_static(self._model, name)
-            return found.__get__(self, self._model) if inspect.isfunction(found) else getattr(self._model, name)
+            attribute = inspect.getattr_static(self._model, name)
+            return attribute.__get__(self, self._model) if inspect.isfunction(attribute) else getattr(self._model, name)
         if name in self._refused or (name not in self._raw and info.is_required()):
             raise Unreadable(name)
         if name not in self._raw:
@@ -76,7 +76,7 @@ class Draft:
                 yield from value.problems(f"{inside}{name}.")
 
 
-def _meant(name: str, model: type[Table], absent: Collection[str]) -> str:
+def _meant_field(name: str, model: type[Table], absent: Collection[str]) -> str:
     """The field that an unknown name may be meant for: the inner table that has a field of this name, or the nearest
     absent field; "" if there is none."""
     tables = ((field, plain_table_at(model, field)) for field in model.model_fields)
@@ -138,11 +138,11 @@ def draft(
         if not refused:
             return table, []
     except ValidationError as error:
-        found = from_validation(error, model, file, raw).problems
-        problems = [one for one in found if one.path.partition(".")[0] not in refused]
-    said = {(one.path, one.expected) for one in problems}
+        errors = from_validation(error, model, file, raw).problems
+        problems = [problem for problem in errors if problem.path.partition(".")[0] not in refused]
+    reported = {(problem.path, problem.expected) for problem in problems}
     for path, words in Draft(model, raw, refused, nested=True).problems():
-        if (path, words["expected"]) not in said:
-            said.add((path, words["expected"]))
+        if (path, words["expected"]) not in reported:
+            reported.add((path, words["expected"]))
             problems.append(in_words(file, path, words))
     return Draft(model, raw, refused), problems

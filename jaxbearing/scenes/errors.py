@@ -47,7 +47,7 @@ class SceneError(ValueError):
     @staticmethod
     def of_all(problems: Sequence["SceneError"]) -> "SceneError":
         """One error that holds all these problems; it is the first of them, the others follow in `others`."""
-        every = [one for problem in problems for one in problem.problems]
+        every = [problem for error in problems for problem in error.problems]
         return every[0]._with(every[1:])
 
     @property
@@ -64,7 +64,7 @@ class SceneError(ValueError):
         """The same error with a longer path, of a table inside the table at `above`."""
         path = f"{above}.{self.path}".rstrip(".")
         words = (self.found, self.expected, self.suggestion, self.reason)
-        return SceneError(self.file, path, *words, others=[one.inside(above) for one in self.others])
+        return SceneError(self.file, path, *words, others=[other.inside(above) for other in self.others])
 
     def _with(self, others: Iterable["SceneError"]) -> "SceneError":
         words = (self.file, self.path, self.found, self.expected, self.suggestion, self.reason)
@@ -75,8 +75,8 @@ class SceneError(ValueError):
             return self._sentence()
         problems = self.problems
         # if all problems are in one file, its name stands once
-        name = f"{printable(self.file)}: " if len({one.file for one in problems}) == 1 else ""
-        lines = [one._sentence().removeprefix(name) for one in problems]
+        name = f"{printable(self.file)}: " if len({problem.file for problem in problems}) == 1 else ""
+        lines = [problem._sentence().removeprefix(name) for problem in problems]
         return "\n  - ".join([f"{name}{len(lines)} problems:", *lines])
 
     def _sentence(self) -> str:

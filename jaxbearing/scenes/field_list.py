@@ -53,11 +53,11 @@ def fields(model: type[BaseModel], owner: type | None) -> Iterator[Field]:
             default = f"{str(info.default).lower() if isinstance(info.default, bool) else info.default} {unit}".strip()
         words = name.replace("_", " ")
         source, own = model.made_from.get(name, (owner, name)) if issubclass(model, Table) else (owner, name)
-        said = _described(owner, name) or _described(source, own)
+        description = _described(owner, name) or _described(source, own)
         # the table describes fields that no class has and fields that their class does not describe
-        said = said if said and said != words else described_argument(model, name)
+        description = description if description and description != words else described_argument(model, name)
         expected, tables = _expected(model, name, annotation, unit)
-        text = " ".join((said.removeprefix(f"{words}: ") or words).split())
+        text = " ".join((description.removeprefix(f"{words}: ") or words).split())
         yield Field(name, unit, expected, tables, default, text)
 
 
@@ -70,24 +70,26 @@ def _described(owner: type | None, name: str) -> str:
 def _dimension(annotation: object) -> Dimension | None:
     """The dimension of a type, or of one of its alternatives."""
     for part in typing.get_args(annotation):
-        found = part.dimension if isinstance(part, QuantityValidator) else _dimension(part)
-        if found is not None:
-            return found
+        dimension = part.dimension if isinstance(part, QuantityValidator) else _dimension(part)
+        if dimension is not None:
+            return dimension
     return None
 
 
 def _expected(model: type[BaseModel], name: str, annotation: Any, unit: str) -> tuple[str, tuple[type[BaseModel], ...]]:
     """Accepted values of a field, in the words of its error message, and the tables that it accepts."""
-    tables = tuple(one for one in tables_at(model, (name,)) if not one.__name__.startswith("Unknown"))
+    tables = tuple(table for table in tables_at(model, (name,)) if not table.__name__.startswith("Unknown"))
     reader = TypeAdapter(annotation)
     # first a number below the range, then an object that no field accepts
     for probe in (f"-1 {unit}" if unit else -1, object()):
         try:
             reader.validate_python(probe)
         except ValidationError as error:
-            found = [one.get("ctx", {}).get("expected") or _PLAIN.get(one["type"], "") for one in error.errors()]
+            texts = [
+                detail.get("ctx", {}).get("expected") or _PLAIN.get(detail["type"], "") for detail in error.errors()
+            ]
             words = dict.fromkeys(
-                " ".join(text.split()) for text in found if text and "a table with a 'law'" not in text
+                " ".join(text.split()) for text in texts if text and "a table with a 'law'" not in text
             )
             return " or ".join(words), tables
     raise ValueError(f"{model.__name__}.{name} takes anything")
@@ -115,7 +117,7 @@ def _inside(
 def class_of(owner: type | None, name: str, table: type[BaseModel]) -> type | None:
     """The class of the objects in a field of `owner`; if it is not known, the class that the table builds."""
     hint = typing.get_type_hints(owner).get(name) if owner is not None else None
-    classes = [one for one in _classes(hint) if dataclasses.is_dataclass(one)]
+    classes = [kind for kind in _classes(hint) if dataclasses.is_dataclass(kind)]
     return classes[0] if classes else class_of_table(table)
 
 
@@ -126,5 +128,5 @@ def class_of_table(table: type[BaseModel]) -> type | None:
 
 def _classes(hint: object) -> list[type]:
     if typing.get_origin(hint) in (typing.Union, types.UnionType):
-        return [one for part in typing.get_args(hint) for one in _classes(part)]
+        return [kind for part in typing.get_args(hint) for kind in _classes(part)]
     return [hint] if isinstance(hint, type) else []

@@ -90,7 +90,7 @@ def parts_of(kind: object) -> list[object]:
     if typing.get_origin(kind) is typing.Annotated:
         inner, *notes = typing.get_args(kind)
         return [*parts_of(inner), *notes]
-    alternatives = [one for one in typing.get_args(kind) if one is not type(None)]
+    alternatives = [alternative for alternative in typing.get_args(kind) if alternative is not type(None)]
     if alternatives and type(None) in typing.get_args(kind) and len(alternatives) == 1:
         return parts_of(alternatives[0])
     return [kind]
@@ -98,8 +98,8 @@ def parts_of(kind: object) -> list[object]:
 
 def dimension_of(kind: object) -> Dimension | None:
     """Unit of a field's type; `None` for a number without a unit."""
-    found = [note.dimension for note in parts_of(kind) if isinstance(note, QuantityValidator)]
-    return found[0] if found else None
+    dimensions = [note.dimension for note in parts_of(kind) if isinstance(note, QuantityValidator)]
+    return dimensions[0] if dimensions else None
 
 
 def plain_table_at(model: type[BaseModel], name: str) -> Any:

@@ -63,7 +63,7 @@ def read_bytes(path: str | os.PathLike[str], largest: int = LARGEST_TEXT) -> byt
     try:
         status = os.stat(path)
         if stat.S_ISFIFO(status.st_mode) and os.fspath(path).startswith(_PIPES):
-            return _of_pipe(path, status, largest)
+            return _pipe_bytes(path, status, largest)
         _check(status, largest)
         # non-blocking, because the file may have been replaced by a pipe since the check
         descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
@@ -111,7 +111,7 @@ def _check(status: os.stat_result, largest: int | None = None) -> None:
         raise UnfitFileError(f"a file of {status.st_size / 2**20:.4g} MiB, more than {largest >> 20} MiB")
 
 
-def _of_pipe(path: str | os.PathLike[str], status: os.stat_result, largest: int) -> bytes:
+def _pipe_bytes(path: str | os.PathLike[str], status: os.stat_result, largest: int) -> bytes:
     key = status.st_dev, status.st_ino
     if key not in _read_pipes:
         with Path(path).open("rb") as file:

@@ -55,12 +55,12 @@ def scene_inputs(
     marks |= dict.fromkeys(filled.added, "by laws = 'best'")
     marks |= dict.fromkeys(filled.estimated, "estimated by laws = 'best'")
     marks |= dict.fromkeys(filled.assumed, "assumed by laws = 'best'")
-    found: dict[str, list[SceneInput]] = {}
-    for one in _fields(filled.tables, (), model, scene):
-        one = dataclasses.replace(one, mark=marks.get(one.path, ""))
-        table = one.path.partition(".")[0] if "." in one.path else ""
-        found.setdefault(table, []).append(one)
-    return found
+    by_table: dict[str, list[SceneInput]] = {}
+    for field in _fields(filled.tables, (), model, scene):
+        field = dataclasses.replace(field, mark=marks.get(field.path, ""))
+        table = field.path.partition(".")[0] if "." in field.path else ""
+        by_table.setdefault(table, []).append(field)
+    return by_table
 
 
 def _fields(
@@ -109,7 +109,7 @@ def described_field(scene: AbstractScene, path: tuple[str, ...]) -> str:
         return f"{words}: {summary}" if summary else words
     # the table describes fields that no class has and fields that their class does not describe
     places = [owner_of(scene, path), *((table, path[-1]) for table in _tables(scene, path[:-1]))]
-    return next((said for place in places if place and (said := described_argument(*place))), words)
+    return next((text for place in places if place and (text := described_argument(*place))), words)
 
 
 def owner_of(scene: AbstractScene, path: Sequence[str]) -> tuple[type, str] | None:
@@ -119,7 +119,7 @@ def owner_of(scene: AbstractScene, path: Sequence[str]) -> tuple[type, str] | No
     if dataclasses.is_dataclass(part) and path[-1] in {field.name for field in dataclasses.fields(part)}:
         return type(part), path[-1]
     made = (getattr(table, "made_from", {}) for table in _tables(scene, path[:-1]))
-    return next((one[path[-1]] for one in made if path[-1] in one), None)
+    return next((made_from[path[-1]] for made_from in made if path[-1] in made_from), None)
 
 
 def _tables(scene: AbstractScene, path: Sequence[str]) -> list[type[BaseModel]]:
@@ -135,8 +135,8 @@ def described_argument(owner: type, name: str) -> str:
         label = {field.name: field.metadata for field in dataclasses.fields(owner)}.get(name, {}).get("description")
         if label:
             return label
-    said = next((text for one in owner.__mro__ if (text := _arguments(one).get(name))), "")
-    return f"{name.replace('_', ' ')}: {said}" if said else ""
+    description = next((text for base in owner.__mro__ if (text := _arguments(base).get(name))), "")
+    return f"{name.replace('_', ' ')}: {description}" if description else ""
 
 
 def _first_sentence(law: type) -> str:
@@ -146,22 +146,22 @@ def _first_sentence(law: type) -> str:
     return "" if "$" in sentence else sentence.replace("`", "")
 
 
-def _arguments(one: type) -> dict[str, str]:
+def _arguments(owner: type) -> dict[str, str]:
     """Argument -> its text in the docstring of a class."""
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     names: list[str] = []
-    docstrings = (one.__dict__.get("__doc__"), getattr(one.__dict__.get("__init__"), "__doc__", None))
+    docstrings = (owner.__dict__.get("__doc__"), getattr(owner.__dict__.get("__init__"), "__doc__", None))
     lines = [line for text in docstrings for line in inspect.cleandoc(text or "").splitlines()]
     for line in lines:
         entry = _ARGUMENT.match(line)
         if entry is not None:
             names = re.findall(r"`(\w+)`", entry["names"])
-            found |= dict.fromkeys(names, entry["text"])
+            texts |= dict.fromkeys(names, entry["text"])
         elif line.startswith("  ") and names:
-            found |= {name: f"{found[name]} {line.strip()}" for name in names}
+            texts |= {name: f"{texts[name]} {line.strip()}" for name in names}
         else:
             names = []
-    return {name: _plain(text) for name, text in found.items()}
+    return {name: _plain(text) for name, text in texts.items()}
 
 
 def _plain(text: str) -> str:

@@ -26,12 +26,12 @@ ALIASES: dict[str, str] = {
 """Further names of kinds of scenes, in lower case with underscores."""
 
 
-def kind_named(given: object) -> Any:
+def kind_named(value: object) -> Any:
     """The kind for a name as a person may write it, such as "deep groove ball bearing"; other values are unchanged."""
-    if not isinstance(given, str):
-        return given
-    plain = "_".join(given.lower().replace("-", " ").replace("_", " ").split())
-    return ALIASES.get(plain, plain if plain in ALIASES.values() else given)
+    if not isinstance(value, str):
+        return value
+    plain = "_".join(value.lower().replace("-", " ").replace("_", " ").split())
+    return ALIASES.get(plain, plain if plain in ALIASES.values() else value)
 
 
 _OTHERS = (
@@ -50,13 +50,13 @@ _OTHERS = (
 """Words in the names of bearings that are not modelled."""
 
 
-def kind_refused(given: object, kinds: Collection[str]) -> tuple[str, str]:
+def kind_refused(value: object, kinds: Collection[str]) -> tuple[str, str]:
     """Description of an unknown kind of scene, and the kind with the nearest name, or "". For a bearing type that is
     not modelled no kind is suggested, however similar the names are."""
-    plain = given.lower().replace("-", "_").replace(" ", "_") if isinstance(given, str) else ""
+    plain = value.lower().replace("-", "_").replace(" ", "_") if isinstance(value, str) else ""
     if any(word in plain for word in _OTHERS):
-        return f"{describe(given)}, which is not modelled", ""
-    return describe(given), nearest(plain, kinds) if plain else ""
+        return f"{describe(value)}, which is not modelled", ""
+    return describe(value), nearest(plain, kinds) if plain else ""
 
 
 KIND = BeforeValidator(kind_named)

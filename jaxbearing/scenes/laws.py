@@ -106,10 +106,10 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
         from importlib.metadata import entry_points
 
         yield from self._named
-        for found in entry_points(group=ENTRY_POINTS):
+        for entry_point in entry_points(group=ENTRY_POINTS):
             with suppress(KeyError, PydanticCustomError):
-                if found.name not in self._named and self._loaded(found.name):
-                    yield found.name
+                if entry_point.name not in self._named and self._loaded(entry_point.name):
+                    yield entry_point.name
 
     def name_of(self, law: object) -> str:
         """The name of the class of this law."""
@@ -118,15 +118,15 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
     def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_before_validator_function(self.read, handler(source))
 
-    def read(self, given: object) -> str:
+    def read(self, value: object) -> str:
         """The given name, if there is a law of this name. **Raises:** `PydanticCustomError` otherwise."""
-        if isinstance(given, str):
-            if given in self._named:
-                return given
-            if given and not given.startswith("<"):
+        if isinstance(value, str):
+            if value in self._named:
+                return value
+            if value and not value.startswith("<"):
                 try:
-                    self._loaded(given)
-                    return given
+                    self._loaded(value)
+                    return value
                 except KeyError:
                     pass
         quoted = [f"'{name}'" for name in self._named]
@@ -141,13 +141,13 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
         """
         from importlib.metadata import entry_points
 
-        found = next(iter(entry_points(group=ENTRY_POINTS, name=name)), None)
-        if found is None:
+        entry_point = next(iter(entry_points(group=ENTRY_POINTS, name=name)), None)
+        if entry_point is None:
             raise KeyError(name)
-        place = f"'{name}', which an entry point says is {found.value}"
+        place = f"'{name}', which an entry point says is {entry_point.value}"
         wanted = " or ".join(kind.__name__ for kind in self._kinds)
         try:
-            law = found.load()
+            law = entry_point.load()
         except Exception as error:  # whatever the import of another package raises
             reason = f"{type(error).__name__}: {error}"
             raise units.refusal("a law that can be loaded", f"{place}, which fails ({reason})") from error
@@ -163,10 +163,10 @@ class RollingLaws(Laws[AnyLaw]):
         super().__init__(named, *kinds)
         self._older = dict(older)
 
-    def read(self, given: object) -> str:
-        if given is True:
+    def read(self, value: object) -> str:
+        if value is True:
             return next(iter(self))
-        return super().read(self._older.get(given, given) if isinstance(given, str) else given)
+        return super().read(self._older.get(value, value) if isinstance(value, str) else value)
 
 
 def for_raceways(films: Laws[Any], joined: Callable[[Any], Any]) -> Laws[Any]:

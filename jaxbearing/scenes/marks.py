@@ -40,7 +40,7 @@ class Mark(NamedTuple):
 
 def marks_in(text: str) -> dict[str, Mark]:
     """The marks in the text of a scene file, by dotted path."""
-    found, table = {}, ""
+    marks, table = {}, ""
     for line in text.splitlines():
         header = _HEADER.fullmatch(line)
         if header is not None:
@@ -49,12 +49,12 @@ def marks_in(text: str) -> dict[str, Mark]:
         field = _LINE.fullmatch(line)
         mark = Mark("") if field is None else _mark(field[2])
         if field is not None and mark != Mark(""):
-            found[f"{table}{field[1]}"] = mark
-    return found
+            marks[f"{table}{field[1]}"] = mark
+    return marks
 
 
 def _mark(comment: str) -> Mark:
-    word = next((said for word, said in WORDS.items() if re.match(rf"{word}\b", comment)), "")
+    word = next((label for word, label in WORDS.items() if re.match(rf"{word}\b", comment)), "")
     if not word and re.search(r"\bestimated:", comment):
         word = WORDS["estimated"]
     return Mark(word, re.search(rf"\b{UNMOUNTED}\b", comment) is not None)
@@ -69,17 +69,17 @@ def marks_of(source: str | Path, overrides: Overrides | None = None) -> dict[str
     text = _text(source)
     if text is None:
         return {}
-    found, label = marks_in(text), str(source)
+    marks, label = marks_in(text), str(source)
     tables = parse_toml(text, label, "a scene")
     if is_shaft(tables):
         tables = beside(named(tables, label), Path(source).parent)
         for keys in each_bearing(tables):
-            found |= _of_bearing(at(tables, keys), ".".join(keys))
+            marks |= _bearing_marks(at(tables, keys), ".".join(keys))
     replaced = as_texts(overrides)
-    return {path: mark for path, mark in found.items() if not any(_within(path, other) for other in replaced)}
+    return {path: mark for path, mark in marks.items() if not any(_within(path, other) for other in replaced)}
 
 
-def _of_bearing(entry: Any, above: str) -> dict[str, Mark]:
+def _bearing_marks(entry: Any, above: str) -> dict[str, Mark]:
     """Marks in the scene file of a bearing on a shaft, for the values that the shaft and the entry do not replace."""
     scene = entry.get(SCENE) if isinstance(entry, Mapping) else None
     text = _text(scene) if isinstance(scene, str) else None
@@ -113,8 +113,8 @@ def notes_of_file(source: str | Path, overrides: Overrides | None = None) -> lis
         return []
     marks = marks_of(source, overrides)
     groups = {word: [path for path, mark in marks.items() if mark.word == word] for word in WORDS.values()}
-    said = [f"{word}: {', '.join(paths)}" for word, paths in groups.items() if paths]
-    notes = [f"not given, by the marks in the scene file: {'; '.join(said)}"] if said else []
+    texts = [f"{word}: {', '.join(paths)}" for word, paths in groups.items() if paths]
+    notes = [f"not given, by the marks in the scene file: {'; '.join(texts)}"] if texts else []
     before = [path for path, mark in marks.items() if mark.unmounted and path.endswith(CLEARANCE)]
     tables = _complete(source, overrides)
     for path in before:
@@ -126,9 +126,9 @@ def notes_of_file(source: str | Path, overrides: Overrides | None = None) -> lis
                 "which makes the running clearance a result"
             )
     fits = tables.get("fits")
-    given = fits if isinstance(fits, Mapping) else {}
-    seats = [part for part in ("shaft", "housing") if any(f"{part}_{one}" in given for one in _OF_SEAT)]
-    bare = [part for part in seats if f"{part}_material" not in given]
+    fits_table = fits if isinstance(fits, Mapping) else {}
+    seats = [part for part in ("shaft", "housing") if any(f"{part}_{name}" in fits_table for name in _OF_SEAT)]
+    bare = [part for part in seats if f"{part}_material" not in fits_table]
     if bare:
         fields = " and ".join(f"fits.{part}_material" for part in bare)
         notes.append(f"{fields} {'is' if len(bare) == 1 else 'are'} not given: assumed steel")

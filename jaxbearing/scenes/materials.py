@@ -21,14 +21,14 @@ class MaterialTable(table_of(Material)):
 
 def catalogue_table(name: str) -> dict[str, str]:
     """A material of the catalogue as the fields of a table."""
-    one = catalogue_material(name, thermal=True)
+    entry = catalogue_material(name, thermal=True)
     return {
-        "youngs_modulus": f"{float(one.youngs_modulus) * 1e-9:.6g} GPa",
-        "poisson_ratio": f"{float(one.poisson_ratio):.6g}",
-        "density": f"{float(one.density):.6g} kg/m^3",
-        "thermal_expansion": f"{one.thermal_expansion:.6g} 1/K",
-        "conductivity": f"{one.conductivity:.6g} W/(m*K)",
-        "heat_capacity": f"{one.heat_capacity:.6g} J/(kg*K)",
+        "youngs_modulus": f"{float(entry.youngs_modulus) * 1e-9:.6g} GPa",
+        "poisson_ratio": f"{float(entry.poisson_ratio):.6g}",
+        "density": f"{float(entry.density):.6g} kg/m^3",
+        "thermal_expansion": f"{entry.thermal_expansion:.6g} 1/K",
+        "conductivity": f"{entry.conductivity:.6g} W/(m*K)",
+        "heat_capacity": f"{entry.heat_capacity:.6g} J/(kg*K)",
     }
 
 
@@ -52,12 +52,12 @@ MaterialField = Annotated[
 """A name of the catalogue, or a table."""
 
 
-def material(given: str | MaterialTable, *, thermal: bool = False) -> Material:
+def material(field: str | MaterialTable, *, thermal: bool = False) -> Material:
     """The material that a valid field describes. **Arguments:** `thermal`: True to include thermal properties, which
     are left out if nothing in the scene depends on temperatures."""
-    if isinstance(given, str):
-        return catalogue_material(given, thermal=thermal)
-    named = given.model_dump(exclude_none=True, exclude=set() if thermal else THERMAL_FIELDS)
+    if isinstance(field, str):
+        return catalogue_material(field, thermal=thermal)
+    named = field.model_dump(exclude_none=True, exclude=set() if thermal else THERMAL_FIELDS)
     return Material(**{name: np.float64(value) for name, value in named.items()})
 
 

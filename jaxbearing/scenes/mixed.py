@@ -97,8 +97,8 @@ def rib_mixed_friction(table: RibMixedTable | None) -> MixedFriction | None:
         return None
     constants = {name: getattr(table, name) for name in CONSTANTS.get(table.share, ())}
     if table.share == "zhou_hoeprich":
-        given = {"coefficient": table.flange_coefficient, "exponent": table.flange_exponent}
-        constants = {name: getattr(RIB, name) if value is None else value for name, value in given.items()}
+        values = {"coefficient": table.flange_coefficient, "exponent": table.flange_exponent}
+        constants = {name: getattr(RIB, name) if value is None else value for name, value in values.items()}
     return _built(table, table.roughness if table.flange_roughness is None else table.flange_roughness, constants)
 
 
@@ -120,13 +120,13 @@ def rib_mixed_rows(races: MixedFriction | None, rib: MixedFriction | None) -> Ro
         raise unwritable("rib.mixed", shown(rib), "mixed friction of raceways and rib, or of neither")
     if races is None or rib is None:
         return {}
-    found = mixed_rows(races)
+    entries = mixed_rows(races)
     if type(rib.share) is not type(races.share):
         raise unwritable("rib.mixed.share", shown(rib.share), f"a {type(races.share).__name__}, as on the raceways")
     more = {"flange_roughness": rows(MixedTable, rib)["roughness"]}
     if isinstance(rib.share, ZhouHoeprich):
         more |= {f"flange_{name}": value for name, value in rows(MixedTable, rib.share).items()}
-    return {"mixed": found["mixed"] | more}
+    return {"mixed": entries["mixed"] | more}
 
 
 def _name(law: AbstractLoadShare, path: str) -> str:

@@ -66,8 +66,8 @@ def as_texts(overrides: Overrides | None) -> dict[str, str]:
             texts[path] = str(value)
         else:
             expected = "text as it would be typed ('12000 rpm'), or a plain number"
-            found = "a traced value" if isinstance(value, Tracer) else f"a {type(value).__name__}"
-            raise SceneError("overrides", path, found, expected)
+            actual = "a traced value" if isinstance(value, Tracer) else f"a {type(value).__name__}"
+            raise SceneError("overrides", path, actual, expected)
     return texts
 
 
@@ -102,8 +102,8 @@ def applied(
 ) -> tuple[dict[str, Any], list[SceneError]]:
     """A copy of the tables with the valid overrides and with the laws of a preset, and the errors of the other
     overrides; see `apply`."""
-    found, problems = preset(raw, overrides, model, file)
-    return found.tables, problems
+    filled, problems = preset(raw, overrides, model, file)
+    return filled.tables, problems
 
 
 def preset(
@@ -178,12 +178,12 @@ def _keep_catalogue(changed: Mapping[str, object], keys: list[str], path: str, f
     oil = changed.get("oil")
     if len(keys) < 2 or keys[0] != "oil" or keys[1] in ("name", "grade", "base", "file") or not isinstance(oil, dict):
         return
-    found: object = base_of(oil)
+    entry: object = base_of(oil)
     for key in keys[1:]:
-        found = found.get(key) if isinstance(found, dict) else None
-    if found is not None:
+        entry = entry.get(key) if isinstance(entry, dict) else None
+    if entry is not None:
         named = {"name": "the catalogue's", "grade": "the standard oil", "file": "the oil file"}
-        whose = next(f"{said} {oil[key]}" for key, said in named.items() if key in oil)
+        whose = next(f"{words} {oil[key]}" for key, words in named.items() if key in oil)
         expected = f"another value: {whose} has one, and comes back without yours"
         raise SceneError(file, path, f"'{REMOVE}'", expected)
 
@@ -198,7 +198,7 @@ def _table(
     name, last = material_named(str(value)), path.removeprefix(f"{place}.")
     if name is not None and last in MaterialTable.model_fields and text:
         changes = catalogue_table(name) | {last: text}
-        entries = ", ".join(f"{field} = {_as_toml(given)}" for field, given in changes.items())
+        entries = ", ".join(f"{field} = {_as_toml(change)}" for field, change in changes.items())
         expected = f"a table: {place}={{{entries}}} is {name} with this value"
     raise SceneError(file, path, f"{describe_at(changed, place)} at {place}", expected)
 
@@ -224,4 +224,4 @@ def _copy(table: Mapping[str, object], file: str, above: tuple[str, ...] = ()) -
 
 def _plain(value: object) -> Any:
     """A value of a table, or a list of values, with numbers of numpy or JAX converted to those of Python."""
-    return [plain(one) for one in value] if isinstance(value, list) else plain(value)
+    return [plain(entry) for entry in value] if isinstance(value, list) else plain(value)

@@ -45,7 +45,7 @@ def rows(table: type[Table], part: object, thermal: bool = False) -> Rows:
 
     **Arguments:** `thermal`: True if the materials have thermal properties.
     """
-    found: Rows = {}
+    entries: Rows = {}
     for name in table.model_fields:
         owner, own = table.made_from.get(name, (type(part), name))
         value = getattr(part, own, None) if isinstance(part, owner) else None
@@ -53,12 +53,12 @@ def rows(table: type[Table], part: object, thermal: bool = False) -> Rows:
             continue
         inner = plain_table_at(table, name)
         if name in table.made_from:
-            found[name] = written(part, own)
+            entries[name] = written(part, own)
         elif isinstance(value, Material):
-            found[name] = material(value, thermal)
+            entries[name] = material(value, thermal)
         elif inner is not None:
-            found[name] = rows(inner, value, thermal)
-    return found
+            entries[name] = rows(inner, value, thermal)
+    return entries
 
 
 def all_rows(part: eqx.Module) -> Rows:
@@ -69,11 +69,11 @@ def all_rows(part: eqx.Module) -> Rows:
 def written(part: Any, name: str) -> Any:
     """The value of a field of a part, as written in a file."""
     value = getattr(part, name)
-    said = next(field.metadata for field in dataclasses.fields(part) if field.name == name)
-    if "bound" in said:
-        return number(value, said["unit"], said["difference"])
-    if "each" in said:
-        values = [number(one, said["unit"]) for one in np.asarray(value)]
+    metadata = next(field.metadata for field in dataclasses.fields(part) if field.name == name)
+    if "bound" in metadata:
+        return number(value, metadata["unit"], metadata["difference"])
+    if "each" in metadata:
+        values = [number(entry, metadata["unit"]) for entry in np.asarray(value)]
         return values[0] if len(values) == 1 else values
     return value
 
@@ -92,11 +92,11 @@ def table_rows(law: Tabulated) -> Rows:
     return {"times": [text(time) for time in times], "factors": factors}
 
 
-def material(one: Material, thermal: bool = False) -> str | Rows:
+def material(part: Material, thermal: bool = False) -> str | Rows:
     """The name in the catalogue, or a table. **Arguments:** `thermal`: True if a name stands for a material with
     thermal properties."""
-    named = (name for name in CATALOGUE if same(catalogue_material(name, thermal=thermal), one))
-    return next(named, rows(MaterialTable, one))
+    named = (name for name in CATALOGUE if same(catalogue_material(name, thermal=thermal), part))
+    return next(named, rows(MaterialTable, part))
 
 
 def law_name(laws: Laws[Any], law: object, path: str, made: Callable[[str], object] | None = None) -> str:
@@ -109,10 +109,10 @@ def law_name(laws: Laws[Any], law: object, path: str, made: Callable[[str], obje
     """
     for name in laws.every():
         try:
-            found = (made or (lambda one: laws[one]()))(name)
+            candidate = (made or (lambda key: laws[key]()))(name)
         except Exception:  # whatever the class of another package raises
             continue
-        if same(found, law):
+        if same(candidate, law):
             return name
     expected = f"a law that a file has a name for: {one_of(laws)}, or that of an entry point of '{ENTRY_POINTS}'"
     raise unwritable(path, shown(law), expected)
@@ -128,28 +128,28 @@ def shown(value: object) -> str:
     return shortened(" ".join(repr(value).split()))
 
 
-def same(one: object, other: object) -> bool:
+def same(part: object, other: object) -> bool:
     """True if two parts are of the same classes and hold the same values, numbers to the last bit."""
-    return next(differences(one, other), None) is None
+    return next(differences(part, other), None) is None
 
 
-def differences(one: object, other: object, path: str = "") -> Iterator[tuple[str, Any, Any]]:
+def differences(part: object, other: object, path: str = "") -> Iterator[tuple[str, Any, Any]]:
     """Dotted path and both values of each difference between two parts."""
-    if isinstance(one, eqx.Module) and type(one) is type(other):
-        for field in dataclasses.fields(one):
+    if isinstance(part, eqx.Module) and type(part) is type(other):
+        for field in dataclasses.fields(part):
             inside = f"{path}.{field.name}".lstrip(".")
-            yield from differences(getattr(one, field.name), getattr(other, field.name), inside)
-    elif isinstance(one, tuple) and isinstance(other, tuple) and len(one) == len(other):
-        for i, (mine, yours) in enumerate(zip(one, other, strict=True)):
+            yield from differences(getattr(part, field.name), getattr(other, field.name), inside)
+    elif isinstance(part, tuple) and isinstance(other, tuple) and len(part) == len(other):
+        for i, (mine, yours) in enumerate(zip(part, other, strict=True)):
             yield from differences(mine, yours, f"{path}.{i}".lstrip("."))
-    elif not _alike(one, other):
-        yield path, one, other
+    elif not _alike(part, other):
+        yield path, part, other
 
 
-def _alike(one: Any, other: Any) -> bool:
-    if eqx.is_array_like(one) and eqx.is_array_like(other):
-        if isinstance(one, bool) or isinstance(other, bool):
-            return one is other
-        bits = [np.asarray(value, dtype=np.float64) for value in (one, other)]
+def _alike(leaf: Any, other: Any) -> bool:
+    if eqx.is_array_like(leaf) and eqx.is_array_like(other):
+        if isinstance(leaf, bool) or isinstance(other, bool):
+            return leaf is other
+        bits = [np.asarray(value, dtype=np.float64) for value in (leaf, other)]
         return bits[0].shape == bits[1].shape and bits[0].tobytes() == bits[1].tobytes()
-    return type(one) is type(other) and bool(one == other)
+    return type(leaf) is type(other) and bool(leaf == other)

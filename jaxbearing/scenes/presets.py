@@ -76,9 +76,9 @@ def _flow_law(tables: Mapping[str, object]) -> str:
 def _length(tables: Mapping[str, object], name: str) -> float | None:
     """A dimension of the geometry, m; `None` if it is absent or invalid."""
     geometry = tables.get("geometry")
-    given = geometry.get(name) if isinstance(geometry, Mapping) else None
+    value = geometry.get(name) if isinstance(geometry, Mapping) else None
     try:
-        return parse(given, LENGTH)
+        return parse(value, LENGTH)
     except PydanticCustomError:
         return None
 
@@ -89,8 +89,8 @@ def _guiding(tables: Mapping[str, object]) -> str | None:
 
 
 def _element(tables: Mapping[str, object]) -> float | None:
-    found = (_length(tables, name) for name in ("ball_diameter", "roller_diameter"))
-    return next((size for size in found if size is not None), None)
+    sizes = (_length(tables, name) for name in ("ball_diameter", "roller_diameter"))
+    return next((size for size in sizes if size is not None), None)
 
 
 def _land(tables: Mapping[str, object]) -> str | None:
@@ -102,7 +102,7 @@ def _pocket(tables: Mapping[str, Any]) -> str | None:
     """Estimated pocket clearance; it is reduced if the gaps between the rolling elements are small."""
     size, pitch = _element(tables), _length(tables, "pitch_diameter")
     counts = [tables["geometry"].get(name) for name in ("n_balls", "n_rollers")] if size is not None else []
-    count = next((one for one in counts if isinstance(one, int)), 0)
+    count = next((number for number in counts if isinstance(number, int)), 0)
     if size is None or pitch is None or count < 1:
         return None
     gap = pitch * math.sin(math.pi / max(count, 2)) - size
@@ -181,8 +181,8 @@ _TILTS = ("misalignment", "misalignment_lateral", "moment", "moment_lateral")
 def listing(kind: str) -> Iterator[tuple[str, str]]:
     """Dotted path and value, in words, of each field that `laws = "best"` supplies."""
     for table, fields in BEST.get(kind, {}).items():
-        for name, given in fields.items():
-            yield f"{table}.{name}", given.words or _shown(given.value)
+        for name, entry in fields.items():
+            yield f"{table}.{name}", entry.words or _shown(entry.value)
 
 
 def filling(tables: Mapping[str, object], removed: tuple[str, ...], model: type[BaseModel], file: str) -> Filling:
@@ -200,7 +200,7 @@ def filling(tables: Mapping[str, object], removed: tuple[str, ...], model: type[
     left_out: list[str] = []
     filled, added = dict(tables), {}
     for table, fields in BEST[kind].items():
-        reason = _without(kind, table, filled, removed)
+        reason = _absence_reason(kind, table, filled, removed)
         if reason is not None:
             if filled.get(table) == NONE:
                 del filled[table]
@@ -209,37 +209,37 @@ def filling(tables: Mapping[str, object], removed: tuple[str, ...], model: type[
         own = filled.get(table, {})
         if not isinstance(own, Mapping):
             continue  # the validation refuses it
-        out = (*removed, *_not_for(kind, table, filled, removed, left_out))
-        found = _fields(table, fields, own, known, out, model)
-        filled[table] = {name: value for name, value in own.items() if value != NONE} | found
-        added |= {f"{table}.{name}": value for name, value in found.items()}
+        out = (*removed, *_unfit_fields(kind, table, filled, removed, left_out))
+        supplied = _fields(table, fields, own, known, out, model)
+        filled[table] = {name: value for name, value in own.items() if value != NONE} | supplied
+        added |= {f"{table}.{name}": value for name, value in supplied.items()}
     estimated, assumed = (tuple(path for path in added if path in of) for of in (_ESTIMATED, _ASSUMED))
     return Filling(filled, added, estimated, assumed, tuple(left_out))
 
 
 def _on_shaft(tables: Mapping[str, object], removed: tuple[str, ...], model: type[BaseModel], file: str) -> Filling:
     """The tables of a shaft with the fields that the presets of its bearings add; arguments as for `filling`."""
-    found = Filling(dict(tables), {})
+    filled = Filling(dict(tables), {})
     for keys in each_bearing(tables):
         entry, models, above = at(tables, keys), tables_at(model, keys), ".".join(keys)
         if not isinstance(entry, Mapping) or not models:
             continue
         mine = tuple(path.removeprefix(f"{above}.") for path in removed if path.startswith(f"{above}."))
-        one = filling(entry, mine, models[0], file)
-        found = Filling(
-            put(found.tables, keys, one.tables),
-            found.added | {f"{above}.{path}": value for path, value in one.added.items()},
-            (*found.estimated, *(f"{above}.{path}" for path in one.estimated)),
-            (*found.assumed, *(f"{above}.{path}" for path in one.assumed)),
-            (*found.left_out, *(f"{above}.{text}" for text in one.left_out)),
+        bearing = filling(entry, mine, models[0], file)
+        filled = Filling(
+            put(filled.tables, keys, bearing.tables),
+            filled.added | {f"{above}.{path}": value for path, value in bearing.added.items()},
+            (*filled.estimated, *(f"{above}.{path}" for path in bearing.estimated)),
+            (*filled.assumed, *(f"{above}.{path}" for path in bearing.assumed)),
+            (*filled.left_out, *(f"{above}.{text}" for text in bearing.left_out)),
         )
-    return found
+    return filled
 
 
 def names_a_preset(tables: object) -> bool:
     """True for tables that name a preset, or the scene of a bearing, which is not read yet and may have a preset."""
     if isinstance(tables, list):
-        return any(names_a_preset(one) for one in tables)
+        return any(names_a_preset(table) for table in tables)
     if not isinstance(tables, Mapping):
         return False
     return "laws" in tables or isinstance(tables.get("scene"), str) or any(map(names_a_preset, tables.values()))
@@ -252,7 +252,7 @@ def _with_means(tables: Mapping[str, object], model: type[BaseModel], file: str)
     return tables
 
 
-def _without(kind: str, table: str, filled: Mapping[str, Any], removed: tuple[str, ...]) -> str | None:
+def _absence_reason(kind: str, table: str, filled: Mapping[str, Any], removed: tuple[str, ...]) -> str | None:
     """The reason why a table is left out, in words; "" if the scene itself leaves it out; `None` if it is kept."""
     if table in removed or filled.get(table) == NONE:
         return ""
@@ -267,7 +267,7 @@ def _without(kind: str, table: str, filled: Mapping[str, Any], removed: tuple[st
     return None
 
 
-def _not_for(
+def _unfit_fields(
     kind: str, table: str, filled: Mapping[str, Any], removed: tuple[str, ...], left_out: list[str]
 ) -> tuple[str, ...]:
     """Fields of the preset that do not fit the rest of the scene; the reasons are added to `left_out`."""
@@ -298,26 +298,26 @@ def _fields(
     # fields that have a meaning only with an omitted field are omitted too, and fields that given ones exclude
     out |= {other for name in out for other in names.about.get(name, ())}
     out |= {other for name in own for other in names.instead.get(name, ())}
-    found = {}
-    for name, given in fields.items():
-        value = given.value(tables) if callable(given.value) else given.value
+    supplied = {}
+    for name, entry in fields.items():
+        value = entry.value(tables) if callable(entry.value) else entry.value
         if name not in own and name not in out and value is not None:
-            found[name] = value
-    return found
+            supplied[name] = value
+    return supplied
 
 
-def said_of(found: Filling) -> str:
+def said_of(filled: Filling) -> str:
     """Text that lists the laws and values which the preset of a scene supplies; "" without a preset."""
-    if not found.added and not found.left_out:
+    if not filled.added and not filled.left_out:
         return ""
-    guessed = (*found.estimated, *found.assumed)
-    laws = [f"{path} = {_shown(value)}" for path, value in found.added.items() if path not in guessed]
+    guessed = (*filled.estimated, *filled.assumed)
+    laws = [f"{path} = {_shown(value)}" for path, value in filled.added.items() if path not in guessed]
     text = f"laws = 'best' stands for {', '.join(laws)}" if laws else "laws = 'best' adds no law"
-    for word, paths in (("estimated", found.estimated), ("assumed", found.assumed)):
+    for word, paths in (("estimated", filled.estimated), ("assumed", filled.assumed)):
         if paths:
-            text += f"; {word}: {', '.join(f'{path} = {_shown(found.added[path])}' for path in paths)}"
-    if found.left_out:
-        text += f"; left out: {'; '.join(found.left_out)}"
+            text += f"; {word}: {', '.join(f'{path} = {_shown(filled.added[path])}' for path in paths)}"
+    if filled.left_out:
+        text += f"; left out: {'; '.join(filled.left_out)}"
     return text
 
 

@@ -41,15 +41,15 @@ def from_validation(
     for detail in details:
         path, words = _path_and_words(detail, model)
         if detail["type"] == "extra_forbidden":
-            suggestion = _absent_meant(detail["loc"], model, absent, raw or {})
+            suggestion = _absent_field(detail["loc"], model, absent, raw or {})
             words = {**words, "suggestion": suggestion or words.get("suggestion", "")}
         problems.append(in_words(file, path, words))
-    meant = {meant_by(one) for one in problems if one.suggestion}
+    meant = {meant_by(problem) for problem in problems if problem.suggestion}
     missing = [detail["type"] == "missing" for detail in details]
     left_out = lambda path: (
-        path in meant or any(path.startswith(f"{one.rpartition('.')[0]}.") for one in meant if _rules(one))
+        path in meant or any(path.startswith(f"{field.rpartition('.')[0]}.") for field in meant if _rules(field))
     )
-    kept = [one for one, gone in zip(problems, missing, strict=True) if not (gone and left_out(one.path))]
+    kept = [problem for problem, gone in zip(problems, missing, strict=True) if not (gone and left_out(problem.path))]
     return SceneError.of_all(kept)
 
 
@@ -67,7 +67,7 @@ SLIP = 0.85
 """Similarity (difflib) of two names above which one is taken as a misspelling of the other."""
 
 
-def _absent_meant(
+def _absent_field(
     location: Sequence[int | str],
     model: type[BaseModel],
     absent: Sequence[Sequence[int | str]],
@@ -79,12 +79,12 @@ def _absent_meant(
     table: object = raw
     for key in filter(None, path_of(inside).split(".")):
         table = table.get(key) if isinstance(table, Mapping) else None
-    given = table if isinstance(table, Mapping) else {}
+    present = table if isinstance(table, Mapping) else {}
     names = names_at(model, inside).names
-    valid = [field for field in names if field not in given]
-    needed = [str(one[-1]) for one in absent if tuple(one[:-1]) == inside]
-    unknown = [field for field in given if field not in names]
-    if not inside and _inside(name, model, names_at(model, ()).names):
+    valid = [field for field in names if field not in present]
+    needed = [str(loc[-1]) for loc in absent if tuple(loc[:-1]) == inside]
+    unknown = [field for field in present if field not in names]
+    if not inside and _path_inside(name, model, names_at(model, ()).names):
         return ""
     only = needed[0] if len(needed) == len(unknown) == 1 else ""
     # a misspelling or a catalogue's word means its field even if the field is given already, as with overrides
@@ -109,18 +109,18 @@ def from_class(error: ValueError, raw: Mapping[str, object], file: str) -> Scene
         # a file that the scene names was refused: its error is complete
         return error
     if isinstance(error, Refusals):
-        return SceneError.of_all([from_class(one, raw, file) for one in error.refusals])
+        return SceneError.of_all([from_class(refusal, raw, file) for refusal in error.refusals])
     text = str(error)
     match = _CLASS_MESSAGE.match(text)
     if match is None:
         return SceneError(file, "", "values that do not fit together", "a scene that can be built", reason=text)
-    path, said = match[1], text[match.end() :].strip()
-    found = describe_at(raw, path)
-    expectation = (_MUST_BE if match[2] == " must" else _FOUND_EXPECTED).fullmatch(said)
+    path, rest = match[1], text[match.end() :].strip()
+    actual = describe_at(raw, path)
+    expectation = (_MUST_BE if match[2] == " must" else _FOUND_EXPECTED).fullmatch(rest)
     if expectation is None:
-        return SceneError(file, path, found, "values that fit together", reason=text.removeprefix(f"{path}: "))
+        return SceneError(file, path, actual, "values that fit together", reason=text.removeprefix(f"{path}: "))
     words = expectation.groupdict()
-    return SceneError(file, path, words.get("found") or found, words["expected"], reason=words.get("reason") or "")
+    return SceneError(file, path, words.get("found") or actual, words["expected"], reason=words.get("reason") or "")
 
 
 def describe_at(raw: Mapping[str, object], path: str) -> str:
@@ -135,8 +135,12 @@ def describe_at(raw: Mapping[str, object], path: str) -> str:
 
 def _causes(details: list[Any]) -> list[Any]:
     """The problems without those that follow from a wrong `law`, such as parameters of another law."""
-    wrong = {tuple(one["loc"][:-1]) for one in details if one["type"] == "literal_error" and one["loc"][-1] == "law"}
-    return [one for one in details if one["loc"][-1:] == ("law",) or tuple(one["loc"][:-1]) not in wrong]
+    wrong = {
+        tuple(detail["loc"][:-1])
+        for detail in details
+        if detail["type"] == "literal_error" and detail["loc"][-1] == "law"
+    }
+    return [detail for detail in details if detail["loc"][-1:] == ("law",) or tuple(detail["loc"][:-1]) not in wrong]
 
 
 def _rank(detail: Any) -> int:
@@ -160,17 +164,17 @@ def _path_and_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str,
         return path, {name: context.get(name, "") for name in ("found", "expected", "suggestion")}
     if kind in ("literal_error", LAW_ERROR):
         valid = re.findall(r"'([^']*)'", context["expected"])
-        given = detail["input"]
-        near = nearest(given, valid) if isinstance(given, str) else ""
-        found = describe(given)
+        value = detail["input"]
+        near = nearest(value, valid) if isinstance(value, str) else ""
+        actual = describe(value)
         if location[-1] == "kind":
-            found, near = kind_refused(given, valid)
+            actual, near = kind_refused(value, valid)
         expected = one_of(valid)
-        further = next((one for one in parts_of(type_at(model, location)) if isinstance(one, str)), "")
+        further = next((note for note in parts_of(type_at(model, location)) if isinstance(note, str)), "")
         expected += f", {further}" if further else ""
         if is_optional(model, location):
             expected += f", or leave it out (--set {path}=none)"
-        return path, {"found": found, "expected": expected, "suggestion": near}
+        return path, {"found": actual, "expected": expected, "suggestion": near}
     if kind in ("model_type", "model_attributes_type", "dict_type"):
         return path, {"found": describe(detail["input"]), "expected": "a table"}
     if kind == "string_type":
@@ -206,11 +210,13 @@ def unknown_name(location: Sequence[int | str], model: type[BaseModel]) -> dict[
     return {
         "found": f"the unknown name {shortened(repr(name))}",
         "expected": one_of(owner.names) if owner.names else "a value, not a table",
-        "suggestion": _inside(name, model, owner.names) or usual_word(name, owner.names) or nearest(name, owner.names),
+        "suggestion": _path_inside(name, model, owner.names)
+        or usual_word(name, owner.names)
+        or nearest(name, owner.names),
     }
 
 
-def _inside(name: str, model: type[BaseModel], tables: Iterable[str]) -> str:
+def _path_inside(name: str, model: type[BaseModel], tables: Iterable[str]) -> str:
     """The dotted path of the field with this name, if exactly one of these tables has it; otherwise ""."""
-    found = [f"{table}.{name}" for table in tables if name in names_at(model, (table,)).names]
-    return found[0] if len(found) == 1 else ""
+    paths = [f"{table}.{name}" for table in tables if name in names_at(model, (table,)).names]
+    return paths[0] if len(paths) == 1 else ""

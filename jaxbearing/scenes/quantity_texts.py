@@ -75,8 +75,8 @@ def _exact(unit: str, value: float, dimension: units.Dimension) -> str | None:
 def _is_read_as(value: float, text: str, dimension: units.Dimension) -> bool:
     """True if exactly this value is read from the text; rounding can prevent it."""
     try:
-        found = units.parse(text, dimension)
+        parsed = units.parse(text, dimension)
     except PydanticCustomError:
         # rounded up beyond the largest number, or no number at all
         return False
-    return found == value and math.copysign(1.0, found) == math.copysign(1.0, value)
+    return parsed == value and math.copysign(1.0, parsed) == math.copysign(1.0, value)

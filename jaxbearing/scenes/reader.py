@@ -94,9 +94,9 @@ def _module(kind: _Kind, name: str) -> ModuleType:
 
 
 def _table_and_build(kind: str) -> tuple[type[Table], Callable[[Any], AbstractScene]]:
-    one = _KINDS[kind]
-    table = getattr(_module(one, "schema"), one.table)
-    return table, getattr(_module(one, "build"), one.function)
+    entry = _KINDS[kind]
+    table = getattr(_module(entry, "schema"), entry.table)
+    return table, getattr(_module(entry, "build"), entry.function)
 
 
 def schema_of_kind(kind: str) -> tuple[type[BaseModel], type]:
@@ -110,8 +110,8 @@ def tables_of(scene: AbstractScene) -> dict[str, Any]:
 
     **Raises:** `SceneError` for what a file cannot hold.
     """
-    one = _KINDS[scene.kind]
-    return getattr(_module(one, "writer"), one.tables)(scene)
+    entry = _KINDS[scene.kind]
+    return getattr(_module(entry, "writer"), entry.tables)(scene)
 
 
 def plain_scene(scene: AbstractScene) -> AbstractScene:
@@ -178,31 +178,31 @@ def distributions_in(
     try:
         model, _ = _schema(mapping, overrides, origin)
         raw, _ = applied(mapping, overrides, model, origin)
-        found = means_of(raw, model, origin)[1]
+        distributions = means_of(raw, model, origin)[1]
         if priors and isinstance(raw.get("oil"), Mapping):
-            found |= means_of({"oil": prior_ranges(raw["oil"])}, model, origin)[1]
-        return found
+            distributions |= means_of({"oil": prior_ranges(raw["oil"])}, model, origin)[1]
+        return distributions
     except SceneError as error:
-        raise SceneError.of_all([_with_culprit(one, overrides, origin) for one in error.problems]) from None
+        raise SceneError.of_all([_with_culprit(problem, overrides, origin) for problem in error.problems]) from None
 
 
 def warn_of_means(mapping: Mapping[str, object], origin: str, overrides: Overrides | None = None) -> None:
     """Warns about each distribution that a scene replaces by its mean. Arguments and errors as those of
     `distributions_in`."""
-    found = distributions_in(mapping, origin, overrides)
-    if not found:
+    distributions = distributions_in(mapping, origin, overrides)
+    if not distributions:
         return
     model = scene_model(mapping, as_texts(overrides), origin)
-    for path, distribution in found.items():
+    for path, distribution in distributions.items():
         warnings.warn(said_of(path, distribution, model), MeanUsedWarning, stacklevel=3)
 
 
 def warn_of_preset(mapping: Mapping[str, object], origin: str, overrides: Overrides | None = None) -> None:
     """Warns which laws and estimates the preset of a scene stands for. Arguments as those of `scene_from_tables`, which
     must have accepted them."""
-    said = preset_note(mapping, origin, overrides)
-    if said:
-        warnings.warn(said, PresetUsedWarning, stacklevel=3)
+    note = preset_note(mapping, origin, overrides)
+    if note:
+        warnings.warn(note, PresetUsedWarning, stacklevel=3)
 
 
 def preset_note(mapping: Mapping[str, object], origin: str, overrides: Overrides | None = None) -> str:
@@ -238,7 +238,7 @@ def scene_from_tables(
         scene = _build(raw, model, build, origin, problems)
         return scene if states is None else _module(_KINDS[SHAFT], "states").with_states(scene, states, raw, origin)
     except SceneError as error:
-        raise SceneError.of_all([_with_culprit(one, overrides, origin) for one in error.problems]) from None
+        raise SceneError.of_all([_with_culprit(problem, overrides, origin) for problem in error.problems]) from None
 
 
 def scene_model(mapping: Mapping[str, object], overrides: Mapping[str, str], origin: str) -> type[BaseModel]:
@@ -281,21 +281,23 @@ def _build(
 ) -> AbstractScene:
     """Builds the scene. **Raises:** `SceneError` with `problems` and all errors that schema and classes find."""
     complete, refused, unknown = _with_oils(raw)
-    table, found = draft(model, complete, origin, refused)
-    problems = [*problems, *unknown, *found]
+    table, errors = draft(model, complete, origin, refused)
+    problems = [*problems, *unknown, *errors]
     try:
         scene = build(table)
     except Unreadable:
         pass
     except ValueError as error:
-        said = [one.path for one in problems]
+        reported = [problem.path for problem in problems]
         # an unknown name may be meant for what its table lacks
-        unsure = {one.path.rpartition(".")[0] for one in problems if one.found.startswith("the unknown name")}
+        unsure = {
+            problem.path.rpartition(".")[0] for problem in problems if problem.found.startswith("the unknown name")
+        }
         # the classes repeat some checks of the tables: a problem that is already known is not reported twice
-        for one in from_class(error, raw, origin).problems:
-            known = any(one.path and _related(one.path, path) for path in said)
-            if not known and not (one.found == "nothing" and one.path.rpartition(".")[0] in unsure):
-                problems.append(one)
+        for refusal in from_class(error, raw, origin).problems:
+            known = any(refusal.path and _related(refusal.path, path) for path in reported)
+            if not known and not (refusal.found == "nothing" and refusal.path.rpartition(".")[0] in unsure):
+                problems.append(refusal)
     else:
         if not problems:
             return scene
@@ -314,10 +316,10 @@ def _with_oils(raw: Mapping[str, Any]) -> tuple[dict[str, Any], list[str], list[
     for keys in each_bearing(raw) if is_shaft(raw) else ():
         entry = at(raw, keys)
         if isinstance(entry, Mapping):
-            inner, wrong, found = _with_oils(entry)
+            inner, wrong, errors = _with_oils(entry)
             complete = put(complete, keys, inner)
             refused += [keys[0]] if wrong else []
-            problems += [one.inside(".".join(keys)) for one in found]
+            problems += [problem.inside(".".join(keys)) for problem in errors]
     return complete, refused, problems
 
 
@@ -357,8 +359,8 @@ def read_base(source: str | Path) -> tuple[str, dict[str, object]]:
     states = None if is_shaft(mapping) else mapping.pop(STATES, None)
     if states is not None:
         count = len(states) if isinstance(states, list) else 1
-        said = f"{label}: the scene leaves out its {count} [[state]] tables; 'jaxbearing spectrum' solves them"
-        warnings.warn(said, StatesUnusedWarning, stacklevel=3)
+        text = f"{label}: the scene leaves out its {count} [[state]] tables; 'jaxbearing spectrum' solves them"
+        warnings.warn(text, StatesUnusedWarning, stacklevel=3)
     return label, mapping
 
 
@@ -384,7 +386,7 @@ def _read_file(source: str | Path) -> tuple[str, dict[str, object]]:
         text = builtin_text(source)
     else:
         text = read_text(source, f"a scene file, or a built-in scene ({', '.join(builtin_names())})", builtin_names())
-    return label, _beside(parse_toml(text, label, f"a scene that begins with {_KIND_EXAMPLE}"), Path(source).parent)
+    return label, _relocated(parse_toml(text, label, f"a scene that begins with {_KIND_EXAMPLE}"), Path(source).parent)
 
 
 _OF_OIL = (("simulation", "oil_inlet_table"), ("simulation", "oil_flow_table"))
@@ -392,7 +394,7 @@ _FILES = (("oil",), ("simulation", "speed_table"), ("simulation", "load_table"),
 """Tables whose field `file` names another file."""
 
 
-def _beside(mapping: dict[str, object], folder: Path) -> dict[str, object]:
+def _relocated(mapping: dict[str, object], folder: Path) -> dict[str, object]:
     """The tables of a file in `folder`, with the paths of other files made relative to the working folder."""
     for tables in _FILES:
         mapping = _moved(mapping, tables, folder)
@@ -412,10 +414,10 @@ def _known_kind(kind: Any, mapping: Mapping[str, object], origin: str) -> str:
     if kind is None:
         # an unknown name close to "kind" is a likelier culprit than a forgotten line
         near = next((key for key in mapping if key != "kind" and nearest(key, ("kind",))), "")
-        found = f"the unknown name {near!r}" if near else "nothing"
-        raise SceneError(origin, "kind", found, f"the kind of scene, e.g. {_KIND_EXAMPLE}", "kind" if near else "")
+        actual = f"the unknown name {near!r}" if near else "nothing"
+        raise SceneError(origin, "kind", actual, f"the kind of scene, e.g. {_KIND_EXAMPLE}", "kind" if near else "")
     kind = kind_named(kind)
     if kind in KINDS:
         return kind
-    found, near = kind_refused(kind, KINDS)
-    raise SceneError(origin, "kind", found, one_of(KINDS), near)
+    actual, near = kind_refused(kind, KINDS)
+    raise SceneError(origin, "kind", actual, one_of(KINDS), near)

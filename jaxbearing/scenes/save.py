@@ -60,23 +60,23 @@ def scene_text(scene: AbstractScene, label: str, header: Iterable[str]) -> str:
         if problems:
             raise SceneError.of_all(problems[:_MOST])
         scene = plain_scene(scene)
-        text = _headed(header) + toml_text(tables_of(scene))
+        text = _header(header) + toml_text(tables_of(scene))
         _require_readable(text)
         read = scene_from_tables(parse_toml(text, label, "a scene"), label)
-        path, found, other = next(differences(scene, read), ("", None, None))
+        path, value, other = next(differences(scene, read), ("", None, None))
     except SceneError as error:
-        raise SceneError.of_all([one.of(label) for one in error.problems]) from None
+        raise SceneError.of_all([problem.of(label) for problem in error.problems]) from None
     if path:
         expected = f"{shown(other)}, which is what a scene file of the kind {kind} has here"
-        raise SceneError(label, path, shown(found), expected)
+        raise SceneError(label, path, shown(value), expected)
     return text
 
 
-def _headed(lines: Iterable[str]) -> str:
+def _header(lines: Iterable[str]) -> str:
     from .. import __version__
 
-    said = f"Written by jaxbearing {__version__}. Parts that are not here are not modelled, or follow from the others."
-    return comments([*lines, said]) + "\n"
+    note = f"Written by jaxbearing {__version__}. Parts that are not here are not modelled, or follow from the others."
+    return comments([*lines, note]) + "\n"
 
 
 def _kind(scene: object) -> str:
@@ -92,23 +92,23 @@ def _kind(scene: object) -> str:
     return scene.kind
 
 
-def _problems(node: object, path: str, said: Mapping[str, object]) -> Iterator[SceneError]:
+def _problems(node: object, path: str, metadata: Mapping[str, object]) -> Iterator[SceneError]:
     """Yields an error for each number of a scene that no file can hold.
 
-    **Arguments:** `said`: metadata of the field.
+    **Arguments:** `metadata`: of the field.
     """
     if isinstance(node, eqx.Module):
         for field in dataclasses.fields(node):
             yield from _problems(getattr(node, field.name), f"{path}.{field.name}".lstrip("."), field.metadata)
         return
     if isinstance(node, tuple):
-        for place, one in enumerate(node):
-            yield from _problems(one, f"{path}.{place}", said)
+        for place, entry in enumerate(node):
+            yield from _problems(entry, f"{path}.{place}", metadata)
         return
     if isinstance(node, Tracer | jax.ShapeDtypeStruct):
         yield unwritable(path, "a traced number", _KNOWN)
     elif eqx.is_array_like(node):
-        values, most = np.asarray(node), 0 if "bound" in said else 2 if said.get("unit") == MIXED else 1
+        values, most = np.asarray(node), 0 if "bound" in metadata else 2 if metadata.get("unit") == MIXED else 1
         if values.ndim > most:
             yield unwritable(path, f"an array of shape {values.shape}", _ONE)
         elif values.dtype not in (np.float64, np.int64, np.bool_):

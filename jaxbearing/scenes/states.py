@@ -69,48 +69,48 @@ def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple
     if is_shaft(mapping):
         expected = "the scene of a bearing; the states of a shaft are a part of it, 'jaxbearing solve' solves them"
         raise SceneError(label, "kind", "a shaft", expected)
-    given = mapping.pop(STATES, None)
-    if given is None:
+    tables = mapping.pop(STATES, None)
+    if tables is None:
         raise SceneError(label, STATES, "nothing", f"a load spectrum: {EXAMPLE}")
-    if not isinstance(given, list) or not given or not all(isinstance(one, Mapping) for one in given):
-        raise SceneError(label, STATES, describe(given), EXAMPLE)
+    if not isinstance(tables, list) or not tables or not all(isinstance(entry, Mapping) for entry in tables):
+        raise SceneError(label, STATES, describe(tables), EXAMPLE)
     texts = as_texts(overrides)
     # an error of the scene itself is reported once, not for every state
     scene_from_tables(mapping, label, texts)
-    given = numbered(given)
-    require_names_and_shares(given, label)
-    found: list[FileState] = []
+    tables = numbered(tables)
+    require_names_and_shares(tables, label)
+    states: list[FileState] = []
     problems: list[SceneError] = []
-    for one in given:
+    for table in tables:
         try:
-            found.append(state_of(one, mapping, texts, label))
+            states.append(state_of(table, mapping, texts, label))
         except SceneError as error:
             problems += error.problems
     if problems:
         raise SceneError.of_all(problems)
     warn_of_preset(mapping, label, texts)
-    return tuple(found)
+    return tuple(states)
 
 
-def numbered(given: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+def numbered(tables: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     """The states; a state without a name is named by its number."""
-    return [{NAME: str(place + 1), **one} for place, one in enumerate(given)]
+    return [{NAME: str(place + 1), **table} for place, table in enumerate(tables)]
 
 
-def require_names_and_shares(given: Sequence[Mapping[str, object]], label: str) -> None:
+def require_names_and_shares(tables: Sequence[Mapping[str, object]], label: str) -> None:
     """Checks names and shares of states. **Raises:** `SceneError` for missing shares, invalid or repeated names, and
     shares that do not add up to 1."""
-    problems = list(_problems(given, label))
+    problems = list(_problems(tables, label))
     if problems:
         raise SceneError.of_all(problems)
 
 
-def _problems(given: Sequence[Mapping[str, Any]], label: str) -> Iterator[SceneError]:
+def _problems(tables: Sequence[Mapping[str, Any]], label: str) -> Iterator[SceneError]:
     """All errors in names and shares."""
     names: list[str] = []
     shares: list[float] = []
-    for place, one in enumerate(given):
-        at, name = f"{STATES}[{place}]", one.get(NAME)
+    for place, table in enumerate(tables):
+        at, name = f"{STATES}[{place}]", table.get(NAME)
         if not isinstance(name, str) or not name.strip():
             yield SceneError(label, f"{at}.{NAME}", describe(name), "a name of the state, in quotes")
         elif name in names:
@@ -118,24 +118,24 @@ def _problems(given: Sequence[Mapping[str, Any]], label: str) -> Iterator[SceneE
         else:
             names.append(name)
         try:
-            if SHARE not in one:
+            if SHARE not in table:
                 raise SceneError(label, f"{at}.{SHARE}", "nothing", "the share of the state in the time, e.g. 0.6")
-            shares.append(number(one[SHARE], "above 0 and at most 1"))
+            shares.append(number(table[SHARE], "above 0 and at most 1"))
         except SceneError as error:
             yield error
         except PydanticCustomError as error:
             context = error.context or {}
             yield SceneError(label, f"{at}.{SHARE}", context["found"], context["expected"])
     total = sum(shares)
-    if len(shares) == len(given) and abs(total - 1.0) > SUM_TOLERANCE:
+    if len(shares) == len(tables) and abs(total - 1.0) > SUM_TOLERANCE:
         yield SceneError(label, f"{STATES}.{SHARE}", f"shares that add up to {total:.7g}", "shares that add up to 1")
 
 
-def state_of(one: Mapping[str, Any], mapping: Mapping[str, object], texts: dict[str, str], label: str) -> FileState:
+def state_of(table: Mapping[str, Any], mapping: Mapping[str, object], texts: dict[str, str], label: str) -> FileState:
     """One state with its scene. **Raises:** `SceneError` that names the state and the field."""
-    name = one[NAME]
+    name = table[NAME]
     origin = f"{label}, state '{name}'"
-    changes = dict(_flat({key: value for key, value in one.items() if key not in (NAME, SHARE)}))
+    changes = dict(_flat({key: value for key, value in table.items() if key not in (NAME, SHARE)}))
     for path in changes:
         if path in texts:
             raise SceneError(origin, path, "a field that --set or --over gives too", "one of the two")
@@ -149,7 +149,7 @@ def state_of(one: Mapping[str, Any], mapping: Mapping[str, object], texts: dict[
         more = [*more, *error.problems]
     else:
         if not [*problems, *more]:
-            return FileState(name, float(one[SHARE]), changes, scene)
+            return FileState(name, float(table[SHARE]), changes, scene)
     raise SceneError.of_all([*problems, *more])
 
 

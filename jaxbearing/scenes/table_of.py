@@ -51,20 +51,22 @@ def table_of(
 def type_of(field: Any) -> Any:
     """The type that reads a field of a class from a file; `None` for a field that does not hold numbers, a word or a
     truth value."""
-    said: Mapping[str, Any] = field.metadata
-    if "bound" in said:
-        return Annotated[float, units.number_note(said["bound"], said["unit"], said["difference"])]
-    if "each" in said:
-        return Annotated[tuple[float, ...], units.several_note(said["each"], said["unit"])]
-    if "choices" in said:
-        words: Any = Literal[said["choices"]]
-        return Annotated[words, BeforeValidator(said["also"]), said["also_words"]] if "also" in said else words
-    if "count" in said:
-        return Annotated[int, units.count_note(*said["count"])]
-    if "switch" in said:
+    metadata: Mapping[str, Any] = field.metadata
+    if "bound" in metadata:
+        return Annotated[float, units.number_note(metadata["bound"], metadata["unit"], metadata["difference"])]
+    if "each" in metadata:
+        return Annotated[tuple[float, ...], units.several_note(metadata["each"], metadata["unit"])]
+    if "choices" in metadata:
+        words: Any = Literal[metadata["choices"]]
+        return (
+            Annotated[words, BeforeValidator(metadata["also"]), metadata["also_words"]] if "also" in metadata else words
+        )
+    if "count" in metadata:
+        return Annotated[int, units.count_note(*metadata["count"])]
+    if "switch" in metadata:
         return units.Switch
-    if "constant" in said:
-        among, bound = said["among"], said["constant"]
+    if "constant" in metadata:
+        among, bound = metadata["among"], metadata["constant"]
         return Annotated[float, units.number_note(bound) if among is None else units.among_note(among)]
     return None
 

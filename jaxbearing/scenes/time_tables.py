@@ -54,14 +54,14 @@ def read_time_table(file: str, quantity: str, field: str) -> TimeTable:
     table = CsvTable.of(file, wanted)
     names, scales, zeros = _columns(table, quantity, dimension, wanted)
     if len(table.rows) < 2:
-        found = "one row" if table.rows else "no rows"
-        raise SceneError(file, "", found, f"two rows or more below the header, for {field}")
+        content = "one row" if table.rows else "no rows"
+        raise SceneError(file, "", content, f"two rows or more below the header, for {field}")
     with np.errstate(over="ignore"):
         values = np.asarray(table.numbers(names)) * np.asarray(scales) + np.asarray(zeros)
-    times, found = values[:, names.index("time")], values[:, 1 - names.index("time")]
+    times, content = values[:, names.index("time")], values[:, 1 - names.index("time")]
     _check_times(table, names.index("time"), times, field)
-    _check_values(table, 1 - names.index("time"), found, quantity, field)
-    return TimeTable(times, found, FACTOR in names)
+    _check_values(table, 1 - names.index("time"), content, quantity, field)
+    return TimeTable(times, content, FACTOR in names)
 
 
 def _columns(
@@ -74,11 +74,11 @@ def _columns(
     for name in names:
         if name not in valid or names.count(name) > 1:
             twice = " twice" if name in valid else ""
-            found = f"the column {shortened(repr(name))}{twice}"
-            raise SceneError(place, "", found, wanted, "" if twice else nearest(name, valid))
+            actual = f"the column {shortened(repr(name))}{twice}"
+            raise SceneError(place, "", actual, wanted, "" if twice else nearest(name, valid))
     if "time" not in names or len(names) != 2:
-        found = f"the column{'s' * (len(names) > 1)} {', '.join(repr(name) for name in names)}"
-        raise SceneError(place, "", found, wanted)
+        actual = f"the column{'s' * (len(names) > 1)} {', '.join(repr(name) for name in names)}"
+        raise SceneError(place, "", actual, wanted)
     dimensions, scales, zeros = {"time": TIME, quantity: dimension}, [], []
     for name, unit in parted:
         if name == FACTOR:
@@ -91,9 +91,9 @@ def _columns(
             zeros.append(parse(f"0 {unit or ''}", dimensions[name]))
             scales.append(parse(f"1 {unit or ''}", dimensions[name]) - zeros[-1])
         except PydanticCustomError:
-            found = f"the unit {shortened(repr(unit))}" if unit else "a column without a unit"
+            actual = f"the unit {shortened(repr(unit))}" if unit else "a column without a unit"
             example = "time [ms]" if name == "time" else _QUANTITIES[quantity][1]
-            raise SceneError(place, name, found, f"a unit of it in brackets, e.g. '{example}'") from None
+            raise SceneError(place, name, actual, f"a unit of it in brackets, e.g. '{example}'") from None
     return names, scales, zeros
 
 

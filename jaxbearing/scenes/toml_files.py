@@ -28,8 +28,8 @@ def read_text(path: str | Path, expected: str, near: Iterable[str] = (), largest
         suggestion = nearest(Path(path).name.removesuffix(".toml"), near) if error.missing else ""
         raise SceneError(label, "", error.found, expected, suggestion) from None
     except UnicodeDecodeError as error:
-        found = f"bytes that are not UTF-8 text (at byte {error.start})"
-        raise SceneError(label, "", found, "a file in UTF-8") from None
+        actual = f"bytes that are not UTF-8 text (at byte {error.start})"
+        raise SceneError(label, "", actual, "a file in UTF-8") from None
 
 
 def parse_toml(text: str, label: str, expected: str) -> dict[str, object]:
@@ -58,6 +58,6 @@ def _path_near(text: str, message: str) -> str:
     if match is None and "end of document" not in message:
         return ""
     lines = text.splitlines()[: int(match[1]) if match else None]
-    headers = [found[1] for line in lines if (found := re.match(r"\s*\[\s*([\w.]+)\s*\]", line))]
+    headers = [header[1] for line in lines if (header := re.match(r"\s*\[\s*([\w.]+)\s*\]", line))]
     key = re.match(r"\s*([\w.]+)\s*=", lines[-1]) if lines else None
     return ".".join(headers[-1:] + ([key[1]] if key else []))

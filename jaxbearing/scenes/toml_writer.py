@@ -41,18 +41,18 @@ def _table(table: Mapping[str, Any], path: tuple[str, ...], aligned: bool, liste
         if isinstance(value, Mapping):
             yield from _table(value, (*path, name), aligned)
             continue
-        for one in value:
+        for entry in value:
             yield from ("", f"[[{'.'.join((*path, name))}]]")
-            yield from _table(one, (*path, name), aligned, listed=True)
+            yield from _table(entry, (*path, name), aligned, listed=True)
 
 
 def _are_tables(value: object) -> bool:
-    return isinstance(value, list) and bool(value) and all(isinstance(one, Mapping) for one in value)
+    return isinstance(value, list) and bool(value) and all(isinstance(entry, Mapping) for entry in value)
 
 
 def _value(value: object, width: int) -> str:
     if isinstance(value, list):
-        line = f"[{', '.join(_value(one, 0) for one in value)}]"
+        line = f"[{', '.join(_value(entry, 0) for entry in value)}]"
         if width + len(line) + 3 <= WIDEST:
             return line
     return tomli_w.dumps({"value": value}).removeprefix("value = ").rstrip("\n")

@@ -98,8 +98,8 @@ CONTACT_DAMPING = Dimension("a damping over a load", "s/m", "0.05 s/m")
 
 
 _BY_UNIT = {
-    one.si.replace("*", " "): one
-    for one in (
+    dimension.si.replace("*", " "): dimension
+    for dimension in (
         *(LENGTH, ANGLE, SPEED, SURFACE_SPEED, FORCE, LINE_LOAD, MOMENT, PRESSURE, INVERSE_PRESSURE, TEMPERATURE, FLOW),
         *(DENSITY, VISCOSITY, KINEMATIC_VISCOSITY, CONDUCTIVITY, CONDUCTIVITY_SLOPE, KELVIN_PER_PRESSURE),
         *(KELVIN2_PER_PRESSURE, TIME, FREQUENCY, TANGENTIAL_COMPLIANCE, LINE_CONTACT_STIFFNESS, THERMAL_EXPANSION),
@@ -176,12 +176,12 @@ def _usual(number: float, unit: str, dimension: Dimension) -> float | None:
 
 
 def _unit(text: str, value: str, dimension: Dimension) -> "pint.Unit":
-    found = f"{describe(value)}, where {shortened(repr(text))} is not a unit"
+    actual = f"{describe(value)}, where {shortened(repr(text))} is not a unit"
     if len(text) > _LONGEST_UNIT or not _UNIT.fullmatch(text) or _WORDS.search(text):
-        raise refusal(dimension.expected(), found)
+        raise refusal(dimension.expected(), actual)
     unit = _read_unit(text)
     if unit is None:
-        raise refusal(dimension.expected(), found)
+        raise refusal(dimension.expected(), actual)
     return unit
 
 
@@ -229,11 +229,11 @@ def _is_proportional(unit: "pint.Unit") -> bool:
     return zero == 0.0
 
 
-def quantity(given: object, dimension: Dimension, bound: str = "finite") -> float:
+def quantity(text: object, dimension: Dimension, bound: str = "finite") -> float:
     """SI value of a text with a unit, within a bound of `numerics.ranges.RANGES`. **Raises:** as `parse`."""
-    value = parse(given, dimension)
+    value = parse(text, dimension)
     if not RANGES[bound].holds(value):
-        raise refusal(dimension.expected(bound), describe(given))
+        raise refusal(dimension.expected(bound), describe(text))
     return value
 
 
@@ -245,12 +245,12 @@ class QuantityValidator(BeforeValidator):
 
 
 def _quantity(dimension: Dimension, bound: str = "finite") -> QuantityValidator:
-    return QuantityValidator(lambda given: quantity(given, dimension, bound), dimension=dimension)
+    return QuantityValidator(lambda value: quantity(value, dimension, bound), dimension=dimension)
 
 
-def several(given: object, read: Callable[[Any], float], expected: str) -> tuple[float, ...]:
+def several(raw: object, read: Callable[[Any], float], expected: str) -> tuple[float, ...]:
     """One value or a list of values, each read by `read`. **Arguments:** `expected`: expected content, for messages."""
-    values = given if isinstance(given, list) else [given]
+    values = raw if isinstance(raw, list) else [raw]
     if not values:
         raise refusal(expected, "an empty list")
     return tuple(_item(value, i, len(values), read, expected) for i, value in enumerate(values))
@@ -268,14 +268,14 @@ def _item(value: object, index: int, count: int, read: Callable[[Any], float], e
 def several_note(bound: str, unit: str = "1") -> BeforeValidator:
     """Validator of a number or a list of numbers; arguments as for `number_note`."""
     if unit == "1":
-        said = "" if bound == "finite" else f" {bound}"
-        expected, read = f"a number{said}, or a list of them", lambda one: number(one, bound)
+        words = "" if bound == "finite" else f" {bound}"
+        expected, read = f"a number{words}, or a list of them", lambda value: number(value, bound)
     else:
         dimension = dimension_of_unit(unit)
         expected = f"{dimension.expected(bound)}, or a list of such texts"
-        read = lambda one: quantity(one, dimension, bound)
-        return QuantityValidator(lambda given: several(given, read, expected), dimension=dimension)
-    return BeforeValidator(lambda given: several(given, read, expected))
+        read = lambda value: quantity(value, dimension, bound)
+        return QuantityValidator(lambda raw: several(raw, read, expected), dimension=dimension)
+    return BeforeValidator(lambda raw: several(raw, read, expected))
 
 
 def _switch(value: object) -> bool:
@@ -284,13 +284,13 @@ def _switch(value: object) -> bool:
     return value
 
 
-def number(given: Any, bound: str = "finite") -> float:
+def number(value: Any, bound: str = "finite") -> float:
     """A finite number without a unit, within a bound of `numerics.ranges.RANGES`."""
-    good = isinstance(given, int | float) and not isinstance(given, bool) and is_finite(given)
-    if not good or not RANGES[bound].holds(float(given)):
-        said = "" if bound == "finite" else f" {bound}"
-        raise refusal(f"a number{said} without a unit and without quotes", describe(given))
-    return float(given)
+    good = isinstance(value, int | float) and not isinstance(value, bool) and is_finite(value)
+    if not good or not RANGES[bound].holds(float(value)):
+        words = "" if bound == "finite" else f" {bound}"
+        raise refusal(f"a number{words} without a unit and without quotes", describe(value))
+    return float(value)
 
 
 LARGEST_COUNT = 1_000_000
@@ -322,7 +322,7 @@ def number_note(bound: str, unit: str = "1", difference: bool = False) -> Before
     - `difference`: True if a number in K is a temperature difference.
     """
     if unit == "1":
-        return BeforeValidator(lambda given: number(given, bound))
+        return BeforeValidator(lambda value: number(value, bound))
     return _quantity(dimension_of_unit(unit, difference), bound)
 
 
@@ -331,11 +331,11 @@ def among_note(numbers: Iterable[float]) -> BeforeValidator:
     known = tuple(numbers)
 
     def read(value: object) -> float:
-        given = number(value)
-        if given not in known:
-            words = ", ".join(f"{one:g}" for one in known)
+        parsed = number(value)
+        if parsed not in known:
+            words = ", ".join(f"{choice:g}" for choice in known)
             raise refusal(f"one of {words}, without quotes", describe(value))
-        return given
+        return parsed
 
     return BeforeValidator(read)
 

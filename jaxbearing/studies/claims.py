@@ -74,7 +74,9 @@ def _in_front(study: PowerLossStudy) -> Found:
     names = ("load_inner", "pocket_film_front", "pocket_film_rear", "azimuth")
     load, front, rear, azimuth = (study.result(name) for name in names)
     driving, loaded = front < (own(scene, "cage.pocket_clearance") or 0.0) / 2, load > LOADED
-    radial, lateral = (0.0 if one is None else float(one) for one in map(scene.operation.load, ("radial", "lateral")))
+    radial, lateral = (
+        0.0 if component is None else float(component) for component in map(scene.operation.load, ("radial", "lateral"))
+    )
     towards = np.cos(azimuth - np.arctan2(lateral, radial))
     share = float(np.sum((load * towards)[driving])) / float(np.hypot(radial, lateral))
     others = load[loaded & ~driving]

@@ -48,10 +48,10 @@ class Panel:
 
 def own(scene: AbstractScene, path: str) -> float | None:
     """The scene's own value of a field; `None` where it or its part is not there."""
-    found: Any = scene
+    value: Any = scene
     for name in path.split("."):
-        found = getattr(found, name, None)
-    return None if found is None or np.ndim(found) != 0 else float(found)
+        value = getattr(value, name, None)
+    return None if value is None or np.ndim(value) != 0 else float(value)
 
 
 def scaled(scene: AbstractBearing, path: str, factors: Sequence[float] | np.ndarray) -> np.ndarray:
@@ -83,12 +83,12 @@ def panels_of(scene: AbstractBearing) -> tuple[list[Panel], list[str]]:
 def refined(values: np.ndarray) -> np.ndarray:
     """The values, which are not all the same, and as many evenly between two neighbours as `GAPS` asks for; nearer to a
     first value of 0, where losses may begin with a vertical slope, two more."""
-    given = np.unique(values)
-    widest = np.ptp(given) / GAPS
-    counts = [max(1, math.ceil((1.0 - 1e-9) * gap / widest)) for gap in np.diff(given)]
-    between = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(given, given[1:], counts, strict=False)]
-    found = np.concatenate([*between, given[-1:]])
-    return found if found[0] != 0.0 else np.concatenate([found[:1], found[1] * np.array([1.0 / 16.0, 0.25]), found[1:]])
+    distinct = np.unique(values)
+    widest = np.ptp(distinct) / GAPS
+    counts = [max(1, math.ceil((1.0 - 1e-9) * gap / widest)) for gap in np.diff(distinct)]
+    between = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(distinct, distinct[1:], counts, strict=False)]
+    finer = np.concatenate([*between, distinct[-1:]])
+    return finer if finer[0] != 0.0 else np.concatenate([finer[:1], finer[1] * np.array([1.0 / 16.0, 0.25]), finer[1:]])
 
 
 def _operating(scene: AbstractBearing, load: str) -> list[Panel]:
@@ -104,18 +104,18 @@ def _operating(scene: AbstractBearing, load: str) -> list[Panel]:
     ]
 
 
-def _one(scene: AbstractBearing, name: str, title: str, path: str, factors: Sequence[float]) -> Panel:
+def _panel(scene: AbstractBearing, name: str, title: str, path: str, factors: Sequence[float]) -> Panel:
     return Panel(name, title, {path: scaled(scene, path, factors)})
 
 
 def _roller(scene: AbstractBearing) -> list[Panel]:
     return [
         *_operating(scene, RADIAL),
-        _one(scene, "39c", "by location against radial load", RADIAL, LOADS),
-        _one(scene, "40a", "by location against diametral clearance", CLEARANCE, CLEARANCES),
-        _one(scene, "40b", "by location against guiding clearance of the cage", GUIDING, GUIDINGS),
-        _one(scene, "40c", "by location against axial clearance of the flanges", AXIAL, AXIALS),
-        _one(scene, "40d", "by location against flange angle", ANGLE, ANGLES),
+        _panel(scene, "39c", "by location against radial load", RADIAL, LOADS),
+        _panel(scene, "40a", "by location against diametral clearance", CLEARANCE, CLEARANCES),
+        _panel(scene, "40b", "by location against guiding clearance of the cage", GUIDING, GUIDINGS),
+        _panel(scene, "40c", "by location against axial clearance of the flanges", AXIAL, AXIALS),
+        _panel(scene, "40d", "by location against flange angle", ANGLE, ANGLES),
     ]
 
 
@@ -129,7 +129,7 @@ def _ball(scene: AbstractBearing) -> list[Panel]:
     angle = own(scene, CONTACT_ANGLE)
     return [
         *_operating(scene, load),
-        _one(scene, "39c", f"by location against {load.split('.')[1].replace('_', ' ')}", load, HEAVY),
+        _panel(scene, "39c", f"by location against {load.split('.')[1].replace('_', ' ')}", load, HEAVY),
         Panel("39d", f"by location against {other.split('.')[1].replace('_', ' ')}", {other: beside}),
         Panel(
             "40a",
@@ -141,5 +141,5 @@ def _ball(scene: AbstractBearing) -> list[Panel]:
             "40a", "by location against diametral clearance", {CLEARANCE: scaled(scene, CLEARANCE, (0.5, 1.0, 2.0))}
         ),
         Panel("40b", "by location against conformity of the inner race", {CONFORMITY: conformities}),
-        _one(scene, "40c", "by location against guiding clearance of the cage", GUIDING, GUIDINGS),
+        _panel(scene, "40c", "by location against guiding clearance of the cage", GUIDING, GUIDINGS),
     ]

@@ -37,7 +37,7 @@ def study_page(study: PowerLossStudy, title: str) -> "matplotlib.figure.Figure":
     that the panels leave, or below them."""
     from ..report.backends.matplotlib.page import WIDTH, Page
 
-    groups = {count: _of_fields(study, count) for count in sorted(_GROUPS, reverse=True)}
+    groups = {count: _panels_over(study, count) for count in sorted(_GROUPS, reverse=True)}
     groups = {count: panels for count, panels in groups.items() if panels}
     shapes = {count: _shape(len(panels), legend=count == 1) for count, panels in groups.items()}
     strips = {count: _strip(len(panels), shapes[count], count == 1) for count, panels in groups.items()}
@@ -55,9 +55,9 @@ def study_page(study: PowerLossStudy, title: str) -> "matplotlib.figure.Figure":
     return page
 
 
-def _of_fields(study: PowerLossStudy, count: int) -> "dict[str, xr.Dataset]":
+def _panels_over(study: PowerLossStudy, count: int) -> "dict[str, xr.Dataset]":
     """Panels over so many fields."""
-    return {name: one for name, one in study.panels.items() if len(_fields(one)) == count}
+    return {name: panel for name, panel in study.panels.items() if len(_fields(panel)) == count}
 
 
 def _fields(panel: "xr.Dataset") -> list[str]:
@@ -113,7 +113,7 @@ def _draw(
             name = str(panel[fields[1].replace(".", "_")].attrs["long_name"])
             beside(axes, list(entries.values()), list(entries), title=name)
     if stacked:
-        names = _from_above(stacked, panels)
+        names = _legend_order(stacked, panels)
         cells = grid[rows - 1, len(panels) - columns * (rows - 1) :].get_position(part) if not strip else None
         middle = (0.5, 0.5 * strip / height) if cells is None else (cells.p0 + cells.p1) / 2.0
         style = {"loc": "center", "bbox_to_anchor": middle, "fontsize": 9, "frameon": False}
@@ -123,12 +123,12 @@ def _draw(
 def _title(panel: "xr.Dataset") -> str:
     """Title of a panel, without what the heading of its group says."""
     words = str(panel.attrs["title"])
-    for said in ("Power loss ", "by location ", "total "):
-        words = words.removeprefix(said)
+    for prefix in ("Power loss ", "by location ", "total "):
+        words = words.removeprefix(prefix)
     return words[:1].upper() + words[1:]
 
 
-def _from_above(stacked: Collection[str], panels: "dict[str, xr.Dataset]") -> list[str]:
+def _legend_order(stacked: Collection[str], panels: "dict[str, xr.Dataset]") -> list[str]:
     """Names of the legend in the order of a stack, from above; the lines come first."""
     drawn = next(iter(panels.values())).data_vars
     locations = [str(name).removeprefix("power_loss_").replace("_", " ") for name in drawn][::-1]

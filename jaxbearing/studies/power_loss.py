@@ -66,7 +66,7 @@ class PowerLossStudy:
         """One group a panel, for a NetCDF file."""
         import xarray as xr
 
-        return xr.DataTree.from_dict({f"figure_{name}": found for name, found in self.panels.items()})
+        return xr.DataTree.from_dict({f"figure_{name}": panel for name, panel in self.panels.items()})
 
 
 def power_loss_study(scene: AbstractBearing, progress: Progress | None = None) -> PowerLossStudy:
@@ -84,16 +84,16 @@ def power_loss_study(scene: AbstractBearing, progress: Progress | None = None) -
     if isinstance(scene, CylindricalRollerBearing) and own(scene, DRAG) is not None:
         points += extra
     fields = tuple(dict.fromkeys(path for point in points for path in point))
-    found: dict[str, xr.Dataset] = {}
+    datasets: dict[str, xr.Dataset] = {}
     places: Places = {}
-    found["blend"] = _solved(scene, points, fields, "blend", places, progress)
+    datasets["blend"] = _solved(scene, points, fields, "blend", places, progress)
     if isinstance(scene, CylindricalRollerBearing) and own(scene, GUIDING) is not None:
         turbulent = scene.replace({"cage.turbulence": FullTurbulence()})
         guided = [{GUIDING: v} for v in scaled(scene, GUIDING, GUIDINGS)]
-        found["turbulent"] = _solved(turbulent, guided, fields, "turbulent", places, progress)
-    status = np.concatenate([np.asarray(one.status) for one in found.values()])
-    cut = {panel.name: _panel(scene, panel, found["blend"], places, fields) for panel in panels}
-    return PowerLossStudy(scene, cut, left_out, status.size, int(np.sum(status != 0)), found, places, fields)
+        datasets["turbulent"] = _solved(turbulent, guided, fields, "turbulent", places, progress)
+    status = np.concatenate([np.asarray(dataset.status) for dataset in datasets.values()])
+    cut = {panel.name: _panel(scene, panel, datasets["blend"], places, fields) for panel in panels}
+    return PowerLossStudy(scene, cut, left_out, status.size, int(np.sum(status != 0)), datasets, places, fields)
 
 
 def _points(panel: Panel) -> list[Change]:
@@ -124,7 +124,7 @@ def _solved(
 
 
 def _panel(
-    scene: AbstractBearing, panel: Panel, found: "xr.Dataset", places: Places, fields: tuple[str, ...]
+    scene: AbstractBearing, panel: Panel, dataset: "xr.Dataset", places: Places, fields: tuple[str, ...]
 ) -> "xr.Dataset":
     """The cases of a panel as the data set of a sweep over its grid."""
     import xarray as xr
@@ -133,9 +133,9 @@ def _panel(
     shape = [len(values) for values in panel.values.values()]
     at = [places["blend", _key(scene, point, fields)] for point in _points(panel)]
     cases = xr.DataArray(np.reshape(at, shape), dims=list(names.values()))
-    attributes = {name: found[name].attrs for name in names.values()}
+    attributes = {name: dataset[name].attrs for name in names.values()}
     all_fields = [path.replace(".", "_") for path in fields]
-    out = found.drop_vars(["case", *all_fields], errors="ignore").isel(case=cases)
+    out = dataset.drop_vars(["case", *all_fields], errors="ignore").isel(case=cases)
     out = out.drop_dims([d for d in ("element", "freedom", "freedom_displaced", "check") if d in out.dims])
     out = out.drop_vars("case", errors="ignore")
     out = out.assign_coords(

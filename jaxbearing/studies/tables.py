@@ -30,7 +30,7 @@ def verdict(claim: Claim) -> str:
     return "left out" if claim.holds is None else "yes" if claim.holds else "no"
 
 
-def _is_the_source_s(scene: AbstractBearing) -> bool:
+def _is_source_point(scene: AbstractBearing) -> bool:
     speed, load = own(scene, SPEED) or 0.0, own(scene, RADIAL) or 0.0
     return math.isclose(speed, 10500 * math.pi / 30, rel_tol=1e-6) and math.isclose(load, 25e3, rel_tol=1e-6)
 
@@ -60,7 +60,7 @@ def print_study(study: PowerLossStudy, claims: Sequence[Claim], label: str, seco
         text = f"{claim.printed}: {numbers}" if claim.holds is not None else claim.why
         table.add_row(str(claim.number), claim.statement, verdict(claim), text)
     console.print(table)
-    if not _is_the_source_s(study.scene):
+    if not _is_source_point(study.scene):
         print_line("note", SCALED, console)
 
 

@@ -58,9 +58,9 @@ def _run(table: BallBearingTable) -> Simulation | WarmUpSimulation | None:
         return None
     if table.thermal is not None:
         return warm_up(table)
-    given = [load for load in map(table.operation.model_dump().get, LOAD_FIELDS.values()) if load]
+    loads = [load for load in map(table.operation.model_dump().get, LOAD_FIELDS.values()) if load]
     # a single load can be given over time by its values, several loads only by factors
-    return simulation(table.simulation, table.operation.inner_speed, given[0] if len(given) == 1 else 0.0)
+    return simulation(table.simulation, table.operation.inner_speed, loads[0] if len(loads) == 1 else 0.0)
 
 
 def _kinematics(table: KinematicsTable | None, slips: bool, arcs: bool) -> BallAttitude:

@@ -79,10 +79,10 @@ class BallContactTable(table_of(PointLaws)):
 
     @check
     def _consistent(self) -> Problems:
-        given = [name for name in ("traction_accuracy", "heathcote") if getattr(self, name)]
-        if given and self.traction is None:
-            has = "has" if len(given) == 1 else "have"
-            yield refusal_at("traction", f"a law, without which {' and '.join(given)} {has} no meaning", "nothing")
+        fields = [name for name in ("traction_accuracy", "heathcote") if getattr(self, name)]
+        if fields and self.traction is None:
+            has = "has" if len(fields) == 1 else "have"
+            yield refusal_at("traction", f"a law, without which {' and '.join(fields)} {has} no meaning", "nothing")
         yield from heating_problems(self)
 
 
@@ -119,11 +119,11 @@ class KinematicsTable(
     @check
     def _of_the_law(self) -> Problems:
         for name, laws in OF_COUPLE.items():
-            given = getattr(self, name)
-            if given is not None and self.gyroscopic not in laws:
+            value = getattr(self, name)
+            if value is not None and self.gyroscopic not in laws:
                 wanted = " or ".join(f"'{law}'" for law in laws)
                 expected = f"none with gyroscopic = '{self.gyroscopic}': it is about {wanted}"
-                yield refusal_at(name, expected, f"the number {given:g}")
+                yield refusal_at(name, expected, f"the number {value:g}")
         inner, outer = self.inner_share, self.outer_share
         if inner is not None and outer is not None and not math.isclose(inner + outer, 2.0, rel_tol=1e-9):
             expected = f"{2.0 - inner:g}, or leave it out: the shares add up to 2"

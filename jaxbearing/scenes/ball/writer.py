@@ -32,18 +32,18 @@ def _kinematics(part: BallAttitude) -> Rows:
     if type(couple) not in _GYROSCOPIC:
         known = ", ".join(kind.__name__ for kind in _GYROSCOPIC if kind is not type(None))
         raise unwritable("kinematics.gyroscopic", shown(couple), f"None or one of {known}")
-    found = {"attitude": part.attitude, "gyroscopic": _GYROSCOPIC[type(couple)]}
+    entries = {"attitude": part.attitude, "gyroscopic": _GYROSCOPIC[type(couple)]}
     sign = None if not isinstance(couple, SharedCouple | CappedCouple) else {"gyroscopic_sign": int(couple.sign)}
-    return found | rows(KinematicsTable, couple) | (sign or {}) | {"orbit": part.orbit}
+    return entries | rows(KinematicsTable, couple) | (sign or {}) | {"orbit": part.orbit}
 
 
 def _laws(contact: PointLaws, oil: Lubricant | None) -> Rows:
     traction = contact.traction
-    found = {
+    entries = {
         "film": law_name(BALL_FILMS, contact.film, "contact.film"),
         "thermal": thermal_law(POINT_THERMAL, contact.thermal),
         "traction": None if traction is None else flow_law(traction.viscous, oil, "contact.traction.viscous"),
         "traction_accuracy": None if traction is None else march_accuracy(traction, "contact.traction", spin=True),
         "rolling_resistance": contact.rolling and law_name(POINT_ROLLING, contact.rolling, "contact.rolling"),
     }
-    return given(found) | mixed_rows(contact.mixed)
+    return given(entries) | mixed_rows(contact.mixed)

@@ -37,8 +37,8 @@ def built(kind: type[Part], **parts: Callable[[], Any]) -> Part:
         made = {name: make() for name, make in parts.items()}
         if all(leaf is not STAND_IN for leaf in jax.tree.leaves(made)):
             return kind(**made)
-    except (ValueError, Unreadable) as found:
-        error = found
+    except (ValueError, Unreadable) as raised:
+        error = raised
     refuse_all(_problems(kind, parts))
     raise error
 
@@ -72,16 +72,16 @@ class _Blank:
 def _blank(kind: type, name: str) -> object:
     """Placeholder for the part in a field of a scene."""
     hint = typing.get_type_hints(kind)[name]
-    (owner, *_) = [one for one in (hint, *typing.get_args(hint)) if dataclasses.is_dataclass(one)]
+    (owner, *_) = [candidate for candidate in (hint, *typing.get_args(hint)) if dataclasses.is_dataclass(candidate)]
     return _Blank(owner)  # pyright: ignore[reportArgumentType]
 
 
 def _without_refused(part: object, name: str, problems: list[ValueError]) -> None:
     """Puts `STAND_IN` in place of the fields that the checks of a part refuse; `problems` name their paths."""
     for problem in problems:
-        found = re.match(rf"{name}\.(\w+)\b(?!\.)", str(problem))
-        if found and hasattr(part, found[1]):
-            object.__setattr__(part, found[1], STAND_IN)
+        match = re.match(rf"{name}\.(\w+)\b(?!\.)", str(problem))
+        if match and hasattr(part, match[1]):
+            object.__setattr__(part, match[1], STAND_IN)
 
 
 def part(kind: type[Part], table: Table | None, exclude_none: bool = False) -> Part | None:
@@ -121,8 +121,8 @@ def shapes(table: Any) -> dict[str, Callable[[], Any]]:
 def _fits(table: FitsTable) -> Fits:
     names = ("shaft_material", "housing_material")
     of = {name: getattr(table, name) for name in names}
-    given: dict[str, Any] = {name: material(one, thermal=True) for name, one in of.items() if one is not None}
-    return Fits(**table.model_dump(exclude=set(names)), **given)
+    materials: dict[str, Any] = {name: material(field, thermal=True) for name, field in of.items() if field is not None}
+    return Fits(**table.model_dump(exclude=set(names)), **materials)
 
 
 def solids(table: Any, *names: str) -> dict[str, Material]:
@@ -131,8 +131,8 @@ def solids(table: Any, *names: str) -> dict[str, Material]:
         thermal = table.temperatures is not None or table.thermal is not None
     except Unreadable:
         thermal = True
-    given = {name: getattr(table.materials, name) for name in names}
-    return {name: material(one, thermal=thermal) for name, one in given.items() if one is not None}
+    fields = {name: getattr(table.materials, name) for name in names}
+    return {name: material(field, thermal=thermal) for name, field in fields.items() if field is not None}
 
 
 def cage(kind: type[Cage], table: Any) -> Cage | None:

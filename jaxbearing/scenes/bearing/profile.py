@@ -26,10 +26,10 @@ class ProfileTable(
     @check
     def _of_the_shape(self) -> Problems:
         for name, shapes in _OF_LAW.items():
-            given = getattr(self, name)
-            if given is not None and self.shape not in shapes:
+            value = getattr(self, name)
+            if value is not None and self.shape not in shapes:
                 wanted = " or ".join(f"'{shape}'" for shape in shapes)
-                yield refusal_at(name, f"none with shape = '{self.shape}': it is about {wanted}", f"{given:g}")
+                yield refusal_at(name, f"none with shape = '{self.shape}': it is about {wanted}", f"{value:g}")
         if self.shape != "straight" and self.drop is None:
             yield refusal_at(
                 "drop", f"a length, the drop at the ends of shape = '{self.shape}', e.g. '8 um'", "nothing"
@@ -40,8 +40,8 @@ def roller_profile(table: ProfileTable | None) -> RollerProfile | None:
     """The profile that a table describes; `None` without a table."""
     if table is None:
         return None
-    given = table.model_dump(include={"drop", "straight_fraction", "end_ratio"}, exclude_none=True)
+    numbers = table.model_dump(include={"drop", "straight_fraction", "end_ratio"}, exclude_none=True)
     shape = None
     if table.shape != "straight":
-        shape = {"crowned": CrownedProfile, "logarithmic": LogarithmicProfile}[table.shape](**given)
+        shape = {"crowned": CrownedProfile, "logarithmic": LogarithmicProfile}[table.shape](**numbers)
     return RollerProfile(shape, table.n_laminae)

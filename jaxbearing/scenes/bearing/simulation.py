@@ -121,9 +121,9 @@ class CoursesTable(Table):
     @check
     def _consistent(self) -> Problems:
         for name in (*_ALWAYS, *_OF_OIL):
-            given = self.given(name)
-            if len(given) > 1:
-                yield refusal_at(given[1], f"one of {' and '.join(given)}", "both")
+            fields = self.given(name)
+            if len(fields) > 1:
+                yield refusal_at(fields[1], f"one of {' and '.join(fields)}", "both")
         if self.speed_ramp is not None and self.speed_ramp.start == 0.0:
             yield refusal_at("speed_ramp.start", "a number > 0: at rest the films vanish", "the number 0")
         if self.load_ramp is not None and self.load_ramp.start == 0.0:
@@ -140,8 +140,8 @@ class CoursesTable(Table):
         for name, (words, first_above, all_above) in rules.items():
             table = getattr(self, f"{name}_table")
             factors = () if table is None or table.factors is None else table.factors
-            first = [one for one in factors[:1] if one == 0.0 and first_above]
-            wrong = first or [one for one in factors if one < 0.0 or (one == 0.0 and all_above)]
+            first = [factor for factor in factors[:1] if factor == 0.0 and first_above]
+            wrong = first or [factor for factor in factors if factor < 0.0 or (factor == 0.0 and all_above)]
             if wrong:
                 yield refusal_at(f"{name}_table.factors", f"numbers {words}", f"the number {wrong[0]:g}")
 
@@ -245,8 +245,8 @@ def _steady(table: Any, name: str) -> tuple[float, float]:
             return 0.0, operation.inner_speed
         case "load":
             loads = [getattr(operation, field, None) for field in ("radial_load", "axial_load")]
-            given = [load for load in loads if load]
-            return 0.0, given[0] if len(given) == 1 else 0.0
+            nonzero = [load for load in loads if load]
+            return 0.0, nonzero[0] if len(nonzero) == 1 else 0.0
         case "oil_flow":
             return 0.0, operation.oil_flow or 0.0
     if thermal is None:
@@ -267,10 +267,10 @@ def _factor(table: CoursesTable, name: str, steady: tuple[float, float]) -> Abst
     if file.file is None:
         return Tabulated(np.asarray(file.times), np.asarray(file.factors))
     field = f"simulation.{name}_table.file"
-    found, (nothing, whole) = read_time_table(file.file, name, field), steady
-    if not found.relative and whole == nothing:
+    course, (nothing, whole) = read_time_table(file.file, name, field), steady
+    if not course.relative and whole == nothing:
         raise SceneError(file.file, "", f"a column '{name}'", f"a column 'factor': {_NO_UNIT[name]}, for {field}")
-    return Tabulated(found.times, found.values if found.relative else (found.values - nothing) / (whole - nothing))
+    return Tabulated(course.times, course.values if course.relative else (course.values - nothing) / (whole - nothing))
 
 
 _NO_UNIT = {

@@ -19,14 +19,14 @@ def simulation(
     if part is None:
         return None
     if isinstance(part, Simulation):
-        found, laws = rows(table, part), {"speed": part.speed, "load": part.load}
+        entries, laws = rows(table, part), {"speed": part.speed, "load": part.load}
     else:
-        found = rows(WarmUpTable, part)
+        entries = rows(WarmUpTable, part)
         names = ("speed", "load", "oil_inlet", "oil_flow")
         laws = {name: getattr(part, name) for name in names}
     for name, law in laws.items():
-        found |= _factor(law, name)
-    return found
+        entries |= _factor(law, name)
+    return entries
 
 
 def _factor(law: AbstractTimeFactor, name: str) -> Rows:

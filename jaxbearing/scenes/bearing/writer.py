@@ -50,19 +50,19 @@ def bearing_tables(scene: AbstractBearing, model: type[Table], **own: Rows | Non
     return {"kind": scene.kind} | tables
 
 
-def _joined(own: Rows, found: Rows) -> Rows:
+def _joined(own: Rows, entries: Rows) -> Rows:
     """Both tables merged, and also the inner tables that both have."""
     inner = lambda name, value: own[name] | value if isinstance(value, dict) and name in own else value
-    return own | {name: inner(name, value) for name, value in found.items()}
+    return own | {name: inner(name, value) for name, value in entries.items()}
 
 
-def _operation(found: Rows, scene: AbstractBearing) -> Rows:
+def _operation(entries: Rows, scene: AbstractBearing) -> Rows:
     """The operating point. For a bearing without oil, fields of the oil with their default values are left out."""
     if scene.oil is not None or scene.contact is not None:
-        return found
+        return entries
     assumed = {field.name: field.default for field in dataclasses.fields(scene.operation) if field.name in _OF_OIL}
     idle = {name for name, default in assumed.items() if same(getattr(scene.operation, name), default)}
-    return {name: value for name, value in found.items() if name not in idle}
+    return {name: value for name, value in entries.items() if name not in idle}
 
 
 def cage(table: type[Table], part: AbstractCage | None) -> Rows | None:

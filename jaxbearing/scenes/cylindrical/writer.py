@@ -31,8 +31,8 @@ def _traction(traction: AbstractTraction | None, oil: Lubricant | None) -> Rows:
         return {}
     if not isinstance(traction, MeanPressureTraction | DistributedTraction):
         raise unwritable("contact.traction", shown(traction), "a MeanPressureTraction or a DistributedTraction")
-    found: Rows = {"traction": flow_law(traction.viscous, oil, "contact.traction.viscous")}
+    entries: Rows = {"traction": flow_law(traction.viscous, oil, "contact.traction.viscous")}
     if isinstance(traction, MeanPressureTraction):
-        return found | {"traction_model": "mean_pressure"}
+        return entries | {"traction_model": "mean_pressure"}
     accuracy = march_accuracy(traction, "contact.traction", spin=False)
-    return found | {"traction_model": "distributed", "traction_accuracy": accuracy}
+    return entries | {"traction_model": "distributed", "traction_accuracy": accuracy}

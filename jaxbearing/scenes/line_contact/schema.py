@@ -98,9 +98,9 @@ class FilmSimulationTable(table_of(FilmSimulation)):
 
     @check
     def _one_law(self) -> Problems:
-        given = [name for name in self.instead if getattr(self, name) is not None]
-        if len(given) > 1:
-            yield refusal_at(given[1], f"none beside {given[0]}: one of them", "both")
+        fields = [name for name in self.instead if getattr(self, name) is not None]
+        if len(fields) > 1:
+            yield refusal_at(fields[1], f"none beside {fields[0]}: one of them", "both")
 
 
 class LineContactTable(Table):

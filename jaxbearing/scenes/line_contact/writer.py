@@ -50,16 +50,16 @@ def line_contact_text(scene: EHLLineContact, header: Iterable[str], origins: Map
 
 
 def _simulation(part: FilmSimulation) -> Rows:
-    found = rows(FilmSimulationTable, part)
+    entries = rows(FilmSimulationTable, part)
     match part.speed:
         case Steady():
-            return found
+            return entries
         case Ramp():
-            return found | {"speed_ramp": all_rows(part.speed) | {"shape": "smooth"}}
+            return entries | {"speed_ramp": all_rows(part.speed) | {"shape": "smooth"}}
         case LinearRamp():
-            return found | {"speed_ramp": all_rows(part.speed) | {"shape": "linear"}}
+            return entries | {"speed_ramp": all_rows(part.speed) | {"shape": "linear"}}
         case Sinusoidal():
-            return found | {"speed_perturbation": all_rows(part.speed)}
+            return entries | {"speed_perturbation": all_rows(part.speed)}
         case Tabulated():
-            return found | {"speed_table": table_rows(part.speed)}
+            return entries | {"speed_table": table_rows(part.speed)}
     raise unwritable("simulation.speed", shown(part.speed), "Steady, Ramp, LinearRamp, Sinusoidal or Tabulated")

@@ -40,8 +40,8 @@ def load_oil(name: str, base: str | None = None) -> Lubricant:
     **Raises:** `SceneError` for an unknown name, grade or base stock.
     """
     if (isinstance(name, str) and grade_named(name) is not None) or base is not None:
-        given = {"grade": name} if base is None else {"grade": name, "base": base}
-        return lubricant(read_table(OilTable, with_catalogue(given), str(name)))
+        table = {"grade": name} if base is None else {"grade": name, "base": base}
+        return lubricant(read_table(OilTable, with_catalogue(table), str(name)))
     known = oil_named(name)
     if known is None:
         near = nearest(name, oil_names()) if isinstance(name, str) else ""
@@ -145,5 +145,5 @@ def _linear(law: float | Law) -> dict[str, object]:
 
 def _parameters(law: Law) -> dict[str, Any]:
     # numpy scalars are leaves of the scene; plain Python floats would be compiled in as constants
-    given = law.model_dump(exclude=set(DOCUMENTATION), exclude_none=True)
-    return {name: np.float64(value) if isinstance(value, float) else value for name, value in given.items()}
+    parameters = law.model_dump(exclude=set(DOCUMENTATION), exclude_none=True)
+    return {name: np.float64(value) if isinstance(value, float) else value for name, value in parameters.items()}

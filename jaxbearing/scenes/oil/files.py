@@ -30,8 +30,8 @@ def read_oil(path: str) -> dict[str, object]:
         raise SceneError(path, "kind", "a scene", _EXPECTED)
     for name in ("file", "grade"):
         if name in data:
-            found = "another file" if name == "file" else f"the grade {data[name]!r}"
-            raise SceneError(path, name, found, "the laws themselves: an oil file stands alone")
+            actual = "another file" if name == "file" else f"the grade {data[name]!r}"
+            raise SceneError(path, name, actual, "the laws themselves: an oil file stands alone")
     tables = {key: value for key, value in data.items() if key != "name"}
     read_table(OilTable, tables, path)
     return tables
@@ -45,8 +45,8 @@ def base_of(oil: Mapping[str, Any]) -> dict[str, Any] | None:
     """
     name, file = oil.get("name"), oil.get("file")
     if "grade" in oil:
-        found = None if name is not None or file is not None else grade_of(oil)
-        return None if found is None else grade_tables(*found)
+        grade = None if name is not None or file is not None else grade_of(oil)
+        return None if grade is None else grade_tables(*grade)
     if name is None and isinstance(file, str):
         return read_oil(file)
     known = oil_named(name)
@@ -61,22 +61,22 @@ def prior_ranges(oil: Mapping[str, Any]) -> dict[str, Any]:
 
     Parameters that the scene itself sets have no prior. **Raises:** `SceneError` for a file that cannot be read.
     """
-    found: dict[str, Any] = {}
+    priors: dict[str, Any] = {}
     for law, theirs in (base_of(oil) or {}).items():
         own = _law(oil.get(law))
         if not isinstance(theirs, Mapping) or own.get("law", theirs.get("law")) != theirs.get("law"):
             continue
         ranges = {key: span for key, span in theirs.get("ranges", {}).items() if key not in own}
         if ranges:
-            found[law] = {key: {"low": low, "high": high, "shape": "uniform"} for key, (low, high) in ranges.items()}
-    return found
+            priors[law] = {key: {"low": low, "high": high, "shape": "uniform"} for key, (low, high) in ranges.items()}
+    return priors
 
 
 def origins(oil: Mapping[str, Any], scene: str) -> dict[str, Origin]:
     """Origin of each law of a valid oil table: the sources in the catalogue or the oil file, or the scene itself for
     the values that it sets. **Arguments:** `scene`: name of the scene."""
     base = base_of(oil) or {}
-    found = {}
+    by_law = {}
     for law in dict.fromkeys([*base, *oil]):
         theirs, own = _law(base.get(law)), _law(oil.get(law))
         if law in DOCUMENTATION or not (theirs or own):
@@ -85,8 +85,8 @@ def origins(oil: Mapping[str, Any], scene: str) -> dict[str, Origin]:
         sources = {} if replaced else _sources(theirs, "")
         sources |= _sources(own, f"as in {scene}")
         note = own.get("note") or ("" if own else theirs.get("note", ""))
-        found[law] = Origin(sources, note)
-    return found
+        by_law[law] = Origin(sources, note)
+    return by_law
 
 
 def _law(value: object) -> Mapping[str, Any]:
@@ -97,7 +97,7 @@ def _law(value: object) -> Mapping[str, Any]:
 
 
 def _sources(law: Mapping[str, Any], otherwise: str) -> dict[str, str]:
-    given = law.get("sources", {})
+    sources = law.get("sources", {})
     named = [key for key in law if key not in DOCUMENTATION]
-    texts = {key: given.get(key) or given.get("all") or otherwise for key in named}
+    texts = {key: sources.get(key) or sources.get("all") or otherwise for key in named}
     return {key: text for key, text in texts.items() if text}

@@ -30,34 +30,34 @@ def bases() -> tuple[str, ...]:
     return tuple(_data())
 
 
-def base_named(given: object) -> str | None:
+def base_named(value: object) -> str | None:
     """The base stock with this name in upper or lower case, e.g. "pao" or "PAG"; `None` if there is none."""
     by_lower = {base.lower(): base for base in bases()} | _ALSO
-    return by_lower.get(given.strip().lower()) if isinstance(given, str) else None
+    return by_lower.get(value.strip().lower()) if isinstance(value, str) else None
 
 
 def grades(base: str | None = None) -> tuple[str, ...]:
     """Grades of a base stock, or of all base stocks, in the order of rising viscosity."""
     chosen = bases() if base is None else (base,)
-    numbers = {int(number) for one in chosen for number in _data()[one]["grades"]}
+    numbers = {int(number) for stock in chosen for number in _data()[stock]["grades"]}
     return tuple(_name(number) for number in sorted(numbers))
 
 
-def grade_named(given: object) -> str | None:
+def grade_named(value: object) -> str | None:
     """The grade "ISO VG 68" for a text such as "iso vg 68" or "VG68", or for 68; `None` for other values."""
-    if isinstance(given, int) and not isinstance(given, bool):
-        return _name(given)
-    found = _GRADE.fullmatch(given.strip()) if isinstance(given, str) else None
-    return None if found is None else _name(int(found[1]))
+    if isinstance(value, int) and not isinstance(value, bool):
+        return _name(value)
+    match = _GRADE.fullmatch(value.strip()) if isinstance(value, str) else None
+    return None if match is None else _name(int(match[1]))
 
 
-def nearest_grade(given: object, known: tuple[str, ...]) -> str:
+def nearest_grade(value: object, known: tuple[str, ...]) -> str:
     """The known grade with the nearest viscosity by ratio. For a text without a number the nearest name, or ""."""
-    grade = grade_named(given)
+    grade = grade_named(value)
     if grade is None:
-        return nearest(given, known) if isinstance(given, str) else ""
+        return nearest(value, known) if isinstance(value, str) else ""
     asked = math.log(max(number_of(grade), 1))
-    return min(known, key=lambda one: abs(math.log(number_of(one)) - asked))
+    return min(known, key=lambda name: abs(math.log(number_of(name)) - asked))
 
 
 def number_of(grade: str) -> int:

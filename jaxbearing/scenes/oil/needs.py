@@ -31,7 +31,7 @@ def require_piezoviscous(oil: OilTable, contact: Table, laws: Mapping[str, Laws[
     if not builds(oil.viscosity, *ISOVISCOUS) or oil.pressure_viscosity is not None:
         return
     for name, known in laws.items():
-        given = getattr(contact, name)
-        if given is not None and known.piezoviscous_only(given):
+        law = getattr(contact, name)
+        if law is not None and known.piezoviscous_only(law):
             expected = f"{one_of(known.isoviscous)}: the other laws are for oils whose viscosity rises with pressure"
-            yield refusal_at(f"contact.{name}", expected, f"'{given}'")
+            yield refusal_at(f"contact.{name}", expected, f"'{law}'")

@@ -218,7 +218,7 @@ _Viscosity = _law_field("Viscosity", VISCOSITIES, Annotated[None, BeforeValidato
 _Rise = Annotated[
     float,
     units.QuantityValidator(
-        lambda given: units.quantity(given, units.INVERSE_PRESSURE, "> 0"), dimension=units.INVERSE_PRESSURE
+        lambda value: units.quantity(value, units.INVERSE_PRESSURE, "> 0"), dimension=units.INVERSE_PRESSURE
     ),
 ]
 _PressureViscosity = _law_field("PressureViscosity", PRESSURE_VISCOSITIES, _Rise)

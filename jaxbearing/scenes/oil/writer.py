@@ -103,11 +103,11 @@ def _name_of(table: type[Law]) -> str:
 
 def _notes(oil: Lubricant, laws: Iterable[str], origins: Mapping[str, Origin]) -> dict[str, str]:
     """Name of a law -> its note. Notes that belong to no known law are added to the viscosity."""
-    found = {law: origins[law].note for law in laws if law in origins and origins[law].note}
-    rest = [note for note in oil.notes if note not in (*found.values(), *oil.viscosity.notes)]
+    notes = {law: origins[law].note for law in laws if law in origins and origins[law].note}
+    rest = [note for note in oil.notes if note not in (*notes.values(), *oil.viscosity.notes)]
     if rest:
-        found["viscosity"] = ". ".join([found["viscosity"], *rest] if "viscosity" in found else rest)
-    return found
+        notes["viscosity"] = ". ".join([notes["viscosity"], *rest] if "viscosity" in notes else rest)
+    return notes
 
 
 def scene_oil(oil: Lubricant | None) -> Rows | None:
@@ -143,14 +143,14 @@ def _amended(oil: Lubricant, named: Rows) -> Rows | None:
     if not same(base.viscosity, oil.viscosity):
         return None
     own, theirs = _laws(oil), _laws(base)
-    found: Rows = dict(named)
+    amended: Rows = dict(named)
     for law, table in own.items():
         if same(getattr(oil, law), getattr(base, law)):
             continue
         alike = theirs.get(law, {}).get("law") == table["law"]
         changed = {key: value for key, value in table.items() if not alike or theirs[law].get(key) != value}
-        found[law] = _short(getattr(oil, law), table) if len(changed) == len(table) else changed
-    return found if _is_oil(found, oil) else None
+        amended[law] = _short(getattr(oil, law), table) if len(changed) == len(table) else changed
+    return amended if _is_oil(amended, oil) else None
 
 
 def _short(law: eqx.Module, table: Rows) -> object:

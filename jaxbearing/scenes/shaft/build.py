@@ -46,8 +46,8 @@ def shaft(table: ShaftTable, states: tuple[ShaftState, ...] = ()) -> ShaftSystem
     rated = table.life is not None
     parts: dict[str, Callable[[], Any]] = {
         "shaft": lambda: _shaft(table),
-        "bearings": lambda: _each(table, "bearing", lambda name, one: _mounted(name, one, rated)),
-        "sets": lambda: _each(table, "set", lambda name, one: _set(name, one, rated)),
+        "bearings": lambda: _each(table, "bearing", lambda name, entry: _mounted(name, entry, rated)),
+        "sets": lambda: _each(table, "set", lambda name, entry: _set(name, entry, rated)),
         "forces": lambda: _each(table, "force", _force),
         "thermal": lambda: part(ShaftThermal, table.thermal),
         "life": lambda: SystemLife() if table.life is None else SystemLife(weibull=table.life.weibull),
@@ -65,9 +65,9 @@ def _each(table: ShaftTable, word: str, make: Callable[[str, Any], Any]) -> tupl
     """The entries of a list, each made by its function. **Raises:** `ValueError` whose texts begin with the names of
     the entries."""
     made, problems = [], []
-    for name, one in table.entries(word).items():
+    for name, entry in table.entries(word).items():
         try:
-            made.append(make(name, one))
+            made.append(make(name, entry))
         except ValueError as error:
             problems += list(_within(error, word, name))
     refuse_all(problems)
@@ -77,27 +77,27 @@ def _each(table: ShaftTable, word: str, make: Callable[[str, Any], Any]) -> tupl
 def _within(error: ValueError, word: str, name: str) -> list[ValueError]:
     """The errors of an entry, with its name before each path."""
     if isinstance(error, SceneError):
-        return [one.inside(f"{word}.{name}") for one in error.problems]
+        return [problem.inside(f"{word}.{name}") for problem in error.problems]
     if isinstance(error, Refusals):
-        return [new for one in error.refusals for new in _within(one, word, name)]
+        return [new for refusal in error.refusals for new in _within(refusal, word, name)]
     text = str(error).removeprefix(f"{word}.")
     joint = "." if _PATH.match(text) else ": "
     return [ValueError(f"{word}.{name}{joint}{text}")]
 
 
 def _shaft(table: ShaftTable) -> Shaft:
-    given = table.shaft
-    found: dict[str, Any] = given.model_dump(exclude={"sections", "material", "gravity"})
-    made = lambda one, default: default if one is None else material(one, thermal=table.thermal is not None)
+    shaft_table = table.shaft
+    fields: dict[str, Any] = shaft_table.model_dump(exclude={"sections", "material", "gravity"})
+    made = lambda field, default: default if field is None else material(field, thermal=table.thermal is not None)
     sections = [
-        Section(**one.model_dump(exclude={"material"}), material=made(one.material, None))
-        for one in table.entries("sections").values()
+        Section(**section.model_dump(exclude={"material"}), material=made(section.material, None))
+        for section in table.entries("sections").values()
     ]
     return Shaft(
-        **found,
+        **fields,
         sections=tuple(sections),
-        material=made(given.material, STEEL),
-        gravity=part(Gravity, given.gravity),
+        material=made(shaft_table.material, STEEL),
+        gravity=part(Gravity, shaft_table.gravity),
     )
 
 

@@ -50,56 +50,56 @@ def named(mapping: Mapping[str, Any], label: str) -> dict[str, Any]:
     **Raises:** `SceneError` with all errors in the names.
     """
     problems: list[SceneError] = []
-    found = dict(mapping)
+    tables = dict(mapping)
     for table, example in LISTS.items():
-        if table in found:
+        if table in tables:
             try:
-                found[table] = _by_name(found[table], table, example, label)
+                tables[table] = _by_name(tables[table], table, example, label)
             except SceneError as error:
                 problems += error.problems
-    for name, entry in found["set"].items() if isinstance(found.get("set"), dict) else ():
+    for name, entry in tables["set"].items() if isinstance(tables.get("set"), dict) else ():
         try:
-            found["set"] = {**found["set"], name: numbered(entry, f"set.{name}", label)}
+            tables["set"] = {**tables["set"], name: numbered(entry, f"set.{name}", label)}
         except SceneError as error:
             problems += error.problems
-    shaft = found.get("shaft")
+    shaft = tables.get("shaft")
     if isinstance(shaft, Mapping) and isinstance(shaft.get(SECTIONS), list):
-        found["shaft"] = {**shaft, SECTIONS: {str(i + 1): one for i, one in enumerate(shaft[SECTIONS])}}
-    problems += _twice(found, label)
+        tables["shaft"] = {**shaft, SECTIONS: {str(i + 1): section for i, section in enumerate(shaft[SECTIONS])}}
+    problems += _shared_names(tables, label)
     if problems:
         raise SceneError.of_all(problems)
-    return found
+    return tables
 
 
-def _by_name(given: object, table: str, example: str, label: str) -> dict[str, Any]:
+def _by_name(entries: object, table: str, example: str, label: str) -> dict[str, Any]:
     """A list of tables as tables by name. **Raises:** `SceneError` if it is no list of tables, and for names that are
     invalid or not unique."""
-    if isinstance(given, Mapping) and all(isinstance(one, Mapping) for one in given.values()):
-        for name in given:
+    if isinstance(entries, Mapping) and all(isinstance(inner, Mapping) for inner in entries.values()):
+        for name in entries:
             if not _NAME.fullmatch(str(name)):
                 raise SceneError(label, table, describe(name), _MEANT.format(example=example))
             if _is_taken(str(name)):
                 raise SceneError(label, f"{table}.{name}", f"the name '{name}'", _TAKEN)
-        return {str(name): dict(one) for name, one in given.items()}
-    if not isinstance(given, list) or not all(isinstance(one, Mapping) for one in given):
-        there = "one table" if isinstance(given, Mapping) else describe(given)
+        return {str(name): dict(inner) for name, inner in entries.items()}
+    if not isinstance(entries, list) or not all(isinstance(inner, Mapping) for inner in entries):
+        there = "one table" if isinstance(entries, Mapping) else describe(entries)
         raise SceneError(label, table, there, f'[[{table}]] tables in double brackets, each with name = "{example}"')
-    found: dict[str, Any] = {}
+    by_name: dict[str, Any] = {}
     problems = []
-    for place, one in enumerate(given):
-        name = one.get(NAME, _default_name(one, table, found))
+    for place, entry in enumerate(entries):
+        name = entry.get(NAME, _default_name(entry, table, by_name))
         at = f"{table}[{place}].{NAME}"
         if not isinstance(name, str) or not _NAME.fullmatch(name):
             problems.append(SceneError(label, at, describe(name), _MEANT.format(example=example)))
         elif _is_taken(name):
             problems.append(SceneError(label, at, f"the name '{name}'", _TAKEN))
-        elif name in found:
+        elif name in by_name:
             problems.append(SceneError(label, at, f"'{name}' twice", "a name of its own for each"))
         else:
-            found[name] = {key: value for key, value in one.items() if key != NAME}
+            by_name[name] = {key: value for key, value in entry.items() if key != NAME}
     if problems:
         raise SceneError.of_all(problems)
-    return found
+    return by_name
 
 
 def _is_taken(name: str) -> bool:
@@ -107,16 +107,16 @@ def _is_taken(name: str) -> bool:
     return hasattr(Table, name) or name.startswith("model_")
 
 
-def _default_name(one: Mapping[str, object], table: str, taken: Mapping[str, object]) -> str:
+def _default_name(entry: Mapping[str, object], table: str, taken: Mapping[str, object]) -> str:
     """A name for a table without one: the kind of a force, otherwise the word of the list, with a number if needed."""
-    kind = one.get("kind")
+    kind = entry.get("kind")
     base = kind if table == "force" and isinstance(kind, str) and _NAME.fullmatch(kind) else table
     return next(name for i in range(1, len(taken) + 2) if (name := base if i == 1 else f"{base}_{i}") not in taken)
 
 
-def _twice(found: Mapping[str, Any], label: str) -> Iterator[SceneError]:
+def _shared_names(tables: Mapping[str, Any], label: str) -> Iterator[SceneError]:
     """Problems with names that a bearing and a set share; results need different names."""
-    bearings, sets = (found.get(table) for table in ("bearing", "set"))
+    bearings, sets = (tables.get(table) for table in ("bearing", "set"))
     if isinstance(bearings, Mapping) and isinstance(sets, Mapping):
         for name in sets:
             if name in bearings:
@@ -129,13 +129,13 @@ def beside(mapping: Mapping[str, object], folder: Path) -> dict[str, Any]:
 
 
 def _moved(entry: Mapping[str, object], folder: Path) -> dict[str, Any]:
-    found = dict(entry)
+    moved = dict(entry)
     scene, oil = entry.get(SCENE), entry.get("oil")
     if isinstance(scene, str) and scene not in builtin_names():
-        found[SCENE] = str(folder / scene)
+        moved[SCENE] = str(folder / scene)
     if isinstance(oil, Mapping) and isinstance(oil.get("file"), str):
-        found["oil"] = {**oil, "file": str(folder / oil["file"])}
-    return found
+        moved["oil"] = {**oil, "file": str(folder / oil["file"])}
+    return moved
 
 
 def read_scenes(mapping: Mapping[str, object], label: str, read: Read) -> dict[str, Any]:
@@ -162,8 +162,8 @@ def bearing_scene(source: str, path: str, label: str, read: Read) -> dict[str, o
     tables = read(source)
     kind = kind_named(tables.get("kind"))
     if kind not in BEARINGS:
-        found = f"'{source}', whose kind is {describe(tables.get('kind'))}"
-        raise SceneError(label, path, found, f"the scene of a bearing: kind {one_of(BEARINGS)}")
+        actual = f"'{source}', whose kind is {describe(tables.get('kind'))}"
+        raise SceneError(label, path, actual, f"the scene of a bearing: kind {one_of(BEARINGS)}")
     return without_loads({**tables, "kind": kind})
 
 
@@ -178,22 +178,22 @@ def with_scenes(
     from ..overrides import parse_value
     from ..reader import tables_of_file
 
-    found, left = named(mapping, label), {}
+    tables, left = named(mapping, label), {}
     for path, text in overrides.items():
-        if path == f"shaft.{SECTIONS}" and isinstance(found.get("shaft"), Mapping) and text != REMOVE:
-            found = named({**found, "shaft": {**found["shaft"], SECTIONS: parse_value(text)}}, label)
+        if path == f"shaft.{SECTIONS}" and isinstance(tables.get("shaft"), Mapping) and text != REMOVE:
+            tables = named({**tables, "shaft": {**tables["shaft"], SECTIONS: parse_value(text)}}, label)
             continue
         keys = tuple(path.split("."))
-        entry = at(found, keys[:-1]) if _names_a_scene(keys) and text != REMOVE else None
+        entry = at(tables, keys[:-1]) if _names_a_scene(keys) and text != REMOVE else None
         if isinstance(entry, Mapping):
             # the new scene replaces a bearing whose tables are in the entry itself
             kept = entry if SCENE in entry else {key: value for key, value in entry.items() if key in OF_MOUNT}
-            given = parse_value(text)
-            other = {**kept, SCENE: given if isinstance(given, list) else text}
-            found = put(found, keys[:-1], numbered(other, ".".join(keys[:-1]), label) if keys[0] == "set" else other)
+            scenes = parse_value(text)
+            other = {**kept, SCENE: scenes if isinstance(scenes, list) else text}
+            tables = put(tables, keys[:-1], numbered(other, ".".join(keys[:-1]), label) if keys[0] == "set" else other)
         else:
             left[path] = text
-    return read_scenes(found, label, tables_of_file), left
+    return read_scenes(tables, label, tables_of_file), left
 
 
 def _names_a_scene(keys: tuple[str, ...]) -> bool:
@@ -213,33 +213,33 @@ def merged(scene: Mapping[str, Any], own: Mapping[str, object], table: type[Base
 
     **Arguments:** `scene`: tables of the scene; `own`: entry; `table`: their schema, if known.
     """
-    found = dict(scene)
+    tables = dict(scene)
     instead = getattr(table, "instead", {})
     for name in own:
         for other in instead.get(name, ()):
-            found.pop(other, None)
+            tables.pop(other, None)
     for name, value in own.items():
-        there = found.get(name)
+        there = tables.get(name)
         if value == REMOVE and name != NAME:
-            found.pop(name, None)
+            tables.pop(name, None)
         elif not (isinstance(there, Mapping) and isinstance(value, Mapping)):
-            found[name] = value
+            tables[name] = value
         elif name == "oil" and any(key in value for key in _WHOLE_OIL):
-            found[name] = dict(value)
+            tables[name] = dict(value)
         else:
             inner = None if table is None else plain_table_at(table, name)
-            found[name] = merged(there, value, inner)
-    return found
+            tables[name] = merged(there, value, inner)
+    return tables
 
 
 def without_loads(tables: Mapping[str, object]) -> dict[str, object]:
     """The tables of a bearing without loads and speeds, which follow from the shaft, and without transient run and load
     spectrum, which only single bearings have."""
-    found = {name: value for name, value in tables.items() if name not in ("simulation", "state")}
-    operation = found.get("operation")
+    kept = {name: value for name, value in tables.items() if name not in ("simulation", "state")}
+    operation = kept.get("operation")
     if isinstance(operation, Mapping):
-        found["operation"] = {name: value for name, value in operation.items() if name in OF_SHAFT}
-    return found
+        kept["operation"] = {name: value for name, value in operation.items() if name in OF_SHAFT}
+    return kept
 
 
 def kind_of(entry: Mapping[str, object], path: str, label: str) -> str:
@@ -249,14 +249,14 @@ def kind_of(entry: Mapping[str, object], path: str, label: str) -> str:
     """
     known = (*BEARINGS, LINEAR)
     scene = entry.get(SCENE)
-    given = entry.get("kind", scene.get("kind") if isinstance(scene, Mapping) else None)
-    kind = kind_named(given)
+    word = entry.get("kind", scene.get("kind") if isinstance(scene, Mapping) else None)
+    kind = kind_named(word)
     if kind in known:
         return str(kind)
-    if given is None:
+    if word is None:
         expected = "the scene of a bearing, a file or a built-in one; or a kind with its tables, such as geometry"
         near = next((key for key in entry if key != SCENE and nearest(str(key), (SCENE, "kind"))), "")
-        found = f"the unknown name {near!r}" if near else "nothing"
-        raise SceneError(label, f"{path}.{SCENE}", found, expected, nearest(near, (SCENE, "kind")) if near else "")
-    found, near = kind_refused(given, known)
-    raise SceneError(label, f"{path}.kind", found, one_of(known), near)
+        actual = f"the unknown name {near!r}" if near else "nothing"
+        raise SceneError(label, f"{path}.{SCENE}", actual, expected, nearest(near, (SCENE, "kind")) if near else "")
+    actual, near = kind_refused(word, known)
+    raise SceneError(label, f"{path}.kind", actual, one_of(known), near)

@@ -24,29 +24,29 @@ def numbered(entry: object, path: str, label: str) -> Any:
     """
     if not isinstance(entry, Mapping):
         return entry
-    scenes, given = entry.get(_SCENE), entry.get(MEMBERS)
+    scenes, bearings = entry.get(_SCENE), entry.get(MEMBERS)
     if isinstance(scenes, list):
-        wrong = next((one for one in scenes if not isinstance(one, str)), None)
+        wrong = next((scene for scene in scenes if not isinstance(scene, str)), None)
         if wrong is not None or not scenes:
-            found = describe(wrong) if scenes else "an empty list"
-            raise SceneError(label, f"{path}.{_SCENE}", found, "a scene, or a list of scenes, one for each sign")
-        if not isinstance(given, Mapping | None):
+            actual = describe(wrong) if scenes else "an empty list"
+            raise SceneError(label, f"{path}.{_SCENE}", actual, "a scene, or a list of scenes, one for each sign")
+        if not isinstance(bearings, Mapping | None):
             raise SceneError(
                 label, f"{path}.{MEMBERS}", "a list beside a list of scenes", "tables by number: [set.bearing.2]"
             )
         entry = {name: value for name, value in entry.items() if name != _SCENE}
-        by_number = {str(place + 1): {_SCENE: one} for place, one in enumerate(scenes)}
-        own = {number: one for number, one in (given or {}).items() if isinstance(one, Mapping)}
-        members = {number: {**own.get(number, {}), **one} for number, one in by_number.items()}
-        given = members | {number: one for number, one in (given or {}).items() if number not in members}
-        entry = {**entry, MEMBERS: given}
-    if isinstance(given, list):
-        if not given or not all(isinstance(one, Mapping) for one in given):
-            raise SceneError(label, f"{path}.{MEMBERS}", describe(given), _LIST)
-        return {**entry, MEMBERS: {str(place + 1): dict(one) for place, one in enumerate(given)}}
-    tables = isinstance(given, Mapping) and all(isinstance(one, Mapping) for one in given.values())
-    if given is not None and not tables:
-        raise SceneError(label, f"{path}.{MEMBERS}", describe(given), _LIST)
+        by_number = {str(place + 1): {_SCENE: scene} for place, scene in enumerate(scenes)}
+        own = {number: table for number, table in (bearings or {}).items() if isinstance(table, Mapping)}
+        members = {number: {**own.get(number, {}), **table} for number, table in by_number.items()}
+        bearings = members | {number: table for number, table in (bearings or {}).items() if number not in members}
+        entry = {**entry, MEMBERS: bearings}
+    if isinstance(bearings, list):
+        if not bearings or not all(isinstance(table, Mapping) for table in bearings):
+            raise SceneError(label, f"{path}.{MEMBERS}", describe(bearings), _LIST)
+        return {**entry, MEMBERS: {str(place + 1): dict(table) for place, table in enumerate(bearings)}}
+    tables = isinstance(bearings, Mapping) and all(isinstance(table, Mapping) for table in bearings.values())
+    if bearings is not None and not tables:
+        raise SceneError(label, f"{path}.{MEMBERS}", describe(bearings), _LIST)
     return entry
 
 
@@ -68,10 +68,10 @@ def each_bearing(tables: Mapping[str, object]) -> Iterator[tuple[str, ...]]:
 
 def at(tables: Mapping[str, object], keys: tuple[str, ...]) -> Any:
     """The table at these keys; `None` where there is none."""
-    found: Any = tables
+    table: Any = tables
     for key in keys:
-        found = found.get(key) if isinstance(found, Mapping) else None
-    return found
+        table = table.get(key) if isinstance(table, Mapping) else None
+    return table
 
 
 def put(tables: Mapping[str, Any], keys: tuple[str, ...], value: object) -> dict[str, Any]:
@@ -88,12 +88,12 @@ def changed(tables: Mapping[str, object], change: Callable[[tuple[str, ...], Any
 
     **Raises:** `SceneError` with all errors from `change`.
     """
-    found, problems = dict(tables), []
+    copied, problems = dict(tables), []
     for keys in each_bearing(tables):
         try:
-            found = put(found, keys, change(keys, at(tables, keys)))
+            copied = put(copied, keys, change(keys, at(tables, keys)))
         except SceneError as error:
             problems += error.problems
     if problems:
         raise SceneError.of_all(problems)
-    return found
+    return copied

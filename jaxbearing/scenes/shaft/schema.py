@@ -87,8 +87,8 @@ def _kinds_of_set(entry: Any, path: str, file: str) -> Kind:
     if not differ(entry):
         each: tuple[tuple[str, Any], ...] = ((path, entry),)
     else:
-        each = tuple((f"{path}.{MEMBERS}.{number}", one) for number, one in entry[MEMBERS].items())
-    kinds = tuple(kind_of(one, at, file) for at, one in each)
+        each = tuple((f"{path}.{MEMBERS}.{number}", table) for number, table in entry[MEMBERS].items())
+    kinds = tuple(kind_of(table, at, file) for at, table in each)
     for (at, _), kind in zip(each, kinds, strict=True):
         if kind == LINEAR:
             raise SceneError(file, f"{at}.kind", f"'{LINEAR}'", one_of(BEARINGS))
@@ -143,16 +143,16 @@ class ShaftTable(Table):
     def completed(
         cls, tables: Mapping[str, object], overrides: Mapping[str, str], file: str
     ) -> tuple[dict[str, Any], Mapping[str, str]]:
-        found, left = with_scenes(tables, overrides, file)
-        return changed(found, lambda keys, entry: _with_scene(entry, keys, file)), left
+        complete, left = with_scenes(tables, overrides, file)
+        return changed(complete, lambda keys, entry: _with_scene(entry, keys, file)), left
 
     def entries(self, table: str) -> dict[str, Any]:
         """The tables of the bearings, sets, forces or sections, by name. **Arguments:** `table`: which of these."""
         owner = self.shaft if table == SECTIONS else self
-        found = getattr(owner, table, None)
-        if not isinstance(found, Table | None):
+        group = getattr(owner, table, None)
+        if not isinstance(group, Table | None):
             raise Unreadable(table)
-        return {} if found is None else {name: getattr(found, name) for name in type(found).model_fields}
+        return {} if group is None else {name: getattr(group, name) for name in type(group).model_fields}
 
 
 def _by_name(word: str, tables: Mapping[str, object]) -> Any:
@@ -209,8 +209,10 @@ def _mixed_set(kinds: tuple[str, ...]) -> type[Table]:
 
 def model_of_scene(scene: ShaftSystem) -> type[ShaftTable]:
     """The schema of the file of a shaft."""
-    bearings = tuple((one.name, one.scene.kind) for one in scene.bearings)
-    kinds = lambda one: tuple(each.kind for each in one.scene) if isinstance(one.scene, tuple) else one.scene.kind
-    sets = tuple((one.name, kinds(one)) for one in scene.sets)
-    forces = tuple((one.name, one.kind) for one in scene.forces)
+    bearings = tuple((bearing.name, bearing.scene.kind) for bearing in scene.bearings)
+    kinds = lambda matched: (
+        tuple(each.kind for each in matched.scene) if isinstance(matched.scene, tuple) else matched.scene.kind
+    )
+    sets = tuple((matched.name, kinds(matched)) for matched in scene.sets)
+    forces = tuple((force.name, force.kind) for force in scene.forces)
     return shaft_model(bearings, sets, forces, tuple(str(i + 1) for i in range(len(scene.shaft.sections))))

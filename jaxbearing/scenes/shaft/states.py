@@ -17,42 +17,42 @@ SET = "set"
 """Field of a state with its changes, by dotted paths in quotes."""
 
 
-def with_states(scene: ShaftSystem, given: object, raw: Mapping[str, object], file: str) -> ShaftSystem:
+def with_states(scene: ShaftSystem, entries: object, raw: Mapping[str, object], file: str) -> ShaftSystem:
     """The scene of a shaft with the states of its duty cycle.
 
-    **Arguments:** `given`: the tables [[state]]; `raw`: tables of the scene without them.
+    **Arguments:** `entries`: the tables [[state]]; `raw`: tables of the scene without them.
 
     **Raises:** `SceneError` for invalid states, and for scenes that cannot be built.
     """
-    if not isinstance(given, list) or not given or not all(isinstance(one, Mapping) for one in given):
-        raise SceneError(file, "state", describe(given), EXAMPLE)
-    tables = [_plain(one) for one in numbered(given)]
+    if not isinstance(entries, list) or not entries or not all(isinstance(entry, Mapping) for entry in entries):
+        raise SceneError(file, "state", describe(entries), EXAMPLE)
+    tables = [_plain(entry) for entry in numbered(entries)]
     require_names_and_shares(tables, file)
     states, problems = [], []
-    for one in tables:
+    for table in tables:
         try:
-            found = state_of(one, raw, {}, file)
+            state = state_of(table, raw, {}, file)
         except SceneError as error:
             problems += error.problems
             continue
         changes = {
-            path: _number(part_at(found.scene, path), path, f"{file}, state '{found.name}'") for path in found.changes
+            path: _number(part_at(state.scene, path), path, f"{file}, state '{state.name}'") for path in state.changes
         }
-        states.append(ShaftState(share=found.share, changes=changes, name=found.name))
+        states.append(ShaftState(share=state.share, changes=changes, name=state.name))
     if problems:
         raise SceneError.of_all(problems)
     return dataclasses.replace(scene, states=tuple(states))
 
 
-def _plain(one: Mapping[str, Any]) -> dict[str, Any]:
+def _plain(table: Mapping[str, Any]) -> dict[str, Any]:
     """A state whose changes are moved from the table `set` into the state itself."""
-    found = dict(one)
-    changes = found.get(SET)
+    state = dict(table)
+    changes = state.get(SET)
     if isinstance(changes, Mapping):
         by_path = {path: value for path, value in changes.items() if "." in path}
         rest = {name: value for name, value in changes.items() if name not in by_path}
-        found = {name: value for name, value in found.items() if name != SET} | by_path | ({SET: rest} if rest else {})
-    return found
+        state = {name: value for name, value in state.items() if name != SET} | by_path | ({SET: rest} if rest else {})
+    return state
 
 
 def _number(value: Any, path: str, where: str) -> float:

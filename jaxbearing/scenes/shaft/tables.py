@@ -54,7 +54,8 @@ def _square(value: Any, wanted: str, fits: Callable[[int], bool]) -> tuple[tuple
     if not square or not fits(len(value)):
         raise units.refusal(wanted, describe(value))
     return tuple(
-        tuple(_entry(one, row % 5, column % 5) for column, one in enumerate(values)) for row, values in enumerate(value)
+        tuple(_entry(entry, row % 5, column % 5) for column, entry in enumerate(values))
+        for row, values in enumerate(value)
     )
 
 
@@ -233,9 +234,9 @@ def _operation_of(operation: type, **load: float) -> Any:
 
         elsewhere: ClassVar[Mapping[str, str]] = _loads_elsewhere(operation)
 
-        def model_dump(self, **given: Any) -> dict[str, Any]:
+        def model_dump(self, **options: Any) -> dict[str, Any]:
             """The fields, with a load and an inner speed that make the bearing valid and have no effect."""
-            return super().model_dump(**given) | load | {"inner_speed": self.outer_speed + 1.0}
+            return super().model_dump(**options) | load | {"inner_speed": self.outer_speed + 1.0}
 
     return MountedOperation
 
@@ -247,9 +248,9 @@ class _OnShaft(Table):
 
 
 def _mounted(name: str, bearing: type[Table], mount: type[Table], operation: type[Table], doc: str) -> type[Table]:
-    given: Any = {"operation": (operation, Field(default_factory=operation))}
+    fields: Any = {"operation": (operation, Field(default_factory=operation))}
     base = (_OnShaft, bearing) if mount is Table else (mount, _OnShaft, bearing)
-    made: Any = create_model(name, __base__=base, __module__=__name__, __doc__=doc, **given)
+    made: Any = create_model(name, __base__=base, __module__=__name__, __doc__=doc, **fields)
     return made
 
 

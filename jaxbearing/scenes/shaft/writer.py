@@ -37,24 +37,26 @@ def shaft_tables(scene: ShaftSystem) -> Rows:
     tables: Rows = {"kind": scene.kind, "shaft": _shaft(scene.shaft)}
     tables["housing"] = None if scene.housing is None else {"matrix": _matrix(scene.housing)}
     tables["thermal"] = None if scene.thermal is None else rows(ShaftThermalTable, scene.thermal)
-    tables["set"] = [_set(one) for one in scene.sets]
-    tables["bearing"] = [_mounted(one) for one in scene.bearings]
-    tables["force"] = [{"name": one.name, "kind": one.kind} | rows(FORCE_TABLES[one.kind], one) for one in scene.forces]
-    tables["state"] = [_state(one, scene) for one in scene.states]
+    tables["set"] = [_set(matched) for matched in scene.sets]
+    tables["bearing"] = [_mounted(bearing) for bearing in scene.bearings]
+    tables["force"] = [
+        {"name": force.name, "kind": force.kind} | rows(FORCE_TABLES[force.kind], force) for force in scene.forces
+    ]
+    tables["state"] = [_state(state, scene) for state in scene.states]
     tables["life"] = _life(scene)
     return {name: table for name, table in tables.items() if table is not None and table != []}
 
 
 def plain_scene(scene: ShaftSystem) -> ShaftSystem:
     """The scene with loads and speeds of its bearings, which have no effect, set to the values that files give."""
-    bearings = tuple(dataclasses.replace(one, scene=_standing(one.scene)) for one in scene.bearings)
-    sets = tuple(dataclasses.replace(one, scene=_standing_set(one)) for one in scene.sets)
+    bearings = tuple(dataclasses.replace(bearing, scene=_standing(bearing.scene)) for bearing in scene.bearings)
+    sets = tuple(dataclasses.replace(matched, scene=_standing_set(matched)) for matched in scene.sets)
     return dataclasses.replace(scene, bearings=bearings, sets=sets)
 
 
-def _standing_set(one: MatchedSet) -> AbstractBearing | tuple[AbstractBearing, ...]:
-    found = tuple(_standing(bearing) for bearing in one.scenes)
-    return found[0] if all(same(other, found[0]) for other in found) else found
+def _standing_set(matched: MatchedSet) -> AbstractBearing | tuple[AbstractBearing, ...]:
+    bearings = tuple(_standing(bearing) for bearing in matched.scenes)
+    return bearings[0] if all(same(other, bearings[0]) for other in bearings) else bearings
 
 
 def _standing(scene: object) -> Any:
@@ -67,32 +69,35 @@ def _standing(scene: object) -> Any:
 
 
 def _shaft(part: Shaft) -> Rows:
-    found = rows(ShaftPart, part)
+    entries = rows(ShaftPart, part)
     if same(part.material, STEEL):
-        del found["material"]
+        del entries["material"]
     if part.sections:
-        found["sections"] = [rows(SectionTable, one) for one in part.sections]
-    return found
+        entries["sections"] = [rows(SectionTable, section) for section in part.sections]
+    return entries
 
 
-def _mounted(one: MountedBearing) -> Rows:
-    own = {"name": one.name} | rows(MountTable, one) | given({"support": _support(one.support)})
-    if isinstance(one.scene, LinearBearing):
-        return own | {"kind": LINEAR, "stiffness": _matrix(one.scene.stiffness)}
-    return own | _bearing(one.scene, f"bearing.{one.name}")
+def _mounted(mounted: MountedBearing) -> Rows:
+    own = {"name": mounted.name} | rows(MountTable, mounted) | given({"support": _support(mounted.support)})
+    if isinstance(mounted.scene, LinearBearing):
+        return own | {"kind": LINEAR, "stiffness": _matrix(mounted.scene.stiffness)}
+    return own | _bearing(mounted.scene, f"bearing.{mounted.name}")
 
 
-def _set(one: MatchedSet) -> Rows:
-    found = {"name": one.name, "picture": one.picture} | rows(SetMountTable, one)
-    found |= {"distance": _lengths(one.distance), "mismatch": None if one.mismatch is None else _lengths(one.mismatch)}
-    found["preload"] = None if one.preload is None else rows(PreloadTable, one.preload)
-    found["support"] = _support(one.support)
-    scene = _standing_set(one)
+def _set(matched: MatchedSet) -> Rows:
+    entries = {"name": matched.name, "picture": matched.picture} | rows(SetMountTable, matched)
+    entries |= {
+        "distance": _lengths(matched.distance),
+        "mismatch": None if matched.mismatch is None else _lengths(matched.mismatch),
+    }
+    entries["preload"] = None if matched.preload is None else rows(PreloadTable, matched.preload)
+    entries["support"] = _support(matched.support)
+    scene = _standing_set(matched)
     if not isinstance(scene, tuple):
-        return given(found) | _bearing(scene, f"set.{one.name}")
-    path = f"set.{one.name}.{MEMBERS}"
+        return given(entries) | _bearing(scene, f"set.{matched.name}")
+    path = f"set.{matched.name}.{MEMBERS}"
     each = [_bearing(bearing, f"{path}.{place + 1}") for place, bearing in enumerate(scene)]
-    return given(found) | {MEMBERS: each}
+    return given(entries) | {MEMBERS: each}
 
 
 def _bearing(scene: AbstractBearing, path: str) -> Rows:
@@ -100,13 +105,13 @@ def _bearing(scene: AbstractBearing, path: str) -> Rows:
     from ..reader import tables_of
 
     try:
-        found = tables_of(_standing(scene))
+        tables = tables_of(_standing(scene))
     except SceneError as error:
         raise error.inside(path) from None
-    operation = {name: value for name, value in found["operation"].items() if name in OF_SHAFT}
+    operation = {name: value for name, value in tables["operation"].items() if name in OF_SHAFT}
     idle = operation.get("outer_speed") is not None and float(np.asarray(scene.operation.outer_speed)) == 0.0
     operation = {name: value for name, value in operation.items() if not (idle and name == "outer_speed")}
-    return {name: value for name, value in found.items() if name != "operation"} | (
+    return {name: value for name, value in tables.items() if name != "operation"} | (
         {"operation": operation} if operation else {}
     )
 
@@ -114,45 +119,45 @@ def _bearing(scene: AbstractBearing, path: str) -> Rows:
 def _support(part: Support | None) -> Rows | None:
     if part is None:
         return None
-    found = rows(SupportTable, part)
-    found.pop("matrix", None)
-    return found if part.matrix is None else found | {"matrix": _matrix(part.matrix)}
+    entries = rows(SupportTable, part)
+    entries.pop("matrix", None)
+    return entries if part.matrix is None else entries | {"matrix": _matrix(part.matrix)}
 
 
 def _matrix(values: "npt.ArrayLike") -> list[list[float | str]]:
     """A stiffness matrix as texts with units, five rows for each bearing; a 0 has no unit."""
     return [
-        [0 if one == 0.0 else number(one, MATRIX_UNITS[i % 5][j % 5]) for j, one in enumerate(row)]
+        [0 if entry == 0.0 else number(entry, MATRIX_UNITS[i % 5][j % 5]) for j, entry in enumerate(row)]
         for i, row in enumerate(np.asarray(values, dtype=np.float64))
     ]
 
 
 def _lengths(value: "npt.ArrayLike") -> float | str | list[float | str]:
-    texts = [number(one, "m") for one in np.atleast_1d(np.asarray(value, dtype=np.float64))]
+    texts = [number(length, "m") for length in np.atleast_1d(np.asarray(value, dtype=np.float64))]
     return texts[0] if np.ndim(value) == 0 else texts
 
 
 def _life(scene: ShaftSystem) -> Rows | None:
     if scene.life.weibull is None:
         return None
-    unrated = [one.name for one in scene.places if getattr(one.scene, "rating", None) is None]
+    unrated = [place.name for place in scene.places if getattr(place.scene, "rating", None) is None]
     if unrated:
         path = f"bearing.{unrated[0]}.rating"
         raise unwritable(path, "None", "a Rating, which life.weibull is about: [life] in a file rates all bearings")
     return {"weibull": written(scene.life, "weibull")}
 
 
-def _state(one: ShaftState, scene: ShaftSystem) -> Rows:
+def _state(state: ShaftState, scene: ShaftSystem) -> Rows:
     """The table of a state. **Raises:** `SceneError` for a change that a file cannot hold."""
-    changes = {path: _change(path, value, scene) for path, value in one.changes.items()}
-    return ({"name": one.name} if one.name else {}) | {"share": written(one, "share")} | changes
+    changes = {path: _change(path, value, scene) for path, value in state.changes.items()}
+    return ({"name": state.name} if state.name else {}) | {"share": written(state, "share")} | changes
 
 
 def _change(path: str, value: object, scene: ShaftSystem) -> float | str:
     above, _, last = path.rpartition(".")
     part = part_at(scene, above)
     fields = {field.name: field for field in dataclasses.fields(part)} if isinstance(part, eqx.Module) else {}
-    said = fields[last].metadata if last in fields else {}
-    if "bound" not in said:
+    metadata = fields[last].metadata if last in fields else {}
+    if "bound" not in metadata:
         raise unwritable(f"state.{path}", "a change", "one of a number that files have at this path")
-    return number(value, said["unit"], said["difference"])
+    return number(value, metadata["unit"], metadata["difference"])

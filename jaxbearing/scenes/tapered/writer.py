@@ -28,16 +28,16 @@ def _laws(scene: TaperedRollerBearing) -> Rows | None:
         return None
     if rib is None:
         raise unwritable("rib", "None", "the laws of the rib, which files have wherever they have those of raceways")
-    found = (
+    entries = (
         raceway_laws(contact)
         | rib_mixed_rows(contact.mixed, rib.mixed)
         | {"flange_film": law_name(RIB_FILMS, rib.film, "rib.film")}
     )
     if contact.traction is None:
-        return found
+        return entries
     if not isinstance(contact.traction, MeanPressureTraction):
         raise unwritable("contact.traction", shown(contact.traction), "a MeanPressureTraction")
     if rib.traction is None:
         raise unwritable("rib.traction", "None", "a DistributedTraction, with the flow law of contact.traction")
     name = flow_law(contact.traction.viscous, scene.oil, "contact.traction.viscous")
-    return found | {"traction": name, "traction_accuracy": march_accuracy(rib.traction, "rib.traction", spin=True)}
+    return entries | {"traction": name, "traction_accuracy": march_accuracy(rib.traction, "rib.traction", spin=True)}

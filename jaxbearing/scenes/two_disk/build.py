@@ -31,11 +31,11 @@ def two_disk(table: TwoDiskTable) -> TwoDisk:
 
 
 def _laws(table: TwoDiskContactTable, oil: Lubricant) -> TwoDiskLaws:
-    given = table.compliance
+    compliance = table.compliance
     traction = DistributedTraction(
         viscous=viscous_function(table.traction, oil),
         resolution=Resolution.for_accuracy(table.traction_accuracy),
-        compliance=GivenCompliance(given) if isinstance(given, float) else None,
+        compliance=GivenCompliance(compliance) if isinstance(compliance, float) else None,
         heating=FilmHeating() if table.film_heating else None,
         elastic=table.elastic,
     )
@@ -44,7 +44,7 @@ def _laws(table: TwoDiskContactTable, oil: Lubricant) -> TwoDiskLaws:
         traction=traction,
         thermal=thermal_factor(table.thermal),
         warm_inlet=table.inlet == "warm",
-        half_space_compliance=given == HALF_SPACE,
+        half_space_compliance=compliance == HALF_SPACE,
     )
 
 

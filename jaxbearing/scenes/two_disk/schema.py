@@ -31,9 +31,9 @@ def _slide(value: object) -> float:
             return units.number(value)
         except PydanticCustomError:
             raise units.refusal(_SLIDE, describe(value)) from None
-    given, sign, rest = value.partition("%")
+    percent, sign, rest = value.partition("%")
     try:
-        ratio = float(given) / 100.0
+        ratio = float(percent) / 100.0
     except ValueError:
         ratio = np.nan
     if not sign or rest.strip() or not np.isfinite(ratio):
