@@ -49,8 +49,8 @@ def load_verbs() -> None:
 
         shown_by(f"{__name__}.report.shown")
     # a module that is imported takes its name in the package
-    found = (jit_solver, simulate, simulate_batch, solve, sweep)
-    globals().update(zip(_AT_ONCE, found, strict=True))
+    verbs = (jit_solver, simulate, simulate_batch, solve, sweep)
+    globals().update(zip(_AT_ONCE, verbs, strict=True))
 
 
 if TYPE_CHECKING:

@@ -33,10 +33,10 @@ def about(name: str, text: str) -> str:
 
 def in_groups(texts: Iterable[str]) -> tuple[list[str], list[Assumed], list[Information]]:
     """The texts in the order in which people are told them: what to act on, what was assumed, information."""
-    told = list(texts)
-    assumed = [text for text in told if isinstance(text, Assumed)]
-    information = [text for text in told if isinstance(text, Information)]
-    return [text for text in told if not isinstance(text, Assumed | Information)], assumed, information
+    messages = list(texts)
+    assumed = [text for text in messages if isinstance(text, Assumed)]
+    information = [text for text in messages if isinstance(text, Information)]
+    return [text for text in messages if not isinstance(text, Assumed | Information)], assumed, information
 
 
 class Checks(eqx.Module, Mapping[str, Bool[Array, "*batch"]]):

@@ -64,7 +64,7 @@ Property = TypeVar("Property", DerivedResult, DerivedPart)
 
 def _properties(kind: type, wanted: type[Property]) -> dict[str, Property]:
     owners = reversed(kind.__mro__)
-    return {name: one for owner in owners for name, one in vars(owner).items() if isinstance(one, wanted)}
+    return {name: member for owner in owners for name, member in vars(owner).items() if isinstance(member, wanted)}
 
 
 def known_numbers(tree: Numbers) -> Numbers:

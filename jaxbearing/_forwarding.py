@@ -40,8 +40,8 @@ NAMES = {
 
 def _forwarded(old: str, new: str) -> Any:
     module, _, name = new.rpartition(".")
-    said = f"{ROOT}.{old} has moved to {ROOT}.{new}; the old name goes with the next release"
-    warnings.warn(said, DeprecationWarning, stacklevel=3)
+    message = f"{ROOT}.{old} has moved to {ROOT}.{new}; the old name goes with the next release"
+    warnings.warn(message, DeprecationWarning, stacklevel=3)
     return getattr(importlib.import_module(f"{ROOT}.{module}"), name)
 
 

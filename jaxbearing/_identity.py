@@ -44,10 +44,10 @@ def identity_of(scene: object, free: Collection[str]) -> Identity:
     return Identity(numbers, tuple(words))
 
 
-def identity_from(told: dict[str, object]) -> Identity:
+def identity_from(facts: dict[str, object]) -> Identity:
     """The way back from `Identity.told`. **Raises:** `ValueError` for something else."""
-    words = tuple((path, value) for path, value in told.items() if isinstance(value, str))
-    numbers = {path: np.asarray(value, dtype=float) for path, value in told.items() if not isinstance(value, str)}
+    words = tuple((path, value) for path, value in facts.items() if isinstance(value, str))
+    numbers = {path: np.asarray(value, dtype=float) for path, value in facts.items() if not isinstance(value, str)}
     if not numbers or not words:
         raise ValueError("it says nothing of what the run is of")
     return Identity(numbers, words)
@@ -66,11 +66,11 @@ def _fields(part: Any, above: str, free: Collection[str]) -> Iterator[tuple[str,
 def differences(there: Identity, here: Identity) -> list[str]:
     """Differences in words: "geometry.roller_diameter is 0.012 there and 0.0125 here". A path that only one of the two
     knows is not compared: another version may have written it."""
-    one, other = there.told(), here.told()
+    there_facts, here_facts = there.told(), here.told()
     return [
-        f"{path} is {_shown(one[path])} there and {_shown(other[path])} here"
-        for path in one
-        if path in other and not _same(one[path], other[path])
+        f"{path} is {_shown(there_facts[path])} there and {_shown(here_facts[path])} here"
+        for path in there_facts
+        if path in here_facts and not _same(there_facts[path], here_facts[path])
     ]
 
 
@@ -79,16 +79,16 @@ def require_same(there: Identity, here: Identity, kind: str) -> None:
 
     **Raises:** `ValueError` that names the fields, with both values.
     """
-    found = differences(there, here)
-    if found:
-        more = f", and {len(found) - _SHOWN} more" if len(found) > _SHOWN else ""
-        raise ValueError(f"restart: a state of another {kind}: {', '.join(found[:_SHOWN])}{more} (in SI units)")
+    texts = differences(there, here)
+    if texts:
+        more = f", and {len(texts) - _SHOWN} more" if len(texts) > _SHOWN else ""
+        raise ValueError(f"restart: a state of another {kind}: {', '.join(texts[:_SHOWN])}{more} (in SI units)")
 
 
-def _same(one: Any, other: Any) -> bool:
-    if isinstance(one, str) or isinstance(other, str):
-        return one == other
-    return np.shape(one) == np.shape(other) and bool(np.allclose(one, other, rtol=ALIKE, atol=0.0, equal_nan=True))
+def _same(value: Any, other: Any) -> bool:
+    if isinstance(value, str) or isinstance(other, str):
+        return value == other
+    return np.shape(value) == np.shape(other) and bool(np.allclose(value, other, rtol=ALIKE, atol=0.0, equal_nan=True))
 
 
 def _shown(value: Any) -> str:

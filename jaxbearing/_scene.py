@@ -189,9 +189,9 @@ def with_checked_inputs(scene: Scene, compute: Callable[[Scene], Result]) -> Res
     """Result of `compute` for a scene, with checks of its inputs. With an invalid input the operating point is NaN, so
     that iterations end at their first step. Rules that `compute` found broken itself stay beside them."""
     inputs = check_inputs(scene)
-    given = gate(scene, inputs.valid)
-    point = getattr(given, scene.operating_point)
-    solution = compute(dataclasses.replace(given, **{scene.operating_point: nan_unless(point, inputs.valid)}))
+    gated = gate(scene, inputs.valid)
+    point = getattr(gated, scene.operating_point)
+    solution = compute(dataclasses.replace(gated, **{scene.operating_point: nan_unless(point, inputs.valid)}))
     return dataclasses.replace(
         solution,
         status=jnp.where(inputs.valid, solution.status, int(Status.INVALID_INPUT)),

@@ -27,8 +27,8 @@ class Shown(Hinting):
     """
 
     def __str__(self) -> str:
-        found = self._rendered("text")
-        return repr(self) if found is None else found
+        rendered = self._rendered("text")
+        return repr(self) if rendered is None else rendered
 
     def _repr_html_(self) -> str | None:
         return self._rendered("html")

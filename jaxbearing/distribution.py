@@ -49,8 +49,8 @@ class Distribution:
     log_deviation: float | None = None
 
     def __post_init__(self):
-        given = (self.mean, self.deviation, self.low, self.high, self.median, self.log_deviation)
-        numbers = [value for value in given if value is not None]
+        parameters = (self.mean, self.deviation, self.low, self.high, self.median, self.log_deviation)
+        numbers = [value for value in parameters if value is not None]
         if not all(math.isfinite(value) for value in numbers):
             raise ValueError(f"a distribution must have finite numbers, got {numbers}")
         if self.deviation < 0.0:
@@ -124,9 +124,9 @@ class Distribution:
         """Upper limit."""
         return self._limit(self.high, 1.0)
 
-    def _limit(self, given: float | None, side: float) -> float:
-        if given is not None:
-            return given
+    def _limit(self, limit: float | None, side: float) -> float:
+        if limit is not None:
+            return limit
         if self.median is not None and self.log_deviation is not None:
             return self.median * math.exp(side * SIGMAS * self.log_deviation)
         return self.mean + side * _half_width(self.shape) * self.deviation

@@ -128,12 +128,12 @@ class JointDistribution:
         size = np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
         scale = np.where(size > 0.0, size, 1.0)
         lengths, directions = np.linalg.eigh(self.covariance / np.outer(scale, scale))
-        found = [
+        axes = [
             np.sqrt(length) * scale * direction
             for length, direction in zip(lengths, directions.T, strict=True)
             if length > _ROUND_OFF * max(lengths[-1], 0.0) and length > 0.0
         ]
-        return np.array(found[::-1]).reshape(len(found), len(self.fields))
+        return np.array(axes[::-1]).reshape(len(axes), len(self.fields))
 
     @property
     def tangent(self) -> np.ndarray:

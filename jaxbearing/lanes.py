@@ -86,11 +86,11 @@ class LaneProgram:
         """The solution of one lane, with shapes for arrays."""
         inputs = jax.tree.map(lambda leaf: np.asarray(leaf)[None], self._example)
         leaves, structure = self._flat(self._filled(inputs, np.zeros(1, dtype=bool), 0))
-        found = self._kept.result(structure, leaves) if len(self.devices) == 1 else None
-        if found is None:
+        solution = self._kept.result(structure, leaves) if len(self.devices) == 1 else None
+        if solution is None:
             make, _, options = self._static
             return jax.eval_shape(functools.partial(_lane, make, options), self.base, self._example)
-        return jax.tree.map(lambda leaf: jax.ShapeDtypeStruct(leaf.shape[1:], leaf.dtype), found)
+        return jax.tree.map(lambda leaf: jax.ShapeDtypeStruct(leaf.shape[1:], leaf.dtype), solution)
 
     def __call__(
         self, inputs: object, active: np.ndarray, progress: Callable[[int], None] = lambda lanes: None
@@ -104,8 +104,8 @@ class LaneProgram:
         """
         count, done = len(active), []
         free: SimpleQueue[Any] = SimpleQueue()
-        for one in self.devices:
-            free.put(one)
+        for device in self.devices:
+            free.put(device)
 
         def solved(start: int) -> AbstractSolution:
             chosen = free.get()
@@ -133,30 +133,30 @@ class LaneProgram:
         wanted[: min(self.lanes, len(active) - start)] = active[start : start + self.lanes]
         return self.base, wanted, jax.tree.map(part, inputs)
 
-    def _flat(self, given: Any) -> tuple[list[Any], Any]:
+    def _flat(self, filled: Any) -> tuple[list[Any], Any]:
         """Leaves and structure of all arguments of `_lanes`, from what `_filled` gives."""
-        return jax.tree.flatten((*self._static, *given))
+        return jax.tree.flatten((*self._static, *filled))
 
     def _block(self, device: object, inputs: object, active: np.ndarray, start: int) -> AbstractSolution:
         """Lanes of one call."""
-        given = self._filled(inputs, active, start)
+        filled = self._filled(inputs, active, start)
         if device not in self._compiled:
-            self._compiled[device] = self._prepared(device, given)
+            self._compiled[device] = self._prepared(device, filled)
         count = min(self.lanes, len(active) - start)
-        return jax.tree.map(lambda leaf: np.asarray(leaf)[:count], self._compiled[device](given))
+        return jax.tree.map(lambda leaf: np.asarray(leaf)[:count], self._compiled[device](filled))
 
-    def _prepared(self, device: Any, given: object) -> Callable[[Any], Any]:
+    def _prepared(self, device: Any, filled: object) -> Callable[[Any], Any]:
         """The program for a device, of what `_filled` gives: kept, or compiled here."""
-        leaves, structure = self._flat(given)
+        leaves, structure = self._flat(filled)
         kept = self._kept.ready(structure, leaves) if len(self.devices) == 1 else None
         if kept is not None:
-            return lambda given: kept(self._flat(given)[0])
+            return lambda block: kept(self._flat(block)[0])
         options = quick_options() if self._quick and device.platform == "cpu" else None
         with self._tracing:
-            lowered = jax.jit(functools.partial(_lanes, *self._static)).lower(*jax.device_put(given, device))
+            lowered = jax.jit(functools.partial(_lanes, *self._static)).lower(*jax.device_put(filled, device))
         with _COMPILING, compiling_quietly():
             compiled = lowered.compile(options)
-        return lambda given: compiled(*jax.device_put(given, device))
+        return lambda block: compiled(*jax.device_put(block, device))
 
 
 def _lane(
@@ -174,15 +174,15 @@ def _lanes(
     inputs: object,
 ) -> AbstractSolution:
     """Solutions of all lanes of one call."""
-    one = functools.partial(_lane, make, options)
+    solve_lane = functools.partial(_lane, make, options)
     first = jax.tree.map(lambda leaf: jax.ShapeDtypeStruct(leaf.shape[1:], leaf.dtype), inputs)
-    empty = _without_result(jax.eval_shape(one, shared, first))
+    empty = _without_result(jax.eval_shape(solve_lane, shared, first))
 
     def lane(shared: object, active: Array, inputs: object) -> AbstractSolution:
-        return jax.lax.cond(active, lambda: one(shared, inputs), lambda: empty)
+        return jax.lax.cond(active, lambda: solve_lane(shared, inputs), lambda: empty)
 
     if method == "map":
-        return jax.lax.map(lambda given: lane(shared, given[0], given[1]), (active, inputs))
+        return jax.lax.map(lambda pair: lane(shared, pair[0], pair[1]), (active, inputs))
     return jax.vmap(lane, in_axes=(None, 0, 0))(shared, active, inputs)
 
 
@@ -193,4 +193,4 @@ def _without_result(structure: AbstractSolution) -> AbstractSolution:
         return jnp.full(leaf.shape, jnp.nan if jnp.issubdtype(leaf.dtype, jnp.inexact) else 0, leaf.dtype)
 
     status = jnp.full(structure.status.shape, int(Status.INVALID_INPUT), structure.status.dtype)
-    return eqx.tree_at(lambda one: one.status, jax.tree.map(nothing, structure), status)
+    return eqx.tree_at(lambda solution: solution.status, jax.tree.map(nothing, structure), status)

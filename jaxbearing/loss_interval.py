@@ -99,22 +99,24 @@ def power_interval(
         return None
     inputs, plain = _uncertain(scene, given or {}, drag_prior), _without_words(scene)
     value, losses = float(power.total), {}
-    for one in inputs:
-        solved = [solver(plain.replace({one.path: float(x)})) for x in one.values.quantiles(SHARES)]
+    for uncertain in inputs:
+        solved = [solver(plain.replace({uncertain.path: float(x)})) for x in uncertain.values.quantiles(SHARES)]
         if not all(bool(again.converged) for again in solved):
             return None
-        losses[one.path] = np.array([float(again.power_loss.total) for again in solved])
+        losses[uncertain.path] = np.array([float(again.power_loss.total) for again in solved])
     if not inputs:
         return None
-    parts = sorted((_part(one, losses[one.path]) for one in inputs), key=lambda part: part.low - part.high)
+    parts = sorted(
+        (_part(uncertain, losses[uncertain.path]) for uncertain in inputs), key=lambda part: part.low - part.high
+    )
     widest = parts[0]
     low, high = (widest.low, widest.high) if len(parts) == 1 else _together(value, inputs, losses)
     return PowerInterval(value, low, high, widest.path, widest.assumed, tuple(parts))
 
 
-def numbers_among(scene: AbstractScene, given: Mapping[str, Distribution]) -> dict[str, Distribution]:
+def numbers_among(scene: AbstractScene, distributions: Mapping[str, Distribution]) -> dict[str, Distribution]:
     """The distributions whose path leads to one number of the scene."""
-    return {path: one for path, one in given.items() if _is_number(_value_at(scene, path))}
+    return {path: distribution for path, distribution in distributions.items() if _is_number(_value_at(scene, path))}
 
 
 def _value_at(scene: object, path: str) -> object:
@@ -128,22 +130,26 @@ def _is_number(value: Any) -> bool:
     return number and not isinstance(value, bool) and np.ndim(value) == 0
 
 
-def _uncertain(scene: AbstractScene, given: Mapping[str, Distribution], drag_prior: bool) -> list[_Uncertain]:
+def _uncertain(scene: AbstractScene, distributions: Mapping[str, Distribution], drag_prior: bool) -> list[_Uncertain]:
     """The inputs that have a distribution."""
     assumed = {
         priors.DRAG_FIELD: priors.drag_prior(scene) if drag_prior else None,
         priors.SUPPLY_FIELD: priors.supply_prior(scene),
     }
-    found = [
-        _Uncertain(path, one, priors.prior_in_words(one))
-        for path, one in assumed.items()
-        if one is not None and path not in given
+    inputs = [
+        _Uncertain(path, distribution, priors.prior_in_words(distribution))
+        for path, distribution in assumed.items()
+        if distribution is not None and path not in distributions
     ]
-    for path, one in given.items():
-        if one.deviation > 0.0:
+    for path, distribution in distributions.items():
+        if distribution.deviation > 0.0:
             meaning = priors.meaning(scene, path)
-            found.append(_Uncertain(path, one, f"{_in_words(one)}; {meaning}" if meaning else _in_words(one)))
-    return found
+            inputs.append(
+                _Uncertain(
+                    path, distribution, f"{_in_words(distribution)}; {meaning}" if meaning else _in_words(distribution)
+                )
+            )
+    return inputs
 
 
 def _without_words(scene: AbstractScene) -> AbstractScene:
@@ -154,17 +160,17 @@ def _without_words(scene: AbstractScene) -> AbstractScene:
     return scene.replace({priors.LEVEL_FIELD: None, priors.SUPPLY_FIELD: supply.nominal})
 
 
-def _part(one: _Uncertain, losses: np.ndarray) -> PowerPart:
+def _part(uncertain: _Uncertain, losses: np.ndarray) -> PowerPart:
     low, high = sorted(float(losses[np.flatnonzero(share == SHARES)[0]]) for share in LIKELY)
-    return PowerPart(one.path, low, high, one.words)
+    return PowerPart(uncertain.path, low, high, uncertain.words)
 
 
 def _together(value: float, inputs: list[_Uncertain], losses: Mapping[str, np.ndarray]) -> tuple[float, float]:
     """Limits of the loss by all inputs; each takes its values in an order of its own."""
     order, total = np.random.default_rng(0), np.full(VALUES, value)
     shares = (np.arange(VALUES) + 0.5) / VALUES
-    for one in inputs:
-        total += order.permutation(at_shares(one.values, losses[one.path], shares) - value)
+    for uncertain in inputs:
+        total += order.permutation(at_shares(uncertain.values, losses[uncertain.path], shares) - value)
     low, high = np.quantile(total, LIKELY)
     return float(low), float(high)
 
@@ -180,11 +186,11 @@ def at_shares(values: Distribution, solved: np.ndarray, shares: np.ndarray) -> n
     return PchipInterpolator(at, solved)(np.clip(values.quantiles(shares), at[0], at[-1]))
 
 
-def _in_words(one: Distribution) -> str:
+def _in_words(distribution: Distribution) -> str:
     """A distribution of the scene or of its oil, SI."""
-    if one.median is not None:
-        return f"lognormal, median {one.median:.4g}, log deviation {one.log_deviation:.3g}"
-    if one.shape == "uniform":
-        half = math.sqrt(3.0) * one.deviation
-        return f"uniform, {one.mean - half:.4g} to {one.mean + half:.4g}"
-    return f"normal, mean {one.mean:.4g}, deviation {one.deviation:.3g}"
+    if distribution.median is not None:
+        return f"lognormal, median {distribution.median:.4g}, log deviation {distribution.log_deviation:.3g}"
+    if distribution.shape == "uniform":
+        half = math.sqrt(3.0) * distribution.deviation
+        return f"uniform, {distribution.mean - half:.4g} to {distribution.mean + half:.4g}"
+    return f"normal, mean {distribution.mean:.4g}, deviation {distribution.deviation:.3g}"

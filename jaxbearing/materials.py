@@ -100,10 +100,10 @@ _THERMAL: dict[str, tuple[float, float, float]] = {
 catalogue, the others are handbook values: expansions to 5 %, conductivities and heat capacities to 20 %."""
 
 
-def material_named(given: str) -> str | None:
+def material_named(text: str) -> str | None:
     """The name in `CATALOGUE` of a material that a person may call "100Cr6", "m-50" or "ceramic"; `None` for a name
     that stands for no material of the catalogue."""
-    plain = re.sub(r"[\s._-]+", "", given).lower()
+    plain = re.sub(r"[\s._-]+", "", text).lower()
     by_lower = {name.replace("_", "").lower(): name for name in CATALOGUE}
     return by_lower.get(plain) or ALIASES.get(plain)
 

@@ -133,8 +133,10 @@ def _five(displacement: object) -> Array | np.ndarray:
         return as_float(displacement)
     if not isinstance(displacement, list | tuple) or len(displacement) != 5:
         raise ValueError(f"{expected}; got {displacement!r}")
-    numbers = [_number(f"displacement, {name},", one) for name, one in zip(RING_FREEDOMS, displacement, strict=True)]
-    return jnp.stack(numbers) if any(isinstance(one, jax.Array) for one in numbers) else np.stack(numbers)
+    numbers = [
+        _number(f"displacement, {name},", value) for name, value in zip(RING_FREEDOMS, displacement, strict=True)
+    ]
+    return jnp.stack(numbers) if any(isinstance(number, jax.Array) for number in numbers) else np.stack(numbers)
 
 
 @rare_garbage_collection()
@@ -150,12 +152,12 @@ def _react_any(
     if tilt is not None and scene.rating is not None and scene.rating.tilt == "iso":
         scene = scene.replace({"rating.tilt": "exact"})
     numbers = (displacement, closure, expansion)
-    finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(one)) for one in numbers]))
+    finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(number)) for number in numbers]))
     if not scene.may_tilt:
         finite &= jnp.all(displacement[3:] == 0.0)
 
     def react(lane: AbstractBearing) -> Solution:
-        displacement, closure, expansion = (jnp.where(finite, one, 0.0) for one in numbers)
+        displacement, closure, expansion = (jnp.where(finite, number, 0.0) for number in numbers)
         lane = dataclasses.replace(lane, operation=nan_unless(lane.operation, finite))
         solution = at_displacement(lane, displacement, closure, expansion)
         return dataclasses.replace(solution, status=jnp.where(finite, solution.status, int(Status.INVALID_INPUT)))
@@ -175,9 +177,9 @@ def _react_any(
 _react = eqx.filter_jit(_react_any)
 
 
-def _react_quickly(*given: object) -> Solution:
-    return solved(_react_any, *given)[0]
+def _react_quickly(*arguments: object) -> Solution:
+    return solved(_react_any, *arguments)[0]
 
 
-def _react_differentiated(*given: object) -> Solution:
-    return differentiable(_react_any, _react, *given)
+def _react_differentiated(*arguments: object) -> Solution:
+    return differentiable(_react_any, _react, *arguments)

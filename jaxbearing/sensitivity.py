@@ -144,8 +144,8 @@ def _results(solution: AbstractSolution, wanted: _Wanted) -> dict[str, Array]:
     if isinstance(solution, ShaftSolution):
         return _of_shaft(solution, wanted)
     if wanted.names is not None:
-        found = f"a {type(solution).__name__}"
-        raise NoSensitivities(f"found {found}; expected a bearing, whose results are {', '.join(wanted.names)}")
+        kind = f"a {type(solution).__name__}"
+        raise NoSensitivities(f"found {kind}; expected a bearing, whose results are {', '.join(wanted.names)}")
     if isinstance(solution, LineContactSolution):
         return {"film": solution.film.central}
     if isinstance(solution, TwoDiskSolution):
@@ -164,7 +164,7 @@ def _of_bearing(solution: Solution, wanted: _Wanted) -> dict[str, Array]:
     power, cage, life, thermal = solution.power_loss, solution.cage, solution.life, solution.thermal
     # a total of no part at all is no result
     parts = [name for name, value in vars(power).items() if value is not None and name != "total"] if power else []
-    found: dict[str, Array | None] = {
+    results: dict[str, Array | None] = {
         "power_loss": power.total if parts else None,
         "slip": None if cage is None else cage.slip,
         "life": None if life is None else life.L10r,
@@ -173,11 +173,11 @@ def _of_bearing(solution: Solution, wanted: _Wanted) -> dict[str, Array]:
         "axial_stiffness": _stiffness_of(solution, "axial"),
         "temperature": None if thermal is None else _hottest(thermal),
     }
-    chosen = {name: found[name] for name in (USUAL if wanted.names is None else wanted.names)}
+    chosen = {name: results[name] for name in (USUAL if wanted.names is None else wanted.names)}
     there = {name: value for name, value in chosen.items() if value is not None}
     missing = [name for name in chosen if name not in there]
     if wanted.names is not None and missing:
-        others = ", ".join(name for name, value in found.items() if value is not None)
+        others = ", ".join(name for name, value in results.items() if value is not None)
         raise NoSensitivities(f"found a bearing that does not model {', '.join(missing)}; expected one of {others}")
     if not there:
         raise NoSensitivities(
@@ -189,12 +189,12 @@ def _of_bearing(solution: Solution, wanted: _Wanted) -> dict[str, Array]:
 
 def _of_shaft(solution: ShaftSolution, wanted: _Wanted) -> dict[str, Array]:
     """**Raises:** `NoSensitivities`."""
-    losses = [getattr(one.solution, "power_loss", None) for one in solution.bearings.values()]
-    found: dict[str, Array | None] = {
-        "power_loss": solution.torque.power_loss if any(one and one.total is not None for one in losses) else None,
+    losses = [getattr(bearing.solution, "power_loss", None) for bearing in solution.bearings.values()]
+    results: dict[str, Array | None] = {
+        "power_loss": solution.torque.power_loss if any(loss and loss.total is not None for loss in losses) else None,
         "life": None if solution.life is None else solution.life.L10r,
     }
-    there = {name: value for name, value in found.items() if value is not None}
+    there = {name: value for name, value in results.items() if value is not None}
     if wanted.names is not None:
         missing = [name for name in wanted.names if name not in there]
         if missing:
@@ -233,11 +233,11 @@ def _slopes(
         return _results(solution, wanted), solution.converged
 
     slopes = _backward if isinstance(scene, EHLLineContact) else _forward
-    values, found, converged = slopes(results, numbers)
+    values, gradients, converged = slopes(results, numbers)
 
     def scaled(name: str) -> AbstractScene:
         scale = 1.0 if name in ABSOLUTE else values[name]
-        return jax.tree.map(lambda slope: jnp.where(converged, slope / scale, jnp.nan), found[name])
+        return jax.tree.map(lambda slope: jnp.where(converged, slope / scale, jnp.nan), gradients[name])
 
     return {name: scaled(name) for name in values}
 
@@ -294,7 +294,7 @@ class UsualTolerance(NamedTuple):
 
 
 def effects(
-    scene: AbstractScene, found: Sensitivities, tolerances: Mapping[str, UsualTolerance]
+    scene: AbstractScene, computed: Sensitivities, tolerances: Mapping[str, UsualTolerance]
 ) -> dict[str, dict[str, float]]:
     """By how much each result changes if an input changes by its tolerance, to first order: relative to the result, of
     `ABSOLUTE` results absolute (K). Inputs without a tolerance, of 0 or of several values are left out.
@@ -302,10 +302,10 @@ def effects(
     **Arguments:** `tolerances`: by dotted path.
     """
     inputs = {path: float(value) for path, value in _by_path(scene, scene).items() if _is_one_number(value)}
-    share = {path: one.size / abs(inputs[path]) for path, one in tolerances.items() if inputs.get(path)}
+    share = {path: tolerance.size / abs(inputs[path]) for path, tolerance in tolerances.items() if inputs.get(path)}
     return {
         name: {path: float(slopes[path]) * part for path, part in share.items() if path in slopes}
-        for name, slopes in found.modelled().items()
+        for name, slopes in computed.modelled().items()
     }
 
 

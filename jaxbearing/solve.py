@@ -182,10 +182,10 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     require_x64()
     require_solvable(scene)
     own_numbers = jax.tree.map(as_float, scene)
-    given, structure = jax.tree.flatten(own_numbers)
+    values, structure = jax.tree.flatten(own_numbers)
     arguments = jax.tree.structure((own_numbers, chosen))
     # the leaves go to the device once and are passed as a list, which saves work at each call
-    numbers = [value if isinstance(value, Tracer) else jax.device_put(value) for value in given]
+    numbers = [value if isinstance(value, Tracer) else jax.device_put(value) for value in values]
 
     @jax.jit
     def compiled(numbers: list[Any]) -> AbstractSolution:
@@ -196,7 +196,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     def answer(numbers: list[Any]) -> AbstractSolution:
         """Calls the cached program. Calls the `jax.jit` function instead if a number is traced or batched, or if
         programs are not cached."""
-        if any(isinstance(number, Tracer) for number in numbers) or [np.shape(one) for one in numbers] != shapes:
+        if any(isinstance(number, Tracer) for number in numbers) or [np.shape(number) for number in numbers] != shapes:
             return compiled(numbers)
         if programs:
             return programs[0](numbers)
@@ -205,7 +205,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
             return programs[0](numbers)
 
     # a changed copy shares its unchanged leaves with this scene: `is` recognises them
-    own = jax.tree.unflatten(structure, given)
+    own = jax.tree.unflatten(structure, values)
 
     def fast(other: AbstractScene | None = None, /, **operation: Any) -> AbstractSolution:
         if other is None and not operation:
@@ -217,7 +217,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
         changed = changed.at_operation(**operation) if operation else changed
         others, kind = jax.tree.flatten(changed)
         if kind == structure:
-            leaves = zip(others, given, numbers, strict=True)
+            leaves = zip(others, values, numbers, strict=True)
             return answer([on_device if new is old else as_float(new) for new, old, on_device in leaves])
         return _solve(jax.tree.map(as_float, changed), chosen)
 

@@ -108,7 +108,7 @@ def assemble(
         notes=notes,
         element_name=scene.element,
         failure_causes={
-            text: FailureCause(~good & one.applies, one.numbers) for text, one in (failure_causes or {}).items()
+            text: FailureCause(~good & cause.applies, cause.numbers) for text, cause in (failure_causes or {}).items()
         },
         **jax.tree.map(lambda leaf: jnp.where(good, leaf, nan), shown),
         **names,

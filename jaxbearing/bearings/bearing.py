@@ -126,7 +126,7 @@ class AbstractBearing(AbstractScene):
             solution,
             status=jnp.where(possible, solution.status, int(Status.INVALID_INPUT)),
             operation=self.operation,
-            fit=jax.tree.map(lambda one: jnp.where(good, one, jnp.nan), fit),
+            fit=jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), fit),
             checks={**solution.checks, **checks},
             notes=(*solution.notes, *self.fits.assumptions(self.temperatures is not None)),
             failure_causes={**solution.failure_causes, **impossible},
@@ -215,8 +215,8 @@ class AbstractBearing(AbstractScene):
     @property
     def drawing_angle(self) -> Array:
         """Nominal contact angle, rad; 0 if the geometry has none or gives a clearance instead."""
-        given = getattr(self.geometry, "contact_angle", None)
-        return jnp.asarray(0.0 if given is None else given)
+        nominal = getattr(self.geometry, "contact_angle", None)
+        return jnp.asarray(0.0 if nominal is None else nominal)
 
     @property
     def one_way_angle(self) -> Array:

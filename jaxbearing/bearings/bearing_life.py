@@ -111,24 +111,24 @@ def ineffective_inputs(scene: AbstractBearing, life: Life) -> list[Information]:
     assert rating is not None
     if not scene.line_contacts:
         others = {"n_laminae": rating.n_laminae, "edge_factor": rating.edge_factor}
-        found = [
+        texts = [
             f"rating.{name} has no effect: it is about rollers" for name, value in others.items() if value is not None
         ]
     else:
         about_balls = {"grooves": rating.grooves != "catalogue", "tilt": rating.tilt != "exact"}
-        found = [f"rating.{name} has no effect: it is about balls" for name, chosen in about_balls.items() if chosen]
+        texts = [f"rating.{name} has no effect: it is about balls" for name, chosen in about_balls.items() if chosen]
     if rating.n_laminae is not None and rating.n_laminae < FEWEST_LAMINAE and scene.line_contacts:
-        found.append(
+        texts.append(
             f"rating.n_laminae = {rating.n_laminae}: ISO 16281 asks for at least {FEWEST_LAMINAE}; with edge factors "
             "the life of straight rollers grows with the number of laminae"
         )
     if rating.says_cleanliness and life.viscosity_ratio is None:
         lacking = "a viscosity ratio: rating.viscosity_ratio, or an oil with a density"
         name = "contamination_factor" if rating.cleanliness is None else "cleanliness"
-        found.append(f"rating.{name} has no effect without {lacking}")
+        texts.append(f"rating.{name} has no effect without {lacking}")
     if rating.roughness_rings is not None and life.film_ratio_inner is None:
-        found.append("rating.roughness_rings and roughness_elements have no effect without films")
-    return [Information(text) for text in found]
+        texts.append("rating.roughness_rings and roughness_elements have no effect without films")
+    return [Information(text) for text in texts]
 
 
 def bearing_life(scene: object, solution: Solution) -> Life:
@@ -167,7 +167,7 @@ def bearing_life(scene: object, solution: Solution) -> Life:
     if kappa is not None:
         more["viscosity_ratio"] = kappa
     if kappa is not None and rating.says_cleanliness:
-        limit = _given(
+        limit = _chosen(
             rating.fatigue_load_limit, lambda: fatigue_load_limit(rated.static_capacity, pitch_diameter, rated.family)
         )
         clean = _cleanliness(rating, kappa, pitch_diameter)
@@ -252,7 +252,7 @@ def _cleanliness(rating: Rating, kappa: Array, pitch_diameter: Array) -> Array:
     return contamination_factor(kappa, pitch_diameter, rating.cleanliness)
 
 
-def _given(value: Scalar | None, computed: Callable[[], Array]) -> Array:
+def _chosen(value: Scalar | None, computed: Callable[[], Array]) -> Array:
     return computed() if value is None else jnp.asarray(value)
 
 
@@ -269,8 +269,8 @@ def _of_points(contacts: RatedContacts, rating: Rating, turns: tuple[Array, Arra
     modulus = rated_modulus(contacts.rings, contacts.elements, contacts.inner_ring)
     # the conformities of the ratings; the damage is split between the races with the bearing's own conformities
     rated = contacts.conformities if rating.grooves == "scene" else (CATALOGUE_CONFORMITY,) * 2
-    capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *rated))
-    static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0], modulus))
+    capacity = _chosen(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *rated))
+    static = _chosen(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0], modulus))
     limits = ball_contact_capacities(capacity, *sizes, *contacts.conformities)
     of_inner, of_outer = turns
     rate = ball_damage_rate(contacts.inner, contacts.outer, limits, of_inner, of_outer, contacts.second)
@@ -298,8 +298,8 @@ def _of_lines(contacts: RatedContacts, rating: Rating, turns: tuple[Array, Array
     angle, length = jnp.asarray(contacts.contact_angle), contacts.length
     sizes = (contacts.n_elements, contacts.diameter, contacts.pitch_diameter)
     modulus = rated_modulus(contacts.rings, contacts.elements, contacts.inner_ring)
-    capacity = _given(rating.dynamic_capacity, lambda: roller_capacity(*sizes, length, angle))
-    static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length, angle, modulus))
+    capacity = _chosen(rating.dynamic_capacity, lambda: roller_capacity(*sizes, length, angle))
+    static = _chosen(rating.static_capacity, lambda: roller_static_capacity(*sizes, length, angle, modulus))
     limits = roller_contact_capacities(capacity, *sizes, angle)
     inner, outer = contacts.inner, contacts.outer
     if inner.ndim == 1:

@@ -116,7 +116,7 @@ class AbstractCage(Checked, Generic[Geometry]):
             # the limit of the guiding clearance follows from the land, so it is checked only if the land is accepted
             if name != "guiding_clearance" or not problems[land]:
                 problems[name] = list(refusals_of(_check_limit, name, *limit))
-        refuse_all(error for found in problems.values() for error in found)
+        refuse_all(error for errors in problems.values() for error in errors)
 
     def _limits(self, geometry: Geometry) -> Iterator[tuple[str, Scalar, Ends, str, str]]:
         """Yields for each limited field its name, its value, a function that returns the limits, and the limits in

@@ -59,19 +59,19 @@ def result_excess(
     applies.
 
     **Arguments:** `held`: True if the displacement of the ring is prescribed and the loads of the scene do not act."""
-    result, found = SolvedBearing(scene, facts, ring, cage, held), {}
+    result, excess = SolvedBearing(scene, facts, ring, cage, held), {}
     for check in (*scene.range_checks().results, *RESULT_CHECKS):
-        found |= check(result)
-    return found
+        excess |= check(result)
+    return excess
 
 
 def input_excess(scene: AbstractBearing, held: bool = False) -> Excess:
     """Like `result_excess`, but of the scene alone. These warnings also hold for failed solves and for transient
     runs."""
-    own, found = scene.range_checks(), {}
+    own, excess = scene.range_checks(), {}
     for check in (*(() if held else own.loads), *own.inputs, *INPUT_CHECKS):
-        found |= check(scene)
-    return found
+        excess |= check(scene)
+    return excess
 
 
 # -- contacts -------------------------------------------------------------------------------------------------------
@@ -140,12 +140,12 @@ def _gupta(result: SolvedBearing) -> Excess:
             return {}
         loading = contacts.most(thermal.thermal_loading(contacts.mean_speed, inlet))
         text = Information("thermal loading beyond 20 on {place}: Gupta's factor is extrapolated")
-        found = contacts.said(text, loading - 20.0)
+        excess = contacts.said(text, loading - 20.0)
         if contacts.sliding is not None:
             slide = contacts.most(thermal.slide_ratio(contacts.mean_speed, contacts.sliding))
             text = Information("slide ratio of a loaded contact beyond 2 on {place}: Gupta's factor is extrapolated")
-            found |= contacts.said(text, slide - 2.0)
-        return found
+            excess |= contacts.said(text, slide - 2.0)
+        return excess
 
     return result.each(fitted)
 
@@ -161,11 +161,11 @@ def _starved(result: SolvedBearing) -> Excess:
     )
 
     def starved(contacts: Contacts) -> Excess:
-        found = contacts.starved
-        if found is None:
+        supply = contacts.starved
+        if supply is None:
             return {}
-        said = contacts.said(thin, contacts.most(STARVED - found.film_factor))
-        return said if found.reach is None else said | contacts.said(inside, contacts.most(found.reach - 1.0))
+        excess = contacts.said(thin, contacts.most(STARVED - supply.film_factor))
+        return excess if supply.reach is None else excess | contacts.said(inside, contacts.most(supply.reach - 1.0))
 
     return result.each(starved)
 
@@ -203,7 +203,7 @@ def _cut_off(result: SolvedBearing) -> Excess:
 # -- the whole bearing ----------------------------------------------------------------------------------------------
 
 
-def _cage_touches(result: SolvedBearing) -> Excess:
+def _cage_contact(result: SolvedBearing) -> Excess:
     text = "cage eccentricity beyond 0.98: the land nearly touches, its film law saturates"
     return {} if result.cage is None else {text: result.cage.eccentricity_ratio - 0.98}
 
@@ -248,7 +248,7 @@ RESULT_CHECKS: tuple[Callable[[SolvedBearing], Excess], ...] = (
     _rough,
     _gupta,
     _starved,
-    _cage_touches,
+    _cage_contact,
 )
 """Checks of results for all bearings, in the order of the warnings. The checks of a family come before these."""
 
@@ -294,7 +294,7 @@ def _clearance(scene: AbstractBearing) -> Excess:
 
 def _thick_rim(scene: AbstractBearing) -> Excess:
     rings: list[AbstractBendingRing | None] = [getattr(scene, f"{side}_ring", None) for side in ("inner", "outer")]
-    found = {}
+    excess = {}
     for side, ring in enumerate(rings):
         if ring is None or not ring.harmonics:
             continue
@@ -303,15 +303,15 @@ def _thick_rim(scene: AbstractBearing) -> Excess:
             "wrong by about the square of this ratio, 4 % and more"
         )
         raceway, thickness = 0.5 * scene.raceway_diameters[side], jnp.asarray(ring.thickness)
-        found[text] = thickness / ring.centroid_radius(raceway) - THICK_RIM
+        excess[text] = thickness / ring.centroid_radius(raceway) - THICK_RIM
         seat = (scene.geometry.bore, scene.geometry.outside_diameter)[side]
         if seat is not None:
             text = Information(
                 f"{ring.part}.thickness is more than the wall between raceway and seat: a section of this height bends "
                 "less than the ring"
             )
-            found[text] = thickness - MORE_THAN_WALL * jnp.abs(0.5 * seat - raceway)
-    return found
+            excess[text] = thickness - MORE_THAN_WALL * jnp.abs(0.5 * seat - raceway)
+    return excess
 
 
 INPUT_CHECKS: tuple[Callable[[AbstractBearing], Excess], ...] = (

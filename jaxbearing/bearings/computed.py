@@ -25,8 +25,8 @@ def computed(unit: str, description: str, of: Callable[[Found], Array | None], *
     return eqx.field(metadata={**label(unit, description), "of": of}, **default)
 
 
-def computed_results(kind: type[eqx.Module], found: object) -> dict[str, Any]:
+def computed_results(kind: type[eqx.Module], record: object) -> dict[str, Any]:
     """Computes the fields of a result class that were declared with `computed`: name -> result.
 
-    **Arguments:** `kind`: the result class; `found`: the record that the functions take."""
-    return {field.name: field.metadata["of"](found) for field in dataclasses.fields(kind) if "of" in field.metadata}
+    **Arguments:** `kind`: the result class; `record`: the record that the functions take."""
+    return {field.name: field.metadata["of"](record) for field in dataclasses.fields(kind) if "of" in field.metadata}

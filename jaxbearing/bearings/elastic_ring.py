@@ -124,13 +124,13 @@ class ElasticRing(eqx.Module):
     def judged(self, ring: InnerRing, result: NewtonResult) -> tuple[NewtonResult, Bool[Array, ""]]:
         """Returns the result of a solve and whether it failed because the supports of the ring cannot carry the loads;
         in that case the status of the result becomes `no_equilibrium`."""
-        supports, given = self.ring.supports, dict(zip(ring.freedoms, ring.load, strict=True))
-        if supports is None or self.ring.foundation is not None or "radial" not in given:
+        supports, loads = self.ring.supports, dict(zip(ring.freedoms, ring.load, strict=True))
+        if supports is None or self.ring.foundation is not None or "radial" not in loads:
             return result, jnp.asarray(False)
-        load = jnp.stack([given["radial"], given.get("lateral", jnp.zeros(()))])
+        load = jnp.stack([loads["radial"], loads.get("lateral", jnp.zeros(()))])
         if self.ring.loads is not None:
             load = load + self.ring.loads.resultant()
-        none = supports.cannot_bear(load, "lateral" in given) & ~result.converged
+        none = supports.cannot_bear(load, "lateral" in loads) & ~result.converged
         return result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status)), none
 
     def displacement(self, amplitudes: Float[Array, " mode"]) -> Float[Array, "2"]:
@@ -141,8 +141,8 @@ class ElasticRing(eqx.Module):
         if 1 not in orders:
             return jnp.zeros(2)
         # the cosines of all orders come first; order 1 is the first order with a sine
-        found = amplitudes[np.asarray([orders.index(1), len(orders)])]
-        return -found if self.inner else found
+        first_order = amplitudes[np.asarray([orders.index(1), len(orders)])]
+        return -first_order if self.inner else first_order
 
     def shape(self, amplitudes: Float[Array, " mode"]) -> AbstractRingDeflection:
         """Deflected shape of the ring, as results show it."""
@@ -154,8 +154,8 @@ class ElasticRing(eqx.Module):
         forces = None if ring.supports is None else ring.reactions(scaled)
         radius = jnp.asarray(ring.section.radius)
         deflection = ring.deflection(scaled, azimuth)
-        found = (jnp.asarray(azimuth), deflection, scaled[:count], sines, radius, orders)
-        return InnerRingDeflection(*found) if self.inner else RingDeflection(*found, forces)
+        fields = (jnp.asarray(azimuth), deflection, scaled[:count], sines, radius, orders)
+        return InnerRingDeflection(*fields) if self.inner else RingDeflection(*fields, forces)
 
 
 class BentRings(eqx.Module):

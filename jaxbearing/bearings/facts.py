@@ -113,17 +113,17 @@ class SolvedBearing(NamedTuple):
         """Entries of a check with one text, for all kinds of contacts except those whose `excess` is `None`."""
 
         def of(contacts: Contacts) -> Excess:
-            found = excess(contacts)
-            return {} if found is None else contacts.said(text, found)
+            values = excess(contacts)
+            return {} if values is None else contacts.said(text, values)
 
         return self.each(of)
 
     def each(self, check: Callable[[Contacts], Excess]) -> Excess:
         """Joins the entries of a check for all kinds of contacts."""
-        found: Excess = {}
+        entries: Excess = {}
         for contacts in self.facts.contacts:
-            found |= check(contacts)
-        return found
+            entries |= check(contacts)
+        return entries
 
 
 class RangeChecks(NamedTuple):

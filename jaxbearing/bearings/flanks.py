@@ -29,25 +29,25 @@ def _second(elements: object) -> dict[str, Array]:
 def by_flank(elements: Elements) -> list[Elements]:
     """Returns the elements with the results of the first flanks and, if a ring has two arcs, the elements with the
     results of the second flanks in the same fields. The second flank of a ring with one arc has the load 0."""
-    found = _second(elements)
-    if not found:
+    second = _second(elements)
+    if not second:
         return [elements]
     empty = {name: jnp.zeros_like(getattr(elements, name)) for name in ("load_inner", "load_outer")}
-    return [elements, dataclasses.replace(elements, **(empty | found))]
+    return [elements, dataclasses.replace(elements, **(empty | second))]
 
 
 def on_heavier_flanks(elements: Elements) -> Elements:
     """Returns the elements with the results of the more heavily loaded flank, for each race and element."""
-    found = _second(elements)
-    if not found:
+    second = _second(elements)
+    if not second:
         return elements
     heavier = {}
     for race in ("inner", "outer"):
-        if f"load_{race}" in found:
-            heavier[race] = found[f"load_{race}"] > getattr(elements, f"load_{race}")
+        if f"load_{race}" in second:
+            heavier[race] = second[f"load_{race}"] > getattr(elements, f"load_{race}")
     chosen = {
         name: jnp.where(heavier[name.rsplit("_", 1)[1]], value, getattr(elements, name))
-        for name, value in found.items()
+        for name, value in second.items()
         if getattr(elements, name) is not None
     }
     return dataclasses.replace(elements, **chosen)

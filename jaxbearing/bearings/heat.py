@@ -109,9 +109,9 @@ def bearing_heat(
     to_rings = {"inner_ring": 0.5, "outer_ring": 0.5}
     if len(nodes) > 1:
         flanks = by_flank(solution.elements)
-        contacts = ContactHeat(*map(_joined, zip(*(_contacts(scene, one) for one in flanks), strict=True)))
+        contacts = ContactHeat(*map(_joined, zip(*(_contacts(scene, flank) for flank in flanks), strict=True)))
         between = _between(scene, thermal, solution, contacts, dict(zip(nodes, temperatures, strict=True)))
-        load = _joined([jnp.stack([one.load_inner, one.load_outer]) for one in flanks])
+        load = _joined([jnp.stack([flank.load_inner, flank.load_outer]) for flank in flanks])
         carried = jnp.sum(load, axis=1)
         # losses are generated where the load is: the contacts are weighted by their loads
         parts = jnp.sum(load * contacts.share, axis=1) / jnp.where(carried > 0.0, carried, 1.0)
@@ -137,7 +137,7 @@ def bearing_heat(
 
 def _given_shares(scene: AbstractBearing, thermal: Thermal) -> dict[str, dict[str, Scalar | None]]:
     """Shares of the losses that the scene gives, as the argument `given` of `loss_shares`."""
-    rings, found = rings_of(scene), {}
+    rings, shares = rings_of(scene), {}
     second = {
         "inner_raceway": ("inner_ring", "elements"),
         "outer_raceway": ("outer_ring", "elements"),
@@ -152,10 +152,10 @@ def _given_shares(scene: AbstractBearing, thermal: Thermal) -> dict[str, dict[st
         if part is None:
             continue
         if first == "both":
-            found[name] = {"inner_ring": 0.5 * part, "outer_ring": 0.5 * part, last: None}
+            shares[name] = {"inner_ring": 0.5 * part, "outer_ring": 0.5 * part, last: None}
         else:
-            found[name] = {first: part, last: None}
-    return found
+            shares[name] = {first: part, last: None}
+    return shares
 
 
 def _solid(material: Material) -> Solid:
@@ -218,7 +218,7 @@ def _between(
     temperatures: Mapping[str, Array],
 ) -> dict[tuple[str, str], Scalar]:
     """Conductances between the nodes, W/K."""
-    geometry, given = scene.geometry, thermal.conductance
+    geometry, conductance = scene.geometry, thermal.conductance
     through = jnp.sum(contacts.conductance, axis=1) + oil_filling_conductance(
         scene.materials.elements.conductivity, scene.element_diameter, scene.n_elements
     )
@@ -238,14 +238,14 @@ def _between(
             geometry.outside_diameter, width, gap("interference_outer")
         ),
     }
-    found = {}
+    conductances = {}
     for pair, compute in computed.items():
         if not set(pair) <= set(temperatures):
             continue
-        own = getattr(given, "_".join(pair))
+        own = getattr(conductance, "_".join(pair))
         group = "contacts" if pair[1] == "elements" else "oil" if pair[1] == "oil" else "seats"
-        found[pair] = getattr(thermal.factor, group) * (compute() if own is None else own)
-    return found
+        conductances[pair] = getattr(thermal.factor, group) * (compute() if own is None else own)
+    return conductances
 
 
 def _surface(scene: AbstractBearing) -> Array:
@@ -270,11 +270,11 @@ def _oil_transfer(scene: AbstractBearing, solution: Solution, temperature: Array
 
 def _to_ambient(scene: AbstractBearing, thermal: Thermal) -> dict[str, Scalar]:
     """Conductances of the nodes to the ambient, without the law of a housing in air, W/K."""
-    found = {}
+    conductances = {}
     for node in OUTSIDE[thermal.nodes]:
         own = getattr(thermal.conductance, f"{node}_ambient")
-        found[node] = thermal.factor.ambient * (_seat_to_ambient(scene, thermal, node) if own is None else own)
-    return found
+        conductances[node] = thermal.factor.ambient * (_seat_to_ambient(scene, thermal, node) if own is None else own)
+    return conductances
 
 
 def _seat_to_ambient(scene: AbstractBearing, thermal: Thermal, node: str) -> Scalar:
@@ -292,10 +292,10 @@ def _seat_to_ambient(scene: AbstractBearing, thermal: Thermal, node: str) -> Sca
 
 def heat_capacities(scene: AbstractBearing) -> Float[Array, " node"] | None:
     """Heat capacities of the nodes, J/K; `None` if one of them is not known."""
-    found = [value for _, value in _capacities(scene)]
-    if any(one is None for one in found):
+    capacities = [value for _, value in _capacities(scene)]
+    if any(capacity is None for capacity in capacities):
         return None
-    return jnp.stack([jnp.asarray(one, dtype=float) for one in found])
+    return jnp.stack([jnp.asarray(capacity, dtype=float) for capacity in capacities])
 
 
 def unknown_capacities(scene: AbstractBearing) -> tuple[str, ...]:
@@ -309,8 +309,8 @@ def _capacities(scene: AbstractBearing) -> list[tuple[str, Scalar | None]]:
     parts: dict[str, Scalar] = _own_capacities(scene)
     parts |= {name: value for name, value in vars(thermal.capacity).items() if value is not None}
     inside = [parts.get(name) for name in NODES[4]]
-    if "bearing" not in parts and all(one is not None for one in inside):
-        parts["bearing"] = jnp.sum(jnp.stack([jnp.asarray(one, dtype=float) for one in inside]))
+    if "bearing" not in parts and all(capacity is not None for capacity in inside):
+        parts["bearing"] = jnp.sum(jnp.stack([jnp.asarray(capacity, dtype=float) for capacity in inside]))
     return [(name, parts.get(name)) for name in thermal.node_names]
 
 
@@ -318,15 +318,15 @@ def _own_capacities(scene: AbstractBearing) -> dict[str, Scalar]:
     """Heat capacities of rings, elements and oil, J/K, as far as they follow from the scene."""
     geometry, rings, balls, oil = scene.geometry, scene.materials.of_rings, scene.materials.elements, scene.oil
     sizes = (geometry.bore, geometry.outside_diameter, geometry.width)
-    if any(size is None for size in sizes) or any(one.heat_capacity is None for one in (*rings, balls)):
+    if any(size is None for size in sizes) or any(material.heat_capacity is None for material in (*rings, balls)):
         return {}
     inner, outer = scene.raceway_diameters
     of_ring = [(geometry.width, ring.density, ring.heat_capacity) for ring in rings]
-    one = math.pi / 6.0 * jnp.power(scene.element_diameter, 3.0)
+    element_volume = math.pi / 6.0 * jnp.power(scene.element_diameter, 3.0)
     if scene.line_contacts:
-        one = 0.25 * math.pi * jnp.square(scene.element_diameter) * geometry.roller_length
-    volume = scene.n_elements * one
-    found = {
+        element_volume = 0.25 * math.pi * jnp.square(scene.element_diameter) * geometry.roller_length
+    volume = scene.n_elements * element_volume
+    capacities = {
         "inner_ring": ring_capacity(geometry.bore, inner, *of_ring[0]),
         "outer_ring": ring_capacity(outer, geometry.outside_diameter, *of_ring[1]),
         "elements": volume * balls.density * balls.heat_capacity,
@@ -336,7 +336,7 @@ def _own_capacities(scene: AbstractBearing) -> dict[str, Scalar]:
         speed = safe_norm(operation.inner_speed, operation.outer_speed)
         fraction = saturated_oil_fraction(operation.oil_flow, speed, geometry.pitch_diameter)
         free = 0.25 * math.pi * (jnp.square(outer) - jnp.square(inner)) * geometry.width - volume
-        found["oil"] = oil_capacity(
+        capacities["oil"] = oil_capacity(
             fraction, jnp.maximum(free, 0.0), oil.density.density(inlet), oil.heat_capacity.heat_capacity(inlet)
         )
-    return found
+    return capacities

@@ -70,15 +70,17 @@ def friction_totals(
     if not interactions:
         return FrictionTotals(losses())
     powers: dict[str, Array] = {}
-    for one in interactions:
-        if one.power is not None:
-            powers[one.location] = powers[one.location] + one.power if one.location in powers else one.power
+    for friction in interactions:
+        if friction.power is not None:
+            powers[friction.location] = (
+                powers[friction.location] + friction.power if friction.location in powers else friction.power
+            )
     inner, outer = (
-        _sum([torque for one in interactions if (torque := getattr(one, f"{ring}_torque")) is not None])
+        _sum([torque for friction in interactions if (torque := getattr(friction, f"{ring}_torque")) is not None])
         for ring in ("inner", "outer")
     )
     drive = motion.inner_speed * inner + motion.outer_speed * outer
-    rolling = next((one.by_race for one in interactions if one.by_race is not None), None)
+    rolling = next((friction.by_race for friction in interactions if friction.by_race is not None), None)
     return FrictionTotals(losses(total=_sum(list(powers.values())), **powers), drive, inner, outer, rolling)
 
 

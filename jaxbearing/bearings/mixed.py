@@ -20,15 +20,15 @@ def mixed_results(state: MixedState | None, sides: Sequence[str] = SIDES) -> dic
     **Arguments:** `state`: state of the contacts, with one row for each side; `sides`: names of the sides."""
     if state is None:
         return {}
-    found: dict[str, Array] = {}
+    results: dict[str, Array] = {}
     for i, side in enumerate(sides):
-        found |= {
+        results |= {
             f"film_ratio_{side}": state.film_ratio[i],
             f"load_share_{side}": state.share[i],
             f"boundary_{side}": state.boundary[i],
             f"flash_{side}": state.flash[i],
         }
-    return found
+    return results
 
 
 def boundary_power(

@@ -102,10 +102,10 @@ def check_walls(scene: AbstractBearing) -> None:
         ("outside_diameter", "more", "outer", outer, geometry.outside_diameter > outer),
     ):
         text = f"geometry.{name} must be {word} than the diameter of the {of} raceway"
-        said = lambda name=name, text=text, raceway=raceway: (
+        message = lambda name=name, text=text, raceway=raceway: (
             f"{text}, {float(raceway):.6g} m, got {float(getattr(geometry, name)):.6g} m"
         )
-        problems += refusals_of(demand, text, fine, said)
+        problems += refusals_of(demand, text, fine, message)
     refuse_all(problems)
 
 
@@ -179,8 +179,8 @@ def _rings(scene: AbstractBearing, warm: Array | bool, turning: Array | bool) ->
     def warming(*parts: str) -> Array:
         if cold:
             return jnp.zeros(len(parts))
-        found = _together([getattr(scene.temperatures, part) for part in parts])
-        return jnp.where(warm, found - REFERENCE_TEMPERATURE, 0.0)
+        temperatures = _together([getattr(scene.temperatures, part) for part in parts])
+        return jnp.where(warm, temperatures - REFERENCE_TEMPERATURE, 0.0)
 
     names, sizes = _seats_of(fits), [(bore, raceways[0]), (raceways[1], outside)]
     bodies = _bodies(list(scene.materials.of_rings), sizes, speeds, warming("inner_ring", "outer_ring"), cold)
@@ -199,14 +199,14 @@ def _rings(scene: AbstractBearing, warm: Array | bool, turning: Array | bool) ->
         growth = growth + bodies.pressed(raceways, jnp.where(inside, pressures, 0.0), jnp.where(inside, 0.0, pressures))
     element = [getattr(scene.materials, f"{scene.element}s")]
     elements = _bodies(element, [(0.0, 1.0)], speeds[:1], warming("of_elements"), cold)
-    strains = [jnp.broadcast_to(one.strain, one.speed.shape) for one in (bodies, elements)]
+    strains = [jnp.broadcast_to(body.strain, body.speed.shape) for body in (bodies, elements)]
     return _Rings(Growth(*growth, *strains[0], *strains[1]), bodies.hoop_stress_at_bore(pressures)[0], seats)
 
 
 def _together(numbers: Iterable[Scalar]) -> Array:
     """Joins numbers to an array. `jnp.stack` is not used, because it fails if only some of the numbers are batched and
     differentiated."""
-    return jnp.concatenate([jnp.reshape(jnp.asarray(one), (1,)) for one in numbers])
+    return jnp.concatenate([jnp.reshape(jnp.asarray(number), (1,)) for number in numbers])
 
 
 def _bodies(
@@ -221,8 +221,8 @@ def _bodies(
     names = ("youngs_modulus", "poisson_ratio", "density", *(() if cold else ("thermal_expansion",)))
     # The fields of this material are arrays, which its constructor refuses: they replace the fields of a built material
     material = jax.tree.map(lambda _: None, materials[0])
-    values = [stacked([getattr(one, name) for one in materials]) for name in names]
-    fields = lambda one: [getattr(one, name) for name in names]
+    values = [stacked([getattr(single, name) for single in materials]) for name in names]
+    fields = lambda tree: [getattr(tree, name) for name in names]
     material = eqx.tree_at(fields, material, values, is_leaf=lambda leaf: leaf is None)
     bores, outsides = zip(*sizes, strict=True)
     return Annulus(material, stacked(bores), stacked(outsides), speeds, warming)
@@ -242,16 +242,16 @@ def _seats(fits: Fits, rings: Annulus, others: Annulus, interference: Array, sid
 
 def fit_excess(scene: AbstractBearing, fit: FitResult) -> Excess:
     """Maps each warning about the seats to a number that is positive where the warning applies."""
-    operation, found = scene.operation, {}
+    operation, excess = scene.operation, {}
     if fit.interference_inner is not None:
         turning = jnp.abs(jnp.asarray(operation.inner_speed)) > 0.0
         text = "the inner ring is loose on the shaft, where it will creep: a tighter fits.shaft_interference is needed"
-        found[text] = jnp.where(turning, -fit.interference_inner, -1.0)
+        excess[text] = jnp.where(turning, -fit.interference_inner, -1.0)
     if fit.interference_outer is not None:
         turning = jnp.abs(jnp.asarray(operation.outer_speed)) > 0.0
         text = "the outer ring is loose in the rotating housing: a tighter fits.housing_interference is needed"
-        found[text] = jnp.where(turning, -fit.interference_outer, -1.0)
-    found["stress around the bore of the inner ring beyond 127 MPa, where makers warn of bursting rings"] = (
+        excess[text] = jnp.where(turning, -fit.interference_outer, -1.0)
+    excess["stress around the bore of the inner ring beyond 127 MPa, where makers warn of bursting rings"] = (
         fit.hoop_stress - HIGHEST_STRESS
     )
-    return found
+    return excess

@@ -172,8 +172,8 @@ class AbstractOperation(Checked):
         return self._size("tilt", "tilt_lateral")
 
     def _size(self, *freedoms: str) -> Array:
-        given = [jnp.asarray(load) for load in map(self.load, freedoms) if load is not None]
-        return safe_norm(given[0], given[1]) if len(given) == 2 else jnp.abs(given[0] if given else jnp.zeros(()))
+        loads = [jnp.asarray(load) for load in map(self.load, freedoms) if load is not None]
+        return safe_norm(loads[0], loads[1]) if len(loads) == 2 else jnp.abs(loads[0] if loads else jnp.zeros(()))
 
     def check_rings_turn(self) -> None:
         """Checks that the rings turn relative to each other, as far as the speeds are known.

@@ -75,7 +75,7 @@ def meaning(scene: "AbstractScene", path: str) -> str:
     return f"s in alpha = s (nu/cSt)^t, and alpha is {alpha:.3g} 1/GPa at {celsius:.4g} degC"
 
 
-def prior_in_words(one: Distribution) -> str:
+def prior_in_words(prior: Distribution) -> str:
     """Description of an assumed distribution in words."""
-    cut = "" if one.high is None else f", at most {one.high:g}"
-    return f"assumed: lognormal, median {one.median:g}, log deviation {one.log_deviation:.3g}{cut}"
+    cut = "" if prior.high is None else f", at most {prior.high:g}"
+    return f"assumed: lognormal, median {prior.median:g}, log deviation {prior.log_deviation:.3g}{cut}"

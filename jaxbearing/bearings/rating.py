@@ -26,17 +26,17 @@ LAMINAE = 30
 """Number of laminae of a roller in the reference life if a scene does not give it."""
 
 
-def cleanliness_named(given: object) -> Any:
+def cleanliness_named(value: object) -> Any:
     """Contamination class for an ISO 4406 code of circulating oil such as "-/17/14", "20/17/14" or "17/14".
 
     It is the cleanest class whose numbers at 6 and 14 um are both at least those of the code. Any other value is
     returned unchanged, also a code that is dirtier than all classes."""
-    code = _ISO_4406.fullmatch(given.strip()) if isinstance(given, str) else None
+    code = _ISO_4406.fullmatch(value.strip()) if isinstance(value, str) else None
     if code is None:
-        return given
+        return value
     fine, coarse = int(code[1]), int(code[2])
     classes = (name for name, limits in _FILTERS.items() if fine <= limits[0] and coarse <= limits[1])
-    return next(classes, given)
+    return next(classes, value)
 
 
 class Rating(Checked):
@@ -97,9 +97,9 @@ class Rating(Checked):
                 "rating.contamination_factor: expected none beside rating.cleanliness, which is a factor by its class"
             )
         if (self.roughness_rings is None) != (self.roughness_elements is None):
-            missing, given = ("rings", "elements") if self.roughness_rings is None else ("elements", "rings")
+            missing, present = ("rings", "elements") if self.roughness_rings is None else ("elements", "rings")
             raise ValueError(
-                f"rating.roughness_{missing}: found nothing, expected a length, which 'roughness_{given}' "
+                f"rating.roughness_{missing}: found nothing, expected a length, which 'roughness_{present}' "
                 "needs beside it"
             )
 

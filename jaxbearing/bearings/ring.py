@@ -226,8 +226,8 @@ def inner_ring(scene: AbstractBearing, lever: Array, freedoms: tuple[str, ...] |
     load = [number(operation.load(name)) / by_name[name] for name in freedoms]
     held = jnp.zeros(5)
     for place, name in enumerate(RING_FREEDOMS):
-        given = operation.held_at(name)
-        if given is not None:
-            held = held.at[place].set(given * by_name[name])
+        displacement = operation.held_at(name)
+        if displacement is not None:
+            held = held.at[place].set(displacement * by_name[name])
     needs = operation.displaced or not freedoms
     return InnerRing(jnp.stack(load) if load else jnp.zeros(0), held, lever, freedoms, needs_held_load=needs)

@@ -35,20 +35,20 @@ Several = Float[Array | np.ndarray, "_"]
 """List of numbers of a part. Lists of one part may differ in length; `_Lists` compares those that belong together."""
 
 
-def _values(given: Any) -> Any:
+def _values(values: Any) -> Any:
     """Converts to a one-dimensional array of float64. Values that are not numbers are returned unchanged, so that the
     type check refuses them."""
-    if isinstance(given, list | tuple):
-        traced = any(isinstance(value, jax.Array) for value in given)
-        given = jnp.stack(given) if traced else np.asarray(given, dtype=np.float64)
-    given = as_float(given)
-    return given.reshape(1) if getattr(given, "ndim", None) == 0 else given
+    if isinstance(values, list | tuple):
+        traced = any(isinstance(value, jax.Array) for value in values)
+        values = jnp.stack(values) if traced else np.asarray(values, dtype=np.float64)
+    values = as_float(values)
+    return values.reshape(1) if getattr(values, "ndim", None) == 0 else values
 
 
 def _several(unit: str, bound: str = "finite") -> Any:
     """Field that holds a number or a list of numbers, each within the bound; `None` if a scene does not give it."""
-    said = {**label(unit, ""), "each": bound}
-    return eqx.field(converter=lambda v: None if v is None else _values(v), metadata=said, default=None)
+    metadata = {**label(unit, ""), "each": bound}
+    return eqx.field(converter=lambda v: None if v is None else _values(v), metadata=metadata, default=None)
 
 
 class _Lists(Checked):
@@ -68,8 +68,8 @@ class _Lists(Checked):
             sizes = {name: np.size(getattr(self, name)) for name in group if getattr(self, name) is not None}
             if sizes and (set(sizes) != set(group) or len(set(sizes.values())) > 1 or 0 in sizes.values()):
                 missing = [name for name in group if name not in sizes]
-                found = f"nothing for {' and '.join(missing)}" if missing else f"lists of lengths {sizes}"
-                yield f"{self.part}.{group[0]}: expected lists of one length for {', '.join(group)}, found {found}"
+                words = f"nothing for {' and '.join(missing)}" if missing else f"lists of lengths {sizes}"
+                yield f"{self.part}.{group[0]}: expected lists of one length for {', '.join(group)}, found {words}"
         for name, bound in self.bounds.items():
             values = getattr(self, name)
             if values is not None:
@@ -264,14 +264,14 @@ class AbstractRoundness(_Lists):
 
     def deviation(self, azimuth: Float[Array, " place"]) -> Float[Array, " place"]:
         """Deviation of the radius of the raceway, m, positive if it is larger. **Arguments:** `azimuth`: rad."""
-        found = jnp.zeros_like(azimuth)
+        total = jnp.zeros_like(azimuth)
         if self.lobe_order is not None:
             order, height, angle = (jnp.asarray(getattr(self, name))[:, None] for name in self.groups[0])
-            found = found + jnp.sum(height * jnp.cos(order * (azimuth[None, :] - angle)), axis=0)
+            total = total + jnp.sum(height * jnp.cos(order * (azimuth[None, :] - angle)), axis=0)
         if self.table_angle is not None:
             angle, deviation = (jnp.asarray(getattr(self, name)) for name in self.groups[1])
-            found = found + jnp.interp(azimuth, angle, deviation, period=2.0 * jnp.pi)
-        return found
+            total = total + jnp.interp(azimuth, angle, deviation, period=2.0 * jnp.pi)
+        return total
 
 
 class InnerRoundness(AbstractRoundness):

@@ -121,9 +121,9 @@ def settled_row(held: AbstractRowSystem, full: AbstractRowSystem, state: RowStat
         bent = descend_settled(held, guess, tolerance=BENDING_TOLERANCE, trials=BENDING_TRIALS).point
         state = RowState(bent.elements, bent.globals)
     ring = held.ring
-    found = settled(full, ArrowPoint(state.elements, _coordinates(ring, state)))
+    potential = settled(full, ArrowPoint(state.elements, _coordinates(ring, state)))
     scale, arm = full.load_scale(), levers(ring.lever)
-    energy, residual, stiffness = found.energy, found.residual, found.stiffness
+    energy, residual, stiffness = potential.energy, potential.residual, potential.stiffness
     if state.amplitudes is not None:
         follow = solve_dense(stiffness[5:, 5:], residual[5:])
         energy = energy + full.bent.energy(LENGTH_UNIT * state.amplitudes)

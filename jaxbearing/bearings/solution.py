@@ -253,8 +253,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     def freedoms_of_stiffness(self) -> tuple[str, ...]:
         """Degrees of freedom whose rows and columns of `stiffness` are modelled, in the order of `RING_FREEDOMS`. For
         the others, `stiffness` contains 0 as a placeholder."""
-        found = self.ring_freedom if self.stiffness_freedom is None else self.stiffness_freedom
-        return tuple(name for name in RING_FREEDOMS if name in found)
+        freedoms = self.ring_freedom if self.stiffness_freedom is None else self.stiffness_freedom
+        return tuple(name for name in RING_FREEDOMS if name in freedoms)
 
     @property
     def not_modelled(self) -> tuple[str, ...]:
@@ -271,13 +271,13 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
         Unless the loads have no equilibrium, it contains the residual and the worst equation, or the nested solve that
         failed; with a thermal network, the hottest node instead of the residual.
         """
-        found = causes_in_words(self.failure_causes)
-        if found and int(self.status) == Status.INVALID_INPUT:
-            return f"{Status.INVALID_INPUT.text}: {'; '.join(found)}"
+        causes = causes_in_words(self.failure_causes)
+        if causes and int(self.status) == Status.INVALID_INPUT:
+            return f"{Status.INVALID_INPUT.text}: {'; '.join(causes)}"
         # whether loads can be balanced does not depend on the temperatures
         mechanical = self.thermal is None or int(self.status) == Status.NO_EQUILIBRIUM
         ending = self._ending() if mechanical else self._thermal_ending()
-        return "; ".join([ending, *found])
+        return "; ".join([ending, *causes])
 
     def _thermal_ending(self) -> str:
         """Message of a failed search for the temperatures."""

@@ -74,19 +74,19 @@ def supply_result(
 
 def _of_races(races: tuple[int, ...], load: Float[Array, " contact"], values: Float[Array, " contact"]) -> list[Array]:
     """Values of the most loaded contact of each race, inner race first."""
-    found = []
+    by_race = []
     for race in (0, 1):
         rows = np.flatnonzero(np.asarray(races) == race)
-        found.append(values[rows][jnp.argmax(load[rows])])
-    return found
+        by_race.append(values[rows][jnp.argmax(load[rows])])
+    return by_race
 
 
 def supply_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
     """Yields an error for each input that the oil supply of a scene needs and lacks."""
     supply, flow = None if scene.contact is None else scene.contact.supply, scene.operation.oil_flow
     if supply is not None and supply.from_flow is not None and numbers_or_none(flow) is not None:
-        said = "operation.oil_flow: contact.supply.from_flow needs a volume flow > 0"
-        yield from refusals_of(demand, said, flow != 0.0, lambda: said)
+        message = "operation.oil_flow: contact.supply.from_flow needs a volume flow > 0"
+        yield from refusals_of(demand, message, flow != 0.0, lambda: message)
 
 
 def supply_notes(scene: AbstractBearing) -> tuple[str, ...]:

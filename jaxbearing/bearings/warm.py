@@ -122,8 +122,8 @@ def at_temperatures(scene: Bearing, temperatures: Float[Array, " node"]) -> Bear
         by_name: dict[str, Array] = dict(zip(nodes, temperatures, strict=True))
         if len(nodes) == 1:
             by_name |= dict.fromkeys(("inner_ring", "outer_ring", "elements"), temperatures[0])
-        given = ("inner_ring", "outer_ring", "elements", "shaft", "housing")
-        parts = PartTemperatures(**{name: by_name[name] for name in given if name in by_name})
+        part_names = ("inner_ring", "outer_ring", "elements", "shaft", "housing")
+        parts = PartTemperatures(**{name: by_name[name] for name in part_names if name in by_name})
     return dataclasses.replace(scene, thermal=None, temperatures=parts, oil_temperatures=oil)
 
 
@@ -248,16 +248,18 @@ def without_flow(scene: AbstractBearing) -> Bool[Array, ""]:
 def network_notes(scene: AbstractBearing) -> tuple[str, ...]:
     """Notes for the user on the assumptions of the network."""
     thermal = thermal_of(scene)
-    said: list[str] = []
+    notes: list[str] = []
     outside = [f"{node}_ambient" for node in OUTSIDE[thermal.nodes]]
     if thermal.housing_diameter is None and _computed(thermal, *outside):
-        said.append(
+        notes.append(
             "thermal: conductances to the ambient that are not given follow from the reference heat flow of ISO "
             "15312; they are uncertain by a factor of 2"
         )
     if _of_oil(thermal):
-        said.append("thermal: the heat transfer from the oil is that of a flat plate; it is uncertain by a factor of 3")
-    return tuple(said)
+        notes.append(
+            "thermal: the heat transfer from the oil is that of a flat plate; it is uncertain by a factor of 3"
+        )
+    return tuple(notes)
 
 
 def settled(scene: Bearing, solution: Solution) -> Bearing:
@@ -265,5 +267,5 @@ def settled(scene: Bearing, solution: Solution) -> Bearing:
     temperatures are finite but meaningless."""
     if scene.thermal is None or solution.thermal is None:
         return scene
-    found = solution.thermal.node_temperatures()
-    return at_temperatures(scene, jnp.where(solution.converged, found, scene.thermal.ambient))
+    temperatures = solution.thermal.node_temperatures()
+    return at_temperatures(scene, jnp.where(solution.converged, temperatures, scene.thermal.ambient))

@@ -180,7 +180,7 @@ class DistributedTraction(AbstractTraction):
             law = dataclasses.replace(self, resolution=Resolution(*resolution))
             return law.traction(*arguments)._replace(by_strip=None)
 
-        found = run(steps, strips, extrapolate)
+        coarse = run(steps, strips, extrapolate)
         finer, shares = [run(2 * steps, strips, extrapolate)], [16.0 / 15.0 if extrapolate else 4.0 / 3.0]
         if not (patch.line and sliding.alike):
             finer.append(run(steps, 2 * strips, extrapolate))
@@ -190,8 +190,8 @@ class DistributedTraction(AbstractTraction):
             parts = jnp.stack([share * (value - other) for share, other in zip(shares, others, strict=True)])
             return jnp.abs(jnp.sum(parts, axis=0)) + UNCERTAIN_SHARE * jnp.sum(jnp.abs(parts), axis=0)
 
-        errors = jax.tree.map(error, found, *finer)
-        residuals = [each.inner_residual for each in (found, *finer) if each.inner_residual is not None]
+        errors = jax.tree.map(error, coarse, *finer)
+        residuals = [each.inner_residual for each in (coarse, *finer) if each.inner_residual is not None]
         return errors._replace(inner_residual=functools.reduce(jnp.maximum, residuals) if residuals else None)
 
 
@@ -231,7 +231,7 @@ class _Problem(eqx.Module):
         coarse = self._thermal(Mesh.of(steps // 2), heating)
         better = lambda a, b: a + (a - b) / 3.0
         names = ("rolling", "transverse", "moment", "power", "curvature", "by_strip")
-        both = ({name: getattr(one, name) for name in names} for one in (fine, coarse))
+        both = ({name: getattr(traction, name) for name in names} for traction in (fine, coarse))
         return fine._replace(**jax.tree.map(better, *both))
 
     def oil(self, sine: Array, rise: Values) -> Oil:

@@ -123,12 +123,12 @@ class ContactLaws(Checked):
         inlet: InletOil,
     ) -> tuple[Array, Array]:
         """`ContactState.separation`, m, and the residual of the nested solves; arguments as in `evaluate`."""
-        found = self.heated_film(contact, load, mean_speed, sliding_speed, lubricant, inlet)
+        warm_film = self.heated_film(contact, load, mean_speed, sliding_speed, lubricant, inlet)
         if self.supply is None:
-            return jnp.exp(found.log_thickness), found.residual
+            return jnp.exp(warm_film.log_thickness), warm_film.residual
         speed = self.entrainment(mean_speed)
-        starved = self.supply.starvation(contact, load, found.log_thickness, speed, inlet)
-        return starved.separation, jnp.maximum(found.residual, starved.residual)
+        starved = self.supply.starvation(contact, load, warm_film.log_thickness, speed, inlet)
+        return starved.separation, jnp.maximum(warm_film.residual, starved.residual)
 
     def evaluate(
         self,
@@ -151,15 +151,15 @@ class ContactLaws(Checked):
         m/s, of either sign; `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
         """
         speed = self.entrainment(mean_speed)
-        found = self.heated_film(contact, load, mean_speed, sliding_speed, lubricant, inlet)
+        warm_film = self.heated_film(contact, load, mean_speed, sliding_speed, lubricant, inlet)
         base, base_viscosity = inlet.temperature, inlet.viscosity
-        if found.rise is not None:
-            base = inlet.temperature + found.rise
+        if warm_film.rise is not None:
+            base = inlet.temperature + warm_film.rise
             base_viscosity = lubricant.viscosity.viscosity(0.0, base)
-        film = flooded = jnp.exp(found.log_thickness)
-        starved, residual = None, found.residual
+        film = flooded = jnp.exp(warm_film.log_thickness)
+        starved, residual = None, warm_film.residual
         if self.supply is not None:
-            starved = self.supply.starvation(contact, load, found.log_thickness, speed, inlet)
+            starved = self.supply.starvation(contact, load, warm_film.log_thickness, speed, inlet)
             film, residual = starved.film, jnp.maximum(residual, starved.residual)
         traction = None
         if self.traction is not None:
@@ -180,7 +180,7 @@ class ContactLaws(Checked):
         if self.hysteresis is not None:
             lost = line_hysteresis(contact, load, mean_speed, self.hysteresis)
             rolling = lost if rolling is None else rolling + lost
-        return ContactState(film, found.rise, traction, rolling, jnp.max(residual), starved)
+        return ContactState(film, warm_film.rise, traction, rolling, jnp.max(residual), starved)
 
     def asperities(
         self, contact: LineContact, load: Values, film: Values, mean_speed: Values, inlet: InletOil
@@ -205,6 +205,6 @@ class ContactLaws(Checked):
         if self.mixed is None:
             return None
         assert state.traction is not None
-        found = self.asperities(contact, load, state.film, mean_speed, inlet)
+        asperities = self.asperities(contact, load, state.film, mean_speed, inlet)
         sliding = Sliding(sliding_speed)
-        return self.mixed.state(contact, load, found, mean_speed, sliding, state.traction * sliding_speed)
+        return self.mixed.state(contact, load, asperities, mean_speed, sliding, state.traction * sliding_speed)

@@ -106,10 +106,10 @@ class Supply(Checked):
 
     def __check_init__(self):
         super().__check_init__()
-        given = [name for name in GIVEN if getattr(self, name) is not None]
-        if len(given) != 1:
-            found = " and ".join(given) or "none"
-            raise ValueError(f"contact.supply: expected exactly one of {', '.join(GIVEN)}, found {found}")
+        names = [name for name in GIVEN if getattr(self, name) is not None]
+        if len(names) != 1:
+            listed = " and ".join(names) or "none"
+            raise ValueError(f"contact.supply: expected exactly one of {', '.join(GIVEN)}, found {listed}")
         if self.film_law == "hamrock_dowson" and self.meniscus_distance is None:
             raise ValueError("contact.supply.film_law: 'hamrock_dowson' needs meniscus_distance")
         if self.layer_exponent is not None and self.layer is None and self.from_flow is None:
@@ -118,11 +118,11 @@ class Supply(Checked):
     @property
     def stated(self) -> str:
         """Text that says how the supply is given, without the number."""
-        given = next(name for name in GIVEN if getattr(self, name) is not None)
-        if given == "level" and self.level is not None:
+        field = next(name for name in GIVEN if getattr(self, name) is not None)
+        if field == "level" and self.level is not None:
             gap = f"inlet gap {LEVELS[self.level]:g} times the central film"
             return f"level = '{self.level}' (assumed: {gap}; one standard deviation is a factor of 3)"
-        return given_by(given)
+        return given_by(field)
 
     def starvation(
         self, contact: LineContact | PointContact, load: Values, log_flooded: Values, speed: Values, inlet: InletOil

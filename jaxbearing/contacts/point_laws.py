@@ -109,14 +109,16 @@ class PointLaws(Checked):
         **Arguments:** `load`, N, > 0; `mean_speed` and `sliding_speed` along rolling, m/s, of either sign.
         """
         speed = smooth_abs(mean_speed, SPEED_SMOOTHING)
-        found = heated_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
-        temperature = inlet.temperature + (jnp.zeros_like(found.log_thickness) if found.rise is None else found.rise)
+        warm_film = heated_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
+        temperature = inlet.temperature + (
+            jnp.zeros_like(warm_film.log_thickness) if warm_film.rise is None else warm_film.rise
+        )
         viscosity = lubricant.viscosity.viscosity(0.0, temperature)
-        film, residual, starved = jnp.exp(found.log_thickness), found.residual, None
+        film, residual, starved = jnp.exp(warm_film.log_thickness), warm_film.residual, None
         if self.supply is not None:
-            starved = self.supply.starvation(contact, load, found.log_thickness, speed, inlet)
+            starved = self.supply.starvation(contact, load, warm_film.log_thickness, speed, inlet)
             film, residual = starved.film, jnp.maximum(residual, starved.residual)
-        return PointFilm(film, temperature, found.rise, viscosity, residual, starved)
+        return PointFilm(film, temperature, warm_film.rise, viscosity, residual, starved)
 
     def shear(
         self,
@@ -130,11 +132,11 @@ class PointLaws(Checked):
         """Traction forces of the ball on the race and the power that they dissipate."""
         assert self.traction is not None
         patch = contact_patch(contact, load)
-        found = self.traction.traction(patch, film.film, mean_speed, sliding, film.temperature, lubricant)
+        traction = self.traction.traction(patch, film.film, mean_speed, sliding, film.temperature, lubricant)
         if self.mixed is None:
-            return found
+            return traction
         share = self.asperities(contact, load, film, mean_speed, lubricant).share
-        return self.mixed.traction(load, share, found, sliding)
+        return self.mixed.traction(load, share, traction, sliding)
 
     def asperities(
         self, contact: PointContact, load: Values, film: PointFilm, mean_speed: Values, lubricant: Lubricant
@@ -161,8 +163,8 @@ class PointLaws(Checked):
         """
         if self.mixed is None:
             return None
-        found = self.asperities(contact, load, film, mean_speed, lubricant)
-        return self.mixed.state(contact, load, found, mean_speed, sliding, sheared.power)
+        asperities = self.asperities(contact, load, film, mean_speed, lubricant)
+        return self.mixed.state(contact, load, asperities, mean_speed, sliding, sheared.power)
 
     def rolling_moment(
         self, contact: PointContact, load: Values, film: PointFilm, mean_speed: Values, roll: Values, inlet: InletOil

@@ -49,11 +49,11 @@ def rolling_words(laws: Any) -> str:
     **Arguments:** `laws` of line or point contacts with rolling resistance of the films, hysteresis of the bodies, or
     both.
     """
-    said = []
+    names = []
     if laws.rolling is not None:
         heating = heating_of(laws.rolling, laws.rolling_heating, laws.thermal)
         isothermal = heating == FILM_TEMPERATURE and isinstance(laws.thermal, NoThermalReduction)
-        said.append(f"{laws.rolling.name}, {'isothermal inlet' if isothermal else f'inlet heating {heating}'}")
+        names.append(f"{laws.rolling.name}, {'isothermal inlet' if isothermal else f'inlet heating {heating}'}")
     if laws.hysteresis is not None:
-        said.append("hysteresis of the bodies")
-    return ", and ".join(said)
+        names.append("hysteresis of the bodies")
+    return ", and ".join(names)

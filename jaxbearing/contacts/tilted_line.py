@@ -179,7 +179,7 @@ def _straight_jvp(primals, tangents):
     """Derivatives by the integrals of the slope, (10/9) delta^(1/9) s^m."""
     (f, g, length), (f_dot, g_dot, length_dot) = primals, tangents
     load, moment = _straight(f, g, length)
-    slopes = [EXPONENT * one for one in _sums(f, g, length, power=0, orders=3)]
+    slopes = [EXPONENT * integral for integral in _sums(f, g, length, power=0, orders=3)]
     end = _ninth_power(f + g * length, 1) * length_dot
     load_dot = slopes[0] * f_dot + slopes[1] * g_dot + end
     return (load, moment), (load_dot, slopes[1] * f_dot + slopes[2] * g_dot + length * end)

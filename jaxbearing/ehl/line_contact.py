@@ -91,9 +91,9 @@ class ContactOperation(Checked):
     def __check_init__(self):
         super().__check_init__()
         if (self.load_per_length is None) == (self.pressure is None):
-            found = "neither" if self.pressure is None else "both"
+            word = "neither" if self.pressure is None else "both"
             raise ValueError(
-                f"operation.load_per_length: found {found} of load_per_length and pressure, expected one of the two: a "
+                f"operation.load_per_length: found {word} of load_per_length and pressure, expected one of the two: a "
                 "load per length or a Hertz (peak) pressure"
             )
 

@@ -51,27 +51,27 @@ def newton(
         return root.status < 0
 
     def advance(root: Root) -> Root:
-        found = linearize(equations, root.point, mesh)
-        step = as_point(-solve_dense(found.matrix, found.rows))
+        linear = linearize(equations, root.point, mesh)
+        step = as_point(-solve_dense(linear.matrix, linear.rows))
         change = jnp.maximum(jnp.max(jnp.abs(step.pressure)), jnp.abs(step.offset))
         flat = mesh_film_change(step, mesh)
-        fall = jnp.max(-flat / found.film)
+        fall = jnp.max(-flat / linear.film)
         most = jnp.max(jnp.abs(step.pressure))
         fraction = jnp.minimum(1.0, LONGEST_STEP / jnp.maximum(most, LONGEST_STEP))
         fraction = jnp.minimum(fraction, DEEPEST_FALL / jnp.maximum(fall, DEEPEST_FALL))
         usable = jnp.isfinite(change)
         point = jax.tree.map(lambda z, d: jnp.where(usable, z + fraction * d, z), root.point, step)
         # without the rounding of P - P
-        empty = jnp.concatenate([jnp.ones(1, bool), found.cavitated, jnp.ones(1, bool)]) & usable & (fraction >= 1.0)
+        empty = jnp.concatenate([jnp.ones(1, bool), linear.cavitated, jnp.ones(1, bool)]) & usable & (fraction >= 1.0)
         point = Point(jnp.where(empty, 0.0, point.pressure), point.offset)
         iterations = root.iterations + 1
         # pressures at the edge of the film are below any tolerance: there the set itself must no longer change
-        resting = jnp.all(found.cavitated == root.cavitated) | (change <= ROUNDING)
+        resting = jnp.all(linear.cavitated == root.cavitated) | (change <= ROUNDING)
         done = usable & (change <= tolerance) & resting
         status = jnp.where(iterations >= max_steps, int(Status.NOT_CONVERGED), -1)
         status = jnp.where(done, int(Status.CONVERGED), status)
         status = jnp.where(usable, status, int(Status.DIVERGED))
-        return Root(point, status, iterations, change, jnp.max(jnp.abs(found.rows)), found.cavitated)
+        return Root(point, status, iterations, change, jnp.max(jnp.abs(linear.rows)), linear.cavitated)
 
     start = jnp.where(wanted, -1, int(Status.NOT_CONVERGED))
     nothing = jnp.asarray(jnp.inf)

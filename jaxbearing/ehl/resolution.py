@@ -45,7 +45,7 @@ def chosen(accuracy: float, fewest: int, ratio: float, material: float, inlet: f
     """
     left = accuracy
     if inlet is None:
-        inlet = next((one for one in INLETS if cut_error(one, ratio) <= FILM_SHARE * accuracy), INLETS[-1])
+        inlet = next((length for length in INLETS if cut_error(length, ratio) <= FILM_SHARE * accuracy), INLETS[-1])
         left = accuracy - min(float(np.asarray(cut_error(inlet, ratio))), FILM_SHARE * accuracy)
     enough = (n for n in NODES if n >= fewest and mesh_error(n, ratio, material) <= left)
     return next(enough, NODES[-1]), inlet

@@ -89,7 +89,7 @@ def _advance(drive: Drive, motion: Motion, stop: Array, key: MeshKey) -> Advance
 def _see(points: Point, scales: Scales, key: MeshKey) -> Seen:
     grid = mesh(key)
 
-    def one(point: Point) -> Seen:
+    def seen(point: Point) -> Seen:
         film = film_shape(point, grid)
         lowest = jnp.argmin(film)
         return Seen(
@@ -102,7 +102,7 @@ def _see(points: Point, scales: Scales, key: MeshKey) -> Seen:
             film * scales.film,
         )
 
-    return jax.vmap(one)(points)
+    return jax.vmap(seen)(points)
 
 
 def enters_behind(scene: EHLLineContact, simulation: FilmSimulation, begin: float, stop: float) -> bool:
@@ -169,24 +169,24 @@ def simulate_film(
         interrupt = Deferral()
         try:
             while True:
-                found = _advance(drive, motion, end, key)
-                count = int(found.taken)
+                segment = _advance(drive, motion, end, key)
+                count = int(segment.taken)
                 seen = jax.tree.map(
-                    lambda leaf, count=count: np.asarray(leaf)[:count], _see(found.record.point, scales, key)
+                    lambda leaf, count=count: np.asarray(leaf)[:count], _see(segment.record.point, scales, key)
                 )
-                motion, kept = found.motion, [*kept, seen]
-                times.append(np.asarray(found.record.time)[:count] * unit)
-                speeds.append(np.asarray(found.record.speed)[:count])
-                taken, refused = taken + count, refused + int(found.rejected)
-                newton_steps += int(found.newton_steps)
-                balance = max(balance, float(np.max(np.asarray(found.record.balance)[:count], initial=0.0)))
+                motion, kept = segment.motion, [*kept, seen]
+                times.append(np.asarray(segment.record.time)[:count] * unit)
+                speeds.append(np.asarray(segment.record.speed)[:count])
+                taken, refused = taken + count, refused + int(segment.rejected)
+                newton_steps += int(segment.newton_steps)
+                balance = max(balance, float(np.max(np.asarray(segment.record.balance)[:count], initial=0.0)))
                 if len(kept) == 2:
                     # from now on there is something to keep
                     interrupt = stack.enter_context(deferred_interrupts())
                 if progress is not None:
                     progress(float(times[-1][-1]) if count else began, stop)
-                if int(found.status) >= 0:
-                    status, thin = Status(int(found.status)), bool(found.thin)
+                if int(segment.status) >= 0:
+                    status, thin = Status(int(segment.status)), bool(segment.thin)
                     break
                 if interrupt.seen:
                     raise KeyboardInterrupt
@@ -245,8 +245,8 @@ def _require_film(state: object) -> None:
     **Raises:** `ValueError` for a state that is not one of a line contact.
     """
     if not isinstance(state, FilmState):
-        found = getattr(state, "of", type(state).__name__)
-        raise ValueError(f"restart: a state of a {found}, for a scene of a line contact")
+        kind = getattr(state, "of", type(state).__name__)
+        raise ValueError(f"restart: a state of a {kind}, for a scene of a line contact")
 
 
 def check_state(scene: EHLLineContact, state: Any, duration: float | None) -> None:

@@ -128,11 +128,11 @@ def _implicit(problem: Any, problem_dot: Any, root: SteadyRoot, key: MeshKey) ->
     grid = mesh(key)
     # mask the incoming tangent, so that NaN of a failed lane reaches no parameter that lanes share
     problem_dot = jax.tree.map(lambda t: jnp.where(root.solved, t, 0.0), problem_dot)
-    found = linearize(problem.equations(key.nodes), root.point, grid)
-    held = Equilibrium(found.cavitated, found.scale)
+    linear = linearize(problem.equations(key.nodes), root.point, grid)
+    held = Equilibrium(linear.cavitated, linear.scale)
     rows = lambda p: held.rows(p.equations(key.nodes), root.point, grid)
     rows_dot = _directional(rows, (problem,), (problem_dot,))
-    safe = jnp.where(root.solved, found.matrix, jnp.eye(found.rows.size))
+    safe = jnp.where(root.solved, linear.matrix, jnp.eye(linear.rows.size))
     point_dot = as_point(-solve_dense(safe, rows_dot))
     point_dot = jax.tree.map(lambda t: jnp.where(root.solved, t, 0.0), point_dot)
     return root, SteadyRoot(point_dot, *(None for _ in root[1:]))  # pyright: ignore[reportArgumentType]

@@ -251,28 +251,28 @@ def _film_integrals(eps: Values, v_r: Values, v_t: Values, tiny: Values) -> tupl
     along = tiny - v_t
     speed = safe_norm(v_r, along)
     sin1, cos1 = v_r / speed, along / speed
-    one = 1.0 - jnp.square(eps)
-    root = jnp.sqrt(one)
+    complement = 1.0 - jnp.square(eps)
+    root = jnp.sqrt(complement)
     g1 = jnp.arctan2(root * sin1, cos1 + eps)
     g2 = jnp.arctan2(-root * sin1, eps - cos1)
     g2 = jnp.where(g2 <= g1, g2 + 2.0 * jnp.pi, g2)
     s1, c1, s2, c2 = jnp.sin(g1), jnp.cos(g1), jnp.sin(g2), jnp.cos(g2)
     half = 0.5 * (g2 - g1)
     double = 0.5 * (s2 * c2 - s1 * c1)  # [sin(2g)/4]
-    a = (half - double) / (one * root)
-    b = (0.5 * (s2 * s2 - s1 * s1) + eps * (c2 - c1)) / (one * one)
-    c = (half + double - 2.0 * eps * (s2 - s1) + 2.0 * jnp.square(eps) * half) / (one * one * root)
+    a = (half - double) / (complement * root)
+    b = (0.5 * (s2 * s2 - s1 * s1) + eps * (c2 - c1)) / (complement * complement)
+    c = (half + double - 2.0 * eps * (s2 - s1) + 2.0 * jnp.square(eps) * half) / (complement * complement * root)
     return a, b, c
 
 
 def _static_stiffness(eps: Values, contact: Values) -> tuple[Batch, Batch]:
     """Radial and tangential force over eps, in units of the reference (pi/2) K c |mean speed|."""
     eps_s = saturated_eccentricity(eps)
-    one = 1.0 - jnp.square(eps_s)
+    complement = 1.0 - jnp.square(eps_s)
     # the overlap underflows to 0 below eps = 0.25, so the value at eps <= 0.1 is exact
     loaded = eps > 0.1
     secant = jnp.where(loaded, eccentricity_overlap(eps) / jnp.where(loaded, eps, 1.0), 0.0)
-    return (4.0 / jnp.pi) * eps_s / jnp.square(one) + contact * secant, one**-1.5
+    return (4.0 / jnp.pi) * eps_s / jnp.square(complement) + contact * secant, complement**-1.5
 
 
 def _static_balance(eps: Array, args: tuple[Array, Array] | list[Array]) -> Array:

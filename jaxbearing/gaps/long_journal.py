@@ -47,14 +47,15 @@ class LongJournal(Checked):
         of centres, rad/s; `viscosity`, Pa s.
         """
         eps = saturated_eccentricity(eccentricity_ratio)
-        one = 1.0 - jnp.square(eps)
+        complement = 1.0 - jnp.square(eps)
         two = 2.0 + jnp.square(eps)
         speed = 0.5 * (journal_speed + bush_speed) - whirl_speed
         scale = viscosity * (self.radius**3 * self.width / self.clearance**2)
-        squeeze = 12.0 * (0.5 * jnp.pi - 8.0 / (jnp.pi * two)) / one**1.5
-        f_r = -scale * (24.0 * jnp.square(eps) * speed / (two * one) + squeeze * eccentricity_rate)
+        squeeze = 12.0 * (0.5 * jnp.pi - 8.0 / (jnp.pi * two)) / complement**1.5
+        f_r = -scale * (24.0 * jnp.square(eps) * speed / (two * complement) + squeeze * eccentricity_rate)
         f_t = scale * (
-            12.0 * jnp.pi * eps * speed / (two * jnp.sqrt(one)) + 24.0 * eps * eccentricity_rate / (two * one)
+            12.0 * jnp.pi * eps * speed / (two * jnp.sqrt(complement))
+            + 24.0 * eps * eccentricity_rate / (two * complement)
         )
         return f_r, f_t
 

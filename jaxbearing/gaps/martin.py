@@ -120,8 +120,8 @@ def _exit(s):
 
 @_exit.defjvp
 def _exit_jvp(primals, tangents):
-    found = _exit(primals[0])
-    return found, _moved(found, tangents[0] / _excess_and_slope(found)[1])
+    outlet = _exit(primals[0])
+    return outlet, _moved(outlet, tangents[0] / _excess_and_slope(outlet)[1])
 
 
 def martin_exit(s: Values) -> Batch:
@@ -141,10 +141,10 @@ def martin_exit(s: Values) -> Batch:
 def _factors(speed: Values, squeeze: Values) -> MartinFactors:
     """Products u Gw and u Gr, and Gs, from u and $\\dot h\\sqrt{2R/h_0}$, m/s: finite as u -> 0, where Gw is not."""
     speed, squeeze = jnp.asarray(speed), jnp.asarray(squeeze)
-    found = _exit(squeeze / speed)
-    t, beta, sin, i2, _ = found
+    outlet = _exit(squeeze / speed)
+    t, beta, sin, i2, _ = outlet
     sin2 = sin * sin
-    excess, _ = _excess_and_slope(found)  # T + s without cancellation at s << 0
+    excess, _ = _excess_and_slope(outlet)  # T + s without cancellation at s << 0
     return MartinFactors(
         load=6.0 * (speed * sin2 - squeeze * i2),
         shear=beta,

@@ -118,10 +118,10 @@ def spectrum_life(lives: Sequence[Life], time_shares: _States, speeds: _States) 
     shares = jnp.asarray(time_shares)
     revolutions = revolution_shares(shares, speeds)
     speed = jnp.sum(shares * jnp.abs(jnp.asarray(speeds)))
-    found = lives_of(miner_rates(lives, revolutions), speed)
+    results = lives_of(miner_rates(lives, revolutions), speed)
     rates = {name: jnp.stack(each) for name, each in common_rates(map(damage_rates, lives)).items()}
     if "L10" in rates:
-        found["catalogue_load"] = mean_load(revolutions, of("catalogue_load"), exponent)
+        results["catalogue_load"] = mean_load(revolutions, of("catalogue_load"), exponent)
     return SpectrumLife(
         equivalent_load=mean_load(revolutions, of("equivalent_load"), exponent),
         mean_speed=speed,
@@ -129,7 +129,7 @@ def spectrum_life(lives: Sequence[Life], time_shares: _States, speeds: _States) 
         damage=_parts(revolutions * rates.get("Lnmr", rates["L10r"])),
         reference_damage=_parts(revolutions * rates["L10r"]),
         reliability=reliabilities.pop(),
-        **found,
+        **results,
     )
 
 
@@ -153,7 +153,7 @@ def damage_rates(life: Life) -> dict[str, Array]:
 def common_rates(rates: Iterable[Mapping[str, Array]]) -> dict[str, list[Array]]:
     """Damage rates of all states (or all bearings), as one list for each kind of life that all of them have."""
     each = list(rates)
-    return {name: [one[name] for one in each] for name in IN_HOURS if all(name in one for one in each)}
+    return {name: [state[name] for state in each] for name in IN_HOURS if all(name in state for state in each)}
 
 
 def miner_rates(lives: Sequence[Life], revolutions: _States) -> dict[str, Array]:
@@ -170,11 +170,11 @@ def lives_of(rates: Mapping[str, Array], speed: Scalar) -> dict[str, Array]:
 
     **Arguments:** `rates`: per million revolutions; `speed`: of the rings relative to each other, rad/s.
     """
-    found = {}
+    lives = {}
     for name, rate in rates.items():
         life = life_of(rate)
-        found |= {name: life, IN_HOURS[name]: life * HOURS / jnp.abs(speed)}
-    return found
+        lives |= {name: life, IN_HOURS[name]: life * HOURS / jnp.abs(speed)}
+    return lives
 
 
 def life_of(rate: Float[Array, "..."]) -> Float[Array, "..."]:

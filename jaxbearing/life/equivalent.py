@@ -31,7 +31,7 @@ Y = np.array(
         _GROOVE,
         [1.88, 1.71, 1.52, 1.41, 1.34, 1.23, 1.10, 1.01, 1.00],
         [1.47, 1.40, 1.30, 1.23, 1.19, 1.12, 1.02, 1.00, 1.00],
-        *([one] * 9 for one in (1.00, 0.87, 0.76, 0.66, 0.57, 0.50)),
+        *([factor] * 9 for factor in (1.00, 0.87, 0.76, 0.66, 0.57, 0.50)),
     ]
 )
 """Factor Y of ball bearings: rows by contact angle, as X; columns by relative load."""

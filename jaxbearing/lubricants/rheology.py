@@ -55,10 +55,10 @@ class AbstractRheology(Checked):
         if self.viscous_function != viscous_function:
             fitted = self.viscous_function
             return (f"contact.traction is {viscous_function}, the oil's rheology was fitted with {fitted}",)
-        given = None if exponent is None else known(exponent)
-        if given is None or self.exponent in (None, given[0]):
+        law_exponent = None if exponent is None else known(exponent)
+        if law_exponent is None or self.exponent in (None, law_exponent[0]):
             return ()
-        return (f"contact.traction has the exponent {given[0]:g}, the oil's rheology {self.exponent:g}",)
+        return (f"contact.traction has the exponent {law_exponent[0]:g}, the oil's rheology {self.exponent:g}",)
 
 
 class ExponentialRheology(AbstractRheology):

@@ -110,19 +110,19 @@ class TwoDiskLaws(eqx.Module):
             raise ValueError("contact.compliance: found one in contact.traction, expected none beside the half-spaces'")
 
 
-def _values(given: Any) -> Any:
+def _values(values: Any) -> Any:
     """A one-dimensional array of float64; what is not a number passes through for the type checker to judge."""
-    if isinstance(given, list | tuple):
-        traced = any(isinstance(value, jax.Array) for value in given)
-        given = jnp.stack(given) if traced else np.asarray(given, dtype=np.float64)
-    given = as_float(given)
-    return given.reshape(1) if getattr(given, "ndim", None) == 0 else given
+    if isinstance(values, list | tuple):
+        traced = any(isinstance(value, jax.Array) for value in values)
+        values = jnp.stack(values) if traced else np.asarray(values, dtype=np.float64)
+    values = as_float(values)
+    return values.reshape(1) if getattr(values, "ndim", None) == 0 else values
 
 
 def _axis(unit: str, description: str, bound: str = "> 0", **kwargs: Any) -> Any:
     """Field with one dimension of the family of curves: a number or a list of them, each within the bound."""
-    said = {**label(unit, description), "each": bound}
-    return eqx.field(converter=lambda v: None if v is None else _values(v), metadata=said, **kwargs)
+    metadata = {**label(unit, description), "each": bound}
+    return eqx.field(converter=lambda v: None if v is None else _values(v), metadata=metadata, **kwargs)
 
 
 class DiskOperation(eqx.Module):
@@ -147,9 +147,9 @@ class DiskOperation(eqx.Module):
         for field in dataclasses.fields(self):
             _require_each(field.name, getattr(self, field.name), field.metadata["each"])
         if (self.pressure is None) == (self.load is None):
-            found = "neither" if self.pressure is None else "both"
+            word = "neither" if self.pressure is None else "both"
             raise ValueError(
-                f"operation.pressure: found {found} of pressure and load, expected one of the two: a Hertz (peak) "
+                f"operation.pressure: found {word} of pressure and load, expected one of the two: a Hertz (peak) "
                 "pressure or a normal load"
             )
 
@@ -326,19 +326,19 @@ class TwoDisk(AbstractScene):
         sliding = slide_to_roll * speed
         inlet = self.oil.at(temperature)
         laws = self.contact
-        found = heated_film(laws.film, laws.thermal, contact, load, speed, sliding, self.oil, inlet)
-        residual = jnp.zeros_like(found.log_thickness)
-        if found.rise is not None and laws.warm_inlet:
-            temperature, residual = temperature + found.rise, found.residual
+        warm_film = heated_film(laws.film, laws.thermal, contact, load, speed, sliding, self.oil, inlet)
+        residual = jnp.zeros_like(warm_film.log_thickness)
+        if warm_film.rise is not None and laws.warm_inlet:
+            temperature, residual = temperature + warm_film.rise, warm_film.residual
         patch = contact_patch(contact, load)
-        return DiskState(patch, load, jnp.exp(found.log_thickness), speed, sliding, temperature, residual)
+        return DiskState(patch, load, jnp.exp(warm_film.log_thickness), speed, sliding, temperature, residual)
 
     def traction(self, state: DiskState, oil: Lubricant | None = None) -> Traction:
         """Forces, power and temperatures. **Arguments:** `oil`: one with another rheology than the scene's."""
         law, oil = self.traction_law, self.oil if oil is None else oil
         sliding = Sliding(state.sliding_speed)
-        found = law.traction(state.patch, state.film, state.entrainment_speed, sliding, state.temperature, oil)
-        return found._replace(by_strip=None)
+        traction = law.traction(state.patch, state.film, state.entrainment_speed, sliding, state.temperature, oil)
+        return traction._replace(by_strip=None)
 
 
 def solve_two_disk(scene: TwoDisk, options: NewtonOptions | None = None) -> TwoDiskSolution:

@@ -56,10 +56,12 @@ class Fit(eqx.Module):
         still = self.interference - self.smoothing + self.inner.warmed(diameter) - self.outer.warmed(diameter)
         by_square = [body.spun_by_square(diameter) for body in (self.inner, self.outer)]
         loss = by_square[1] - by_square[0]
-        spun = [one * jnp.square(body.speed) for one, body in zip(by_square, (self.inner, self.outer), strict=True)]
-        found = still + spun[0] - spun[1]
-        pressure = jnp.where(found >= 0.0, found, 0.0) / stiffness
+        spun = [
+            growth * jnp.square(body.speed) for growth, body in zip(by_square, (self.inner, self.outer), strict=True)
+        ]
+        interference = still + spun[0] - spun[1]
+        pressure = jnp.where(interference >= 0.0, interference, 0.0) / stiffness
         parts = (still > 0.0) & (loss > 0.0)
         speed = jnp.sqrt(jnp.where(parts, still, 1.0) / jnp.where(parts, loss, 1.0))
         speed = jnp.where(parts, speed, jnp.where(still > 0.0, jnp.inf, 0.0))
-        return FitState(pressure, found, loss, speed)
+        return FitState(pressure, interference, loss, speed)

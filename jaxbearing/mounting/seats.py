@@ -138,12 +138,12 @@ class Fits(Checked):
 
     def assumptions(self, warm: bool = True) -> tuple[str, ...]:
         """Notes for the user on what is assumed. **Arguments:** `warm`: True if temperatures of the parts are given."""
-        said = [] if warm else ["fits: no [temperatures] are given, all parts are at 20 degC"]
+        notes = [] if warm else ["fits: no [temperatures] are given, all parts are at 20 degC"]
         if self.smoothing is None and (self.on_shaft or self.in_housing):
-            said.append("fits.smoothing is not given: each tight seat loses 2 um, as ground ones do")
+            notes.append("fits.smoothing is not given: each tight seat loses 2 um, as ground ones do")
         if self.in_housing and self.housing_outside is None:
-            said.append(f"fits.housing_outside is not given: assumed {ASSUMED_HOUSING:g} times the outside diameter")
-        return tuple(said)
+            notes.append(f"fits.housing_outside is not given: assumed {ASSUMED_HOUSING:g} times the outside diameter")
+        return tuple(notes)
 
 
 def _check_covered(name: str, tolerance: object, diameter: Scalar | None) -> None:

@@ -92,9 +92,9 @@ def require_angle(name: str, value: object) -> None:
     angles = _judged(name, value)
     wrong = angles[~((angles >= 0.0) & (angles < 0.5 * np.pi))].ravel()
     if len(wrong):
-        given = float(wrong[0])
-        hint = f" ({given:g} degrees are {np.radians(given):.4g} rad)" if 0.0 < given < 90.0 else ""
-        raise ValueError(f"{name} must be an angle in rad, from 0 to below pi/2, got {given:g}{hint}")
+        first = float(wrong[0])
+        hint = f" ({first:g} degrees are {np.radians(first):.4g} rad)" if 0.0 < first < 90.0 else ""
+        raise ValueError(f"{name} must be an angle in rad, from 0 to below pi/2, got {first:g}{hint}")
 
 
 def require_temperature(value: object, name: str = "temperature") -> None:
@@ -103,8 +103,8 @@ def require_temperature(value: object, name: str = "temperature") -> None:
 
     **Raises:** `ValueError`; for a number that may be in degrees Celsius it shows the temperature in K.
     """
-    given = _judged(name, value)
-    wrong = given[given < COLDEST].ravel()
+    temperatures = _judged(name, value)
+    wrong = temperatures[temperatures < COLDEST].ravel()
     if len(wrong):
         first = float(wrong[0])
         hint = f" ({first:g} degC are {first + 273.15:g} K)" if first > -100.0 else ""

@@ -16,13 +16,13 @@ Given = TypeVar("Given")
 Result = TypeVar("Result")
 
 
-def in_turn(search: Callable[[Given], Result], given: Given) -> Result:
-    """`search(given)`; if it is batched on a CPU, one lane after the other.
+def in_turn(search: Callable[[Given], Result], inputs: Given) -> Result:
+    """`search(inputs)`; if it is batched on a CPU, one lane after the other.
 
-    **Arguments:** `search`: function from a pytree to a pytree of arrays that closes over no traced value; `given`: all
-    values that it depends on, not differentiated.
+    **Arguments:** `search`: function from a pytree to a pytree of arrays that closes over no traced value; `inputs`:
+    all values that it depends on, not differentiated.
     """
-    arrays, static = eqx.partition(given, eqx.is_array)
+    arrays, static = eqx.partition(inputs, eqx.is_array)
     whole = lambda arrays: search(eqx.combine(arrays, static))
 
     @jax.custom_batching.custom_vmap
@@ -35,9 +35,9 @@ def in_turn(search: Callable[[Given], Result], given: Given) -> Result:
         (batched,) = batched
         varying, common = eqx.partition(arrays, batched)
         if jax.default_backend() == "cpu":
-            found = jax.lax.map(lambda own: run(eqx.combine(own, common)), varying)
+            results = jax.lax.map(lambda own: run(eqx.combine(own, common)), varying)
         else:
-            found = jax.vmap(lambda own: whole(eqx.combine(own, common)))(varying)
-        return found, jax.tree.map(lambda _: True, found)
+            results = jax.vmap(lambda own: whole(eqx.combine(own, common)))(varying)
+        return results, jax.tree.map(lambda _: True, results)
 
     return run(arrays)

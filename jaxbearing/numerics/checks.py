@@ -62,10 +62,10 @@ def bounded(bound: str, *, unit: str = "", difference: bool = False, name: str =
     - `kwargs`: further arguments of `equinox.field`.
     """
     assert bound in RANGES, bound
-    said = {"bound": bound, "name": name, "difference": difference}
+    metadata = {"bound": bound, "name": name, "difference": difference}
     if unit:
-        said |= label(unit, "")
-    kwargs["metadata"] = {**said, **kwargs.get("metadata", {})}
+        metadata |= label(unit, "")
+    kwargs["metadata"] = {**metadata, **kwargs.get("metadata", {})}
     return eqx.field(**kwargs)
 
 
@@ -147,8 +147,8 @@ def _refused(part: str, checks: dict[str, tuple[Any, str]]) -> Iterator[str]:
         if value is None:
             continue
         if np.ndim(value):
-            found = f"an array of shape {np.shape(value)}" if isinstance(value, Tracer) else repr(value)
-            yield f"{field} must be one number, got {found}"
+            words = f"an array of shape {np.shape(value)}" if isinstance(value, Tracer) else repr(value)
+            yield f"{field} must be one number, got {words}"
             continue
         # an object with a dtype that is no array is a placeholder (`jax.ShapeDtypeStruct`)
         if not _is_number(value) and getattr(value, "dtype", np.bool_) == np.bool_:
@@ -177,8 +177,8 @@ def demand(rule: str, fine: object, message: Callable[[], str]) -> None:
     if isinstance(fine, Tracer):
         record = _RECORD.get()
         if record is not None:
-            told = rule.format(path=record.path or "the part")
-            record.rules[told] = record.rules[told] & fine if told in record.rules else fine
+            text = rule.format(path=record.path or "the part")
+            record.rules[text] = record.rules[text] & fine if text in record.rules else fine
     elif not bool(fine):
         raise ValueError(message())
 
@@ -216,7 +216,7 @@ def check_inputs(scene: object) -> InputChecks:
     if record.numbers:
         # one comparison of arrays: the program does not grow with the number of checks
         intervals = [interval for _, interval in record.numbers.values()]
-        ends = lambda name: np.asarray([getattr(one, name) for one in intervals])
+        ends = lambda name: np.asarray([getattr(interval, name) for interval in intervals])
         values = jnp.stack([jnp.asarray(value) for value, _ in record.numbers.values()])
         above = (values > ends("low")) | ((values == ends("low")) & ends("low_allowed"))
         below = (values < ends("high")) | ((values == ends("high")) & ends("high_allowed"))

@@ -97,20 +97,20 @@ def advance(
 
     **Returns:** the new state; True if a stage starts; its starting point; True if no try is left.
     """
-    found = end.converged & (state.parameter > 0.0)
-    solved_parameter = jnp.where(found, state.parameter, state.solved_parameter)
+    reached = end.converged & (state.parameter > 0.0)
+    solved_parameter = jnp.where(reached, state.parameter, state.solved_parameter)
     shorter = 0.5 * state.length
     lost = (state.tries == 1) | (solved_parameter > 1.0) | (shorter < SHORTEST_STAGE) | end.hopeless
     broken = end.failed & lost
     begin = broken & (state.tries < most_tries) & ~end.spent
     again = end.failed & ~broken
     ended = end.spent | (broken & ~begin)
-    restart = begin | again | found
+    restart = begin | again | reached
     tries = jnp.where(begin, state.tries + 1, state.tries)
     solved_parameter = jnp.where(begin, NOTHING_SOLVED, solved_parameter)
     length = jnp.where(begin, LONGEST_STAGE, jnp.where(again, shorter, state.length))
     next_parameter = jnp.where(begin, 1.0, jnp.maximum(solved_parameter - length, 0.0))
-    solved = choose(found, trial, state.solved)
+    solved = choose(reached, trial, state.solved)
     first = jax.tree.map(lambda leaf: leaf[jnp.maximum(tries - 2, 0)], easiest)
     new = Continuation(
         parameter=jnp.where(restart, next_parameter, state.parameter),

@@ -286,13 +286,13 @@ def find_minimum(system: AbstractConvexArrow, *, tolerance: float, hopeless: Boo
     low, high = (bound.globals for bound in system.bounds())
     inside = jnp.all((quick.point.globals >= low) & (quick.point.globals <= high))
     done = ((quick.residual <= tolerance) & inside) | hopeless
-    found = jax.lax.cond(done, lambda _: quick._replace(steps=jnp.zeros_like(quick.steps)), slowly, None)
-    residual = evaluate(system, found.point).residual
-    held = pushed_out(system, found.point, residual)
+    minimum = jax.lax.cond(done, lambda _: quick._replace(steps=jnp.zeros_like(quick.steps)), slowly, None)
+    residual = evaluate(system, minimum.point).residual
+    held = pushed_out(system, minimum.point, residual)
     push = jnp.max(jnp.where(held, jnp.abs(residual.globals), 0.0))
     rest = _largest(residual._replace(globals=jnp.where(held, 0.0, residual.globals)))
-    finite = ArrowPoint(*(jnp.where(jnp.isfinite(leaf), leaf, 0.0) for leaf in found.point))
-    return Minimum(finite, quick.steps + found.steps, jnp.any(held) & (rest <= OUTSIDE * push))
+    finite = ArrowPoint(*(jnp.where(jnp.isfinite(leaf), leaf, 0.0) for leaf in minimum.point))
+    return Minimum(finite, quick.steps + minimum.steps, jnp.any(held) & (rest <= OUTSIDE * push))
 
 
 def pushed_out(system: AbstractConvexArrow, point: ArrowPoint, residual: ArrowPoint) -> Bool[Array, " g"]:

@@ -38,10 +38,10 @@ def _width(n: int) -> int:
     return -(-n // -(-n // target))
 
 
-def _eliminated(given: tuple[Array, Array]) -> Array:
+def _eliminated(system: tuple[Array, Array]) -> Array:
     """Solves (matrix, right side) by LU, or by blocks above `UNBLOCKED`; called for the lanes of a batch in turn: many
     calls at once would block LAPACK (`lapack`)."""
-    matrix, right_side = given
+    matrix, right_side = system
     n = right_side.size
     if n <= UNBLOCKED:
         return jnp.linalg.solve(matrix, right_side)

@@ -30,17 +30,17 @@ def shared_out(run: Callable[..., Result]) -> Callable[..., Result]:
         if len(devices) == 1 or jax.tree.leaves(lanes)[0].shape[0] % len(devices):
             return run(lanes, *shared)
         mesh = jax.make_mesh((len(devices),), (AXIS,), axis_types=(jax.sharding.AxisType.Auto,), devices=devices)
-        given = PartitionSpec(AXIS), *[PartitionSpec()] * len(shared)
-        part = jax.shard_map(run, mesh=mesh, in_specs=given, out_specs=PartitionSpec(AXIS), check_vma=False)
+        specs = PartitionSpec(AXIS), *[PartitionSpec()] * len(shared)
+        part = jax.shard_map(run, mesh=mesh, in_specs=specs, out_specs=PartitionSpec(AXIS), check_vma=False)
         return part(lanes, *shared)
 
     return split
 
 
-def may_be_shared_out(given: object) -> bool:
+def may_be_shared_out(arguments: object) -> bool:
     """True if nothing has chosen devices yet: not `jax.device_put`, a mesh, a default device, or a transformation of
     JAX around the call (whose devices are unknown)."""
     if getattr(jax.config, "jax_default_device", None) is not None or not jax.sharding.get_abstract_mesh().empty:
         return False
     chosen = lambda leaf: isinstance(leaf, Tracer) or getattr(leaf, "committed", False)
-    return not any(chosen(leaf) for leaf in jax.tree.leaves(given))
+    return not any(chosen(leaf) for leaf in jax.tree.leaves(arguments))

@@ -105,8 +105,8 @@ def stage_bends(
     at = places[inner]
     solve = np.linalg.inv(np.vander(at, increasing=True)) / (at * (1.0 - at))
     chord = start[None] + jnp.asarray(at)[:, None] * (end - start)[None]
-    found = jnp.asarray(solve) @ (values[jnp.asarray(inner)] - chord)
-    return jnp.concatenate([found, jnp.zeros((4 - len(inner), start.size))])
+    bends = jnp.asarray(solve) @ (values[jnp.asarray(inner)] - chord)
+    return jnp.concatenate([bends, jnp.zeros((4 - len(inner), start.size))])
 
 
 def inner_stages(places: np.ndarray) -> list[int]:

@@ -78,10 +78,10 @@ def diffrax_solver(options: IntegratorOptions, idle: int = 0, noise: float = 0.0
     # one Jacobian a step. The termination test decides the number of steps: at a hundredth of the tolerance, diffrax's
     # own, iterations fail and steps shrink, to three times as many; optimistix's Chord stops early, with ten times the
     # error
-    given: dict[str, Any] = {"linear_solver": linear, "kappa": STAGE_ERROR}
+    settings: dict[str, Any] = {"linear_solver": linear, "kappa": STAGE_ERROR}
     if noise > 0.0:
-        return kind(root_finder=dfx.with_stepsize_controller_tols(NoisyChord)(noise=noise, **given))
-    return kind(root_finder=dfx.with_stepsize_controller_tols(dfx.VeryChord)(**given))
+        return kind(root_finder=dfx.with_stepsize_controller_tols(NoisyChord)(noise=noise, **settings))
+    return kind(root_finder=dfx.with_stepsize_controller_tols(dfx.VeryChord)(**settings))
 
 
 class _Problem(NamedTuple):
@@ -118,13 +118,13 @@ def _problem(
         cold = lambda t, y, a: rates(t, y, a[0], guess(t, y, a[0]), a[1])[0]
         return _Problem(cold, solver, state, (args, jnp.asarray(options.tolerance)), optx.rms_norm, same)
     flat, unravel = ravel_pytree(state)
-    first, unravel_found = ravel_pytree(jax.lax.stop_gradient(nested.guess(start, state, args)))
+    first, unravel_solution = ravel_pytree(jax.lax.stop_gradient(nested.guess(start, state, args)))
     size = flat.shape[0]
 
-    def remembering(t, y, given):
-        (own, tolerance), memory = given
-        rate, found = rates(t, unravel(y[:size]), own, unravel_found(memory.at(t)), tolerance)
-        return jnp.concatenate([ravel_pytree(rate)[0], jax.lax.stop_gradient(ravel_pytree(found)[0])])
+    def remembering(t, y, arguments):
+        (own, tolerance), memory = arguments
+        rate, solution = rates(t, unravel(y[:size]), own, unravel_solution(memory.at(t)), tolerance)
+        return jnp.concatenate([ravel_pytree(rate)[0], jax.lax.stop_gradient(ravel_pytree(solution)[0])])
 
     return _Problem(
         remembering,
@@ -144,11 +144,11 @@ def _kept_problem(
     if isinstance(field, NestedField):
         # the field is called in several places: with `jit` it is traced only once
         nested, first = eqx.filter_jit(field.rates), eqx.filter_jit(field.guess)
-        rates = lambda t, y, a, found: nested(t, y, a[0], found, a[1])
+        rates = lambda t, y, a, solution: nested(t, y, a[0], solution, a[1])
         guess = lambda t, y, a: first(t, y, a[0])
     else:
         plain = eqx.filter_jit(field)
-        rates = lambda t, y, a, found: (plain(t, y, a[0]), found)
+        rates = lambda t, y, a, solution: (plain(t, y, a[0]), solution)
         guess = lambda t, y, a: ()
     solver = KeptJacobian(
         method=_CLASSES[options.solver](),
@@ -199,7 +199,7 @@ def integrate_segment(
         norm=problem.norm,
     )
     proper = lambda t, y, a: problem.proper(y)
-    found = dfx.diffeqsolve(
+    solution = dfx.diffeqsolve(
         dfx.ODETerm(problem.field),
         problem.solver,
         start,
@@ -214,16 +214,16 @@ def integrate_segment(
         adjoint=dfx.RecursiveCheckpointAdjoint() if adjoint is None else adjoint,
     )
     # diffrax returns all that `saveat` asks for
-    saved: Any = found.ys
-    ends: Any = found.ts
+    saved: Any = solution.ys
+    ends: Any = solution.ts
     states, last = saved[0], jax.tree.map(lambda leaf: leaf[0], saved[1])
-    accepted, rejected = found.stats["num_accepted_steps"], found.stats["num_rejected_steps"]
+    accepted, rejected = solution.stats["num_accepted_steps"], solution.stats["num_rejected_steps"]
     reached = ends[1][0]
     return Segment(
         states=states,
         last=last,
         last_time=reached,
-        status=_status(found.result, last, reached >= times[-1]),
+        status=_status(solution.result, last, reached >= times[-1]),
         accepted=accepted,
         rejected=rejected,
         step=(reached - start) / jnp.maximum(accepted, 1),

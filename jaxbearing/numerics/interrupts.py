@@ -52,27 +52,27 @@ def deferred_interrupts() -> Iterator[Deferral]:
     The first Ctrl-C is recorded. At the end of the block `KeyboardInterrupt` is raised, unless `Deferral.taken` was
     called. The second Ctrl-C has its usual effect at once. The context has no effect outside of the main thread, or if
     Ctrl-C is ignored."""
-    found = Deferral()
+    deferral = Deferral()
     previous = signal.getsignal(signal.SIGINT)
     if threading.current_thread() is not threading.main_thread() or not callable(previous):
-        yield found
+        yield deferral
         return
 
     def note(number: int, frame: object) -> None:
         if _listening:
             return
-        if found.seen:
+        if deferral.seen:
             previous(number, frame)  # pyright: ignore[reportCallIssue, reportArgumentType]
-        found.seen = True
+        deferral.seen = True
 
-    _blocks.append(found)
+    _blocks.append(deferral)
     signal.signal(signal.SIGINT, note)
     try:
-        yield found
+        yield deferral
     finally:
         signal.signal(signal.SIGINT, previous)
-        _blocks.remove(found)
-    if found.pending:
+        _blocks.remove(deferral)
+    if deferral.pending:
         raise KeyboardInterrupt
 
 

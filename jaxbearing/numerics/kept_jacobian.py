@@ -156,14 +156,14 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
 
     def init(self, terms: object, t0: Scalar, t1: Scalar, y0: ArrowPoint, args: object) -> State:
         del terms
-        rate, found = self.rates(t0, y0, args, self.guess(t0, y0, args))
+        rate, solution = self.rates(t0, y0, args, self.guess(t0, y0, args))
         flat = ravel_pytree(rate)[0]
-        shapes = jax.eval_shape(lambda: self._jacobian(t0, y0, args, found))
+        shapes = jax.eval_shape(lambda: self._jacobian(t0, y0, args, solution))
         jacobian = jax.tree.map(lambda leaf: jnp.zeros(leaf.shape, leaf.dtype), shapes)
         zero = jnp.zeros(())
         return State(
             rate=flat,
-            found=found,
+            found=solution,
             jacobian=jacobian,
             inverse=self._inverse(jacobian, zero),
             scale=zero,
@@ -200,10 +200,10 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
             )
             stages = self._solve(t0, length, start, unravel, args, state, inverse, held, predictors, last.renew)
             counts = Counts(
-                last.counts.jacobians + _one(last.renew),
-                last.counts.inverses + _one(changed),
+                last.counts.jacobians + _count(last.renew),
+                last.counts.inverses + _count(changed),
                 last.counts.evaluations + stages.evaluations,
-                last.counts.failures + _one(stages.failed),
+                last.counts.failures + _count(stages.failed),
             )
             again = stages.failed & ~last.renew
             return _Attempt(again, jnp.asarray(True), jacobian, inverse, held, stages, counts)
@@ -256,7 +256,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         def advance(now: _Stages) -> _Stages:
             base = start + length * (lower[now.stage] @ now.ks)
             time = t0 + places[now.stage] * length
-            rate, found = self.rates(time, unravel(base + scale * now.k), args, now.found)
+            rate, solution = self.rates(time, unravel(base + scale * now.k), args, now.found)
             open_ = ravel_pytree(rate)[0] - now.k
             step = correction * self._times(inverse, unravel, open_)
             k = now.k + step
@@ -270,7 +270,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
             hopeless = later & ((theta >= 1.0) | (ahead > self.stage_error))
             bad = ~jnp.isfinite(size) | (~good & (hopeless | (now.iteration + 1 >= MOST_ITERATIONS)))
             good = good & ~bad
-            stage = now.stage + _one(good)
+            stage = now.stage + _count(good)
             ks = now.ks.at[now.stage].set(k)
             following = self._first(predictors[jnp.minimum(stage, count - 1)], state.past, ks)
             return _Stages(
@@ -278,7 +278,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
                 iteration=jnp.where(good, 0, now.iteration + 1),
                 k=jnp.where(good, following, k),
                 ks=ks,
-                found=found,
+                found=solution,
                 size=size,
                 ratio=jnp.where(later, jnp.minimum(left, 1.0), now.ratio),
                 worst=jnp.maximum(now.worst, theta),
@@ -322,8 +322,8 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         own = jnp.arange(state.elements.shape[0])
         return ravel_pytree(ArrowPoint(jacobian.local[own, own], jnp.diag(jacobian.corner)))[0]
 
-    def _jacobian(self, time: Scalar, state: ArrowPoint, args: object, found: object) -> Jacobian:
-        fixed = jax.lax.stop_gradient((args, found))
+    def _jacobian(self, time: Scalar, state: ArrowPoint, args: object, solution: object) -> Jacobian:
+        fixed = jax.lax.stop_gradient((args, solution))
         state = jax.lax.stop_gradient(state)
         if self.dense:
             flat, unravel = ravel_pytree(state)
@@ -390,6 +390,6 @@ def _arrow(rates: Callable[[ArrowPoint], ArrowPoint], state: ArrowPoint, idle: i
     )
 
 
-def _one(flag: Array) -> Array:
+def _count(flag: Array) -> Array:
     """1 where the flag is True, else 0."""
     return jnp.where(flag, 1, 0)

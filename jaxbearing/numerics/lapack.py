@@ -55,15 +55,15 @@ _Given = tuple[Float[Array, "*block n n"], Int[Array, "*block n"], Float[Array, 
 """Factors of LU, order of the rows after pivoting, right sides."""
 
 
-def _substituted(given: _Given) -> Float[Array, "*block n r"]:
-    factors, order, right = given
+def _substituted(factored: _Given) -> Float[Array, "*block n r"]:
+    factors, order, right = factored
     right = jnp.take_along_axis(right, order[..., None], axis=-2)
     half = triangular_solve(factors, right, left_side=True, lower=True, unit_diagonal=True)
     return triangular_solve(factors, half, left_side=True, lower=False)
 
 
-def _substituted_transposed(given: _Given) -> Float[Array, "*block n r"]:
-    factors, order, right = given
+def _substituted_transposed(factored: _Given) -> Float[Array, "*block n r"]:
+    factors, order, right = factored
     half = triangular_solve(factors, right, left_side=True, lower=False, transpose_a=True)
     x = triangular_solve(factors, half, left_side=True, lower=True, unit_diagonal=True, transpose_a=True)
     return jnp.take_along_axis(x, jnp.argsort(order, axis=-1)[..., None], axis=-2)

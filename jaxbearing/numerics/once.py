@@ -46,9 +46,9 @@ def once(function: Callable[..., Result]) -> Callable[..., Result]:
         else:
             like, shape = eqx.filter_eval_shape(packed, args)
             flat = jax.lax.cond(when, lambda: packed(args)[0], lambda: jnp.zeros(like.shape))
-        sizes = [int(np.prod(one)) for one, _ in shape.arrays]
+        sizes = [int(np.prod(dims)) for dims, _ in shape.arrays]
         parts = jnp.split(flat, np.cumsum(sizes)[:-1])
-        leaves = [part.reshape(one).astype(dtype) for part, (one, dtype) in zip(parts, shape.arrays, strict=True)]
+        leaves = [part.reshape(dims).astype(dtype) for part, (dims, dtype) in zip(parts, shape.arrays, strict=True)]
         return jax.tree.unflatten(shape.structure, leaves)
 
     return call

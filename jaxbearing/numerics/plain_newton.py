@@ -56,11 +56,11 @@ def plain_newton(system: AbstractArrowSystem, guess: ArrowPoint, *, tolerance: V
         return _Iterate(capped, *linearize(held, capped), state.steps + 1)
 
     guess = jax.lax.stop_gradient(guess)
-    found = jax.lax.while_loop(go_on, advance, _Iterate(guess, *linearize(held, guess), jnp.asarray(0)))
-    found = jax.lax.stop_gradient(found)
-    last = solve_arrow(found.jacobian, _known(system, point=found.point, residual=found.equations.residual))
-    root = jax.tree.map(lambda y, s: y - s, found.point, last)
-    return PlainRoot(root, jnp.maximum(_largest(found.equations.residual), found.equations.inner), found.steps)
+    iterate = jax.lax.while_loop(go_on, advance, _Iterate(guess, *linearize(held, guess), jnp.asarray(0)))
+    iterate = jax.lax.stop_gradient(iterate)
+    last = solve_arrow(iterate.jacobian, _known(system, point=iterate.point, residual=iterate.equations.residual))
+    root = jax.tree.map(lambda y, s: y - s, iterate.point, last)
+    return PlainRoot(root, jnp.maximum(_largest(iterate.equations.residual), iterate.equations.inner), iterate.steps)
 
 
 @eqx.filter_custom_jvp

@@ -24,10 +24,10 @@ def collecting() -> Iterator[list[ValueError]]:
 
     Rules that cannot be decided are passed over. An object made inside only serves to find its errors and
     is not used."""
-    found: list[ValueError] = []
-    token = _COLLECTED.set(found)
+    errors: list[ValueError] = []
+    token = _COLLECTED.set(errors)
     try:
-        yield found
+        yield errors
     finally:
         _COLLECTED.reset(token)
 
@@ -45,12 +45,12 @@ def refuse_all(problems: Iterable[str | ValueError]) -> None:
     collected = _COLLECTED.get()
     if collected is not None:
         try:
-            for one in problems:
-                collected.append(one if isinstance(one, ValueError) else ValueError(one))
+            for problem in problems:
+                collected.append(problem if isinstance(problem, ValueError) else ValueError(problem))
         except UNDECIDED:
             pass
         return
-    errors = {str(one): one if isinstance(one, ValueError) else ValueError(one) for one in problems}
+    errors = {str(problem): problem if isinstance(problem, ValueError) else ValueError(problem) for problem in problems}
     if len(errors) == 1:
         raise next(iter(errors.values()))
     if errors:

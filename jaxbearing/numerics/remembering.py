@@ -80,8 +80,8 @@ class Remembering(dfx.AbstractAdaptiveSolver, dfx.AbstractWrappedSolver):
         self, terms: object, t0: Scalar, t1: Scalar, y0: object, args: Any, solver_state: Any, made_jump: object
     ) -> Any:
         inner, memory = solver_state
-        found = self.solver.step(terms, t0, t1, y0, (args[0], memory), inner, made_jump)
-        y1, error, dense, inner, result = found
+        outcome = self.solver.step(terms, t0, t1, y0, (args[0], memory), inner, made_jump)
+        y1, error, dense, inner, result = outcome
         # rates times the step, of the stages at its begin, between, and at its end
         length, rates = t1 - t0, dense["k"]
         stages = rates[:, rates.shape[1] - memory.value.shape[0] :]

@@ -129,8 +129,8 @@ def _root(
     unknown = jnp.full(guess.shape, jnp.inf)
     never = jnp.zeros(guess.shape, bool)
     start = _Search(guess, lower, upper, unknown, unknown, never, guess, jnp.asarray(0))
-    found = jax.lax.while_loop(keep_going, advance, start)
-    return jnp.where(found.proper, found.x, found.end), found.residual, found.proper
+    last = jax.lax.while_loop(keep_going, advance, start)
+    return jnp.where(last.proper, last.x, last.end), last.residual, last.proper
 
 
 @_root.def_jvp

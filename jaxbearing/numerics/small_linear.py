@@ -118,9 +118,9 @@ def cholesky(matrix: Float[Array, "m m"]) -> Float[Array, "m m"]:
 def cholesky_solve(factor: Float[Array, "m m"], right: Float[Array, " m"]) -> Float[Array, " m"]:
     """Solution x of $LL^Tx$ = `right`, with the lower factor L of `cholesky`, unrolled."""
     m = factor.shape[0]
-    found = [right[i] for i in range(m)]
+    values = [right[i] for i in range(m)]
     for i in range(m):
-        found[i] = (found[i] - sum((factor[i, k] * found[k] for k in range(i)), start=0.0)) / factor[i, i]
+        values[i] = (values[i] - sum((factor[i, k] * values[k] for k in range(i)), start=0.0)) / factor[i, i]
     for i in reversed(range(m)):
-        found[i] = (found[i] - sum((factor[k, i] * found[k] for k in range(i + 1, m)), start=0.0)) / factor[i, i]
-    return jnp.stack(found)
+        values[i] = (values[i] - sum((factor[k, i] * values[k] for k in range(i + 1, m)), start=0.0)) / factor[i, i]
+    return jnp.stack(values)

@@ -24,12 +24,12 @@ _WORDS = {int: "a whole number", float: "one finite number", bool: "True or Fals
 class Hinting(eqx.Module):
     """Base of modules whose error for an unknown argument suggests the nearest one."""
 
-    def __new__(cls, *_: object, **given: object):
+    def __new__(cls, *_: object, **arguments: object):
         fields = getattr(cls, "__dataclass_fields__", {})
-        for name in given.keys() - fields:
+        for name in arguments.keys() - fields:
             # a constructor of its own may have other arguments
             known = inspect.signature(cls.__init__).parameters
-            if name not in known and not any(one.kind is one.VAR_KEYWORD for one in known.values()):
+            if name not in known and not any(parameter.kind is parameter.VAR_KEYWORD for parameter in known.values()):
                 raise TypeError(f"{cls.__name__} has no argument {name!r}{did_you_mean(name, list(known)[1:])}")
         return super().__new__(cls)
 
@@ -109,12 +109,12 @@ def choice(
     )
 
 
-def _field(read: Callable[[Any], Any], default: object, kwargs: dict[str, Any], said: dict[str, Any]) -> Any:
+def _field(read: Callable[[Any], Any], default: object, kwargs: dict[str, Any], facts: dict[str, Any]) -> Any:
     """A static field with a converter.
 
     **Arguments:**
     - `read`: converts a given value to the stored one, or raises `ValueError`.
-    - `said`: metadata, from which `scenes.table_of` makes the field's schema in scene files.
+    - `facts`: metadata, from which `scenes.table_of` makes the field's schema in scene files.
     """
     if default is not dataclasses.MISSING:
         kwargs["default"] = default
@@ -122,7 +122,7 @@ def _field(read: Callable[[Any], Any], default: object, kwargs: dict[str, Any], 
     def converter(value: object) -> Any:
         return None if value is None and default is None else read(value)
 
-    metadata = {**said, **kwargs.pop("metadata", {})}
+    metadata = {**facts, **kwargs.pop("metadata", {})}
     return eqx.field(static=True, converter=converter, metadata=metadata, **kwargs)
 
 

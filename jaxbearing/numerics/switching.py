@@ -146,13 +146,13 @@ class Switching(dfx.AbstractAdaptiveSolver):
         start, unravel = ravel_pytree(y0)
 
         def stage(i, carry):
-            ks, found = carry
+            ks, solution = carry
             y = start + length * (lower[i] @ ks)
-            rate, found = self.implicit.rates(t0 + places[i] * length, unravel(y), args, found)
-            return ks.at[i].set(ravel_pytree(rate)[0]), found
+            rate, solution = self.implicit.rates(t0 + places[i] * length, unravel(y), args, solution)
+            return ks.at[i].set(ravel_pytree(rate)[0]), solution
 
         ks = jnp.zeros_like(kept.past).at[0].set(kept.rate)
-        ks, found = jax.lax.fori_loop(1, count, stage, (ks, kept.found))
+        ks, solution = jax.lax.fori_loop(1, count, stage, (ks, kept.found))
         end, near = (start + length * (lower[i] @ ks) for i in (count - 1, count - 2))
         weight = self.implicit.weights(start)
         moved, turned = (jnp.sqrt(jnp.sum(jnp.square(d * weight))) for d in (end - near, ks[-1] - ks[-2]))
@@ -164,7 +164,7 @@ class Switching(dfx.AbstractAdaptiveSolver):
         # the first implicit step begins with a new Jacobian, and without stages before
         kept = kept._replace(
             rate=ks[-1],
-            found=found,
+            found=solution,
             renew=jnp.asarray(True),
             ratio=jnp.ones(()),
             length=jnp.zeros(()),

@@ -168,7 +168,7 @@ def given_forces(system: ShaftSystem) -> Given:
     gravity = gravity_along(system.shaft.gravity)
     acting: list[ActingForce] = [force.acting(t, gravity) for force, t in zip(forces, torques, strict=True)]
     position = jnp.stack([jnp.asarray(force.position, dtype=float) for force in forces])
-    return Given(position, jnp.stack([one.load for one in acting]), jnp.stack([one.torque for one in acting]))
+    return Given(position, jnp.stack([force.load for force in acting]), jnp.stack([force.torque for force in acting]))
 
 
 class Axis(NamedTuple):
@@ -188,10 +188,10 @@ class Axis(NamedTuple):
 
         **Arguments:** `at`: m; `origin`, `forces`: as in `Parts`; `position`: positions of the bearings, m.
         """
-        found = jnp.einsum("pij,j->pi", shifts(at), origin) + self.bent_by_loads(at)
+        displacement = jnp.einsum("pij,j->pi", shifts(at), origin) + self.bent_by_loads(at)
         if self.beam is None:
-            return found
-        return found + jnp.einsum("pbij,bj->pi", self.beam.compliance(at, position), forces)
+            return displacement
+        return displacement + jnp.einsum("pbij,bj->pi", self.beam.compliance(at, position), forces)
 
     def bent_by_loads(self, at: Float[Array, " place"]) -> Float[Array, "place 5"]:
         """Displacements of the shaft under given forces and its weight if it is clamped at x = 0."""
@@ -221,8 +221,8 @@ def support_matrix(support: Support | None) -> tuple[Float[Array, "5 5"], np.nda
     if support.matrix is not None:
         return jnp.asarray(support.matrix), np.ones(5, bool)
     each = (support.axial, support.radial, support.radial, support.tilt, support.tilt)
-    elastic = np.asarray([one is not None for one in each])
-    return jnp.diag(jnp.stack([jnp.asarray(1.0 if one is None else one) for one in each])), elastic
+    elastic = np.asarray([stiffness is not None for stiffness in each])
+    return jnp.diag(jnp.stack([jnp.asarray(1.0 if stiffness is None else stiffness) for stiffness in each])), elastic
 
 
 def build_balance(

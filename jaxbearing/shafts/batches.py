@@ -112,7 +112,7 @@ class RollingBatch(AbstractBatch):
     def rows(self, expansion, at_rest=False):
         scene = self.ports
         if at_rest:
-            speeds = lambda one: (one.operation.inner_speed, one.operation.outer_speed)
+            speeds = lambda bearing: (bearing.operation.inner_speed, bearing.operation.outer_speed)
             scene = eqx.tree_at(speeds, scene, tuple(0.0 * jnp.asarray(speed) for speed in speeds(scene)))
 
         def row(scene: AbstractBearing, expansion: Array) -> AbstractRow:
@@ -165,7 +165,7 @@ def solutions(
     A tilt moves the grooves to first order.
     """
 
-    def one(scene: AbstractBearing, displacement: Array, expansion: Array) -> Solution:
+    def solution_of(scene: AbstractBearing, displacement: Array, expansion: Array) -> Solution:
         if not scene.may_tilt:
             displacement = displacement.at[3:].set(0.0)
 
@@ -176,7 +176,7 @@ def solutions(
 
         return scene.solved_running(of_running)
 
-    return jax.vmap(one)(scene, displacement, expansion)
+    return jax.vmap(solution_of)(scene, displacement, expansion)
 
 
 class Acting(NamedTuple):
@@ -195,8 +195,8 @@ class Acting(NamedTuple):
     @property
     def converged(self) -> Bool[Array, ""]:
         """True if all solutions converged."""
-        found = [self.own, self.tilted, self.even]
-        return jnp.all(jnp.stack([one.converged for one in found if one is not None]))
+        parts = [self.own, self.tilted, self.even]
+        return jnp.all(jnp.stack([part.converged for part in parts if part is not None]))
 
 
 def acting(
@@ -231,7 +231,7 @@ def acting(
 
 def evenly_loaded(
     batch: RollingBatch,
-    found: Acting,
+    held: Acting,
     displacement: Float[Array, "own 5"],
     expansion: Float[Array, " own"],
     options: NewtonOptions,
@@ -243,21 +243,21 @@ def evenly_loaded(
 
     def better(state: tuple[Array, Solution], _: None) -> tuple[tuple[Array, Solution], None]:
         place, solution = state
-        missing = (found.force - solution.force)[:, 1:3]
+        missing = (held.force - solution.force)[:, 1:3]
         stiffness = solution.stiffness[:, 1:3, 1:3] + ANCHOR * jnp.eye(2)[None]
         step = jax.vmap(solve_dense)(stiffness, missing)
         place = place.at[:, 1:3].add(jnp.clip(step, -LOAD_STEP, LOAD_STEP))
         return (place, solutions(batch.scene, place, expansion, options, when=when)), None
 
     # the body of a loop is compiled once, unrolled steps are compiled one by one
-    return jax.lax.scan(better, (displacement, found.own), None, length=LOAD_STEPS)[0][1]
+    return jax.lax.scan(better, (displacement, held.own), None, length=LOAD_STEPS)[0][1]
 
 
-def with_carried_loads(scene: AbstractBearing, found: Acting, solution: Solution) -> Solution:
+def with_carried_loads(scene: AbstractBearing, held: Acting, solution: Solution) -> Solution:
     """The solution of a bearing with sliding rollers, with the loads that they carry under the tilted ring. The life is
     computed from these loads: the loads of its own model plus the change of the lamina loads of dry rollers by the
     tilt."""
-    tilted, even, own = found.tilted, found.even, found.own
+    tilted, even, own = held.tilted, held.even, held.own
     assert tilted is not None
     assert even is not None
     assert tilted.laminae is not None
@@ -278,7 +278,7 @@ def with_carried_loads(scene: AbstractBearing, found: Acting, solution: Solution
         pressure_outer=pressure[1],
     )
     laminae = LaminaLoads(inner, outer, tilted.laminae.profiled)
-    return dataclasses.replace(solution, elements=elements, laminae=laminae, force=found.force)
+    return dataclasses.replace(solution, elements=elements, laminae=laminae, force=held.force)
 
 
 def _dry(scene: AbstractBearing) -> AbstractBearing:
@@ -295,18 +295,18 @@ def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ..
         scene = scene if isinstance(scene, LinearBearing) else on_shaft(scene, speed)
         shapes = tuple(np.shape(leaf) for leaf in jax.tree.leaves(scene))
         groups.setdefault((jax.tree.structure(scene), shapes), []).append((index, scene))
-    found: list[AbstractBatch] = []
+    batches: list[AbstractBatch] = []
     for members in groups.values():
         numbers = tuple(index for index, _ in members)
         stacked = jax.tree.map(
-            lambda *leaves: jnp.stack([jnp.asarray(one) for one in leaves]), *(s for _, s in members)
+            lambda *leaves: jnp.stack([jnp.asarray(leaf) for leaf in leaves]), *(s for _, s in members)
         )
         if isinstance(stacked, LinearBearing):
-            found.append(LinearBatch(stiffness=jnp.asarray(stacked.stiffness), places=numbers))
+            batches.append(LinearBatch(stiffness=jnp.asarray(stacked.stiffness), places=numbers))
         else:
             dry = None if stacked.may_tilt else _dry(stacked)
-            found.append(RollingBatch(scene=stacked, dry=dry, places=numbers))
-    return tuple(found)
+            batches.append(RollingBatch(scene=stacked, dry=dry, places=numbers))
+    return tuple(batches)
 
 
 def pressure_centre(scene: AbstractBearing) -> Float[Array, ""]:

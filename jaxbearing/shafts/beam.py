@@ -85,8 +85,8 @@ class Beam(NamedTuple):
         end = wide(self.end)
         cut = jnp.clip(place[..., None], wide(self.start), end)
         reach, arm = end - cut, 0.5 * (end + cut) - place[..., None]
-        forces = [jnp.sum(wide(one) * reach, axis=-1) for one in self.weight]
-        moments = [-jnp.sum(wide(one) * reach * arm, axis=-1) for one in self.weight]
+        forces = [jnp.sum(wide(weight) * reach, axis=-1) for weight in self.weight]
+        moments = [-jnp.sum(wide(weight) * reach * arm, axis=-1) for weight in self.weight]
         return jnp.stack([jnp.zeros_like(forces[0]), *forces, *moments], axis=-1)
 
     def sagging(self, at: Float[Array, " i"]) -> Float[Array, "i 5"]:
@@ -95,8 +95,8 @@ class Beam(NamedTuple):
         load, lever = self.weight_at(place), at[:, None, None] - place
         total = lambda values: jnp.sum(weight * values, axis=(-2, -1))
         bend, shear = self.bending[None, :, None], self.shear[None, :, None]
-        across = [total(shear * load[..., one] - lever * bend * load[..., one + 2]) for one in (1, 2)]
-        turns = [total(bend * load[..., one]) for one in (3, 4)]
+        across = [total(shear * load[..., freedom] - lever * bend * load[..., freedom + 2]) for freedom in (1, 2)]
+        turns = [total(bend * load[..., freedom]) for freedom in (3, 4)]
         return jnp.stack([jnp.zeros_like(at), *across, *turns], axis=-1)
 
 
@@ -131,7 +131,7 @@ def gravity_along(gravity: Gravity | None) -> Float[Array, "2"]:
 
 def shifts(positions: Float[Array, " place"]) -> Float[Array, "place 5 5"]:
     """Shift T(x) of each position: displacement of a rigid shaft there, per displacement of its point x = 0."""
-    return jnp.stack([shift_matrix(one) for one in positions])
+    return jnp.stack([shift_matrix(position) for position in positions])
 
 
 def element_stiffness(

@@ -137,11 +137,11 @@ def between_neighbours(thermal: ShaftThermal, shaft: Shaft, position: Float[Arra
         SHAFT_NODE: gap_conductances(thermal, shaft, position[order]),
         HOUSING_NODE: jnp.broadcast_to(jnp.asarray(thermal.housing_conductance, dtype=float), (count - 1,)),
     }
-    found = jnp.zeros((count, NODES, count, NODES))
+    conductances = jnp.zeros((count, NODES, count, NODES))
     for node, conductance in gaps.items():
-        found = found.at[order[:-1], node, order[1:], node].add(conductance)
-        found = found.at[order[1:], node, order[:-1], node].add(conductance)
-    return found.reshape(count * NODES, count * NODES)
+        conductances = conductances.at[order[:-1], node, order[1:], node].add(conductance)
+        conductances = conductances.at[order[1:], node, order[:-1], node].add(conductance)
+    return conductances.reshape(count * NODES, count * NODES)
 
 
 def flows_along(

@@ -28,7 +28,7 @@ SENSES = {"+x": 1.0, "-x": -1.0, "<": 1.0, ">": -1.0}
 def _numbers(value: object) -> Any:
     """Converts a sequence or array of numbers to a float64 array; keeps `None`."""
     if isinstance(value, list | tuple):
-        traced = any(isinstance(one, jax.Array) for one in jax.tree.leaves(value))
+        traced = any(isinstance(leaf, jax.Array) for leaf in jax.tree.leaves(value))
         value = jnp.asarray(value) if traced else np.asarray(value, dtype=np.float64)
     return as_float(value)
 
@@ -68,7 +68,7 @@ class Support(Checked):
 
     def __check_init__(self):
         super().__check_init__()
-        if self.matrix is not None and any(one is not None for one in (self.axial, self.radial, self.tilt)):
+        if self.matrix is not None and any(stiffness is not None for stiffness in (self.axial, self.radial, self.tilt)):
             raise ValueError("support.matrix: expected none beside axial, radial and tilt")
 
 
@@ -95,9 +95,9 @@ class Preload(Checked):
     def __check_init__(self):
         super().__check_init__()
         ways = ("force", "class_force", "offset", "spring_force")
-        given = [name for name in ways if getattr(self, name) is not None]
-        if len(given) != 1:
-            raise ValueError(f"preload must have one of {', '.join(ways)}, got {' and '.join(given) or 'none'}")
+        chosen = [name for name in ways if getattr(self, name) is not None]
+        if len(chosen) != 1:
+            raise ValueError(f"preload must have one of {', '.join(ways)}, got {' and '.join(chosen) or 'none'}")
         if self.spring_stiffness is not None and self.spring_force is None:
             raise ValueError("preload.spring_stiffness: expected none without spring_force")
 
@@ -207,7 +207,7 @@ class MatchedSet(Checked):
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the bearings."""
-        return tuple(f"{self.name}.{one + 1}" for one in range(self.count))
+        return tuple(f"{self.name}.{place + 1}" for place in range(self.count))
 
     @property
     def senses(self) -> tuple[float, ...]:

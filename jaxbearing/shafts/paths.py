@@ -46,16 +46,16 @@ def replaced(system: "ShaftSystem", changes: object) -> "ShaftSystem":
             named.setdefault(("section", keys[2]), {})[keys[3:]] = value
         else:
             plain[keys] = value
-    found: dict[str, Any] = {}
+    lists: dict[str, Any] = {}
     for (word, name), inner in named.items():
         field = LISTS.get(word, "sections")
-        entries = list(found.get(field) or entries_of(system, word))
+        entries = list(lists.get(field) or entries_of(system, word))
         place = _place(system, word, name)
         entries[place] = _changed(entries[place], inner, f"{word}.{name}")
-        found[field] = tuple(entries)
-    if "sections" in found:
-        plain["shaft", "sections"] = found.pop("sections")
-    return _replaced(system, {**plain, **{(field,): value for field, value in found.items()}})
+        lists[field] = tuple(entries)
+    if "sections" in lists:
+        plain["shaft", "sections"] = lists.pop("sections")
+    return _replaced(system, {**plain, **{(field,): value for field, value in lists.items()}})
 
 
 def entries_of(system: "ShaftSystem", word: str) -> tuple[Any, ...]:
@@ -68,7 +68,7 @@ def names_of(system: "ShaftSystem", word: str) -> tuple[str, ...]:
     entries = entries_of(system, word)
     if word == "section":
         return tuple(str(place + 1) for place in range(len(entries)))
-    return tuple(one.name for one in entries)
+    return tuple(entry.name for entry in entries)
 
 
 def _place(system: "ShaftSystem", word: str, name: str) -> int:
@@ -89,7 +89,7 @@ def _changed(entry: Any, changes: _Changes, above: str) -> Any:
     if bearings:
         scene = getattr(entry, _BEARING, ())
         scenes = scene if isinstance(scene, tuple) else (scene,)
-        inside = [field.name for one in scenes for field in dataclasses.fields(one)]
+        inside = [field.name for bearing in scenes for field in dataclasses.fields(bearing)]
         inside += [NUMBERED] if isinstance(scene, tuple) else []
         for path in bearings:
             name = path.partition(".")[0]
@@ -106,24 +106,24 @@ def _of_bearings(scenes: tuple[Bearing, ...], changes: Mapping[str, object], abo
 
     **Raises:** `AttributeError` for a number that the set does not have.
     """
-    found = list(scenes)
+    changed = list(scenes)
     for path, value in changes.items():
         keys = path.split(".")
         if keys[0] != NUMBERED:
-            found = [_of_bearing(one, {path: value}, above) for one in found]
+            changed = [_of_bearing(scene, {path: value}, above) for scene in changed]
             continue
         place = _number(keys[1:2], len(scenes))
         if place is None:
             raise AttributeError(f"the scene has no '{above}.{path}'; the set has bearings 1 to {len(scenes)}")
         number = ".".join([above, *keys[:2]])
-        found[place] = _of_bearing(found[place], {".".join(keys[2:]): value}, number)
-    return tuple(found)
+        changed[place] = _of_bearing(changed[place], {".".join(keys[2:]): value}, number)
+    return tuple(changed)
 
 
 def _number(keys: list[str], count: int) -> int | None:
     """Index of a bearing from its number, which counts from 1; `None` if there is no such bearing."""
-    given = keys[0] if keys else ""
-    return int(given) - 1 if given.isdecimal() and 1 <= int(given) <= count else None
+    digits = keys[0] if keys else ""
+    return int(digits) - 1 if digits.isdecimal() and 1 <= int(digits) <= count else None
 
 
 def _of_bearing(scene: Bearing, changes: Mapping[str, object], above: str) -> Bearing:
@@ -136,14 +136,14 @@ _NUMBERED = re.compile(r"(bearings|sets|forces)\.(\d+)\.(.*)")
 def path_in_file(system: "ShaftSystem", path: str) -> str:
     """Path in scene files of a path in the tree of numbers: `bearing.rear.geometry.conformity_inner` for
     `bearings.0.scene.geometry.conformity_inner`."""
-    found = _NUMBERED.fullmatch(path)
-    if found is None:
+    match = _NUMBERED.fullmatch(path)
+    if match is None:
         place = re.fullmatch(r"shaft\.sections\.(\d+)\.(.*)", path)
         return path if place is None else f"shaft.sections.{int(place[1]) + 1}.{place[2]}"
-    word = next(word for word, field in LISTS.items() if field == found[1])
-    place = int(found[2])
-    name, rest = names_of(system, word)[place], found[3].removeprefix(f"{_BEARING}.")
-    if rest != found[3] and isinstance(entries_of(system, word)[place].scene, tuple):
+    word = next(word for word, field in LISTS.items() if field == match[1])
+    place = int(match[2])
+    name, rest = names_of(system, word)[place], match[3].removeprefix(f"{_BEARING}.")
+    if rest != match[3] and isinstance(entries_of(system, word)[place].scene, tuple):
         number, _, rest = rest.partition(".")
         rest = f"{NUMBERED}.{int(number) + 1}.{rest}"
     return f"{word}.{name}.{rest}"

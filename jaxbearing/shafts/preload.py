@@ -61,13 +61,13 @@ class _Held(NamedTuple):
 def _held(rest: Rest, axial: Float[Array, " bearing"]) -> _Held:
     """Forces, stiffness and states of the rows at given axial displacements; not differentiated."""
     displacement = _displacements(axial)
-    found = []
+    held = []
     for batch, rows in zip(rest.batches, rest.rows, strict=True):
         own = displacement[batch.index]
-        found.append(batch.hold(rows, own, batch.initial(rows, own)))
-    of = lambda get: spread(rest.batches, [get(one) for one in found], len(axial))
-    states = [one.state for one in found]
-    return _Held(of(lambda one: one.force[:, 0]), of(lambda one: one.stiffness[:, 0, 0]), states)
+        held.append(batch.hold(rows, own, batch.initial(rows, own)))
+    of = lambda get: spread(rest.batches, [get(part) for part in held], len(axial))
+    states = [part.state for part in held]
+    return _Held(of(lambda part: part.force[:, 0]), of(lambda part: part.stiffness[:, 0, 0]), states)
 
 
 @once
@@ -177,7 +177,11 @@ def groups_of(places: tuple[Place, ...], number: int) -> tuple[np.ndarray, np.nd
 def mount(system: ShaftSystem, places: tuple[Place, ...], batches: tuple[AbstractBatch, ...]) -> Mounted:
     """Finds the preload of all sets of a system."""
     closure = jnp.stack([jnp.asarray(place.closure, dtype=float) for place in places])
-    sets = [(number, one.name, one.preload) for number, one in enumerate(system.sets) if one.preload is not None]
+    sets = [
+        (number, matched.name, matched.preload)
+        for number, matched in enumerate(system.sets)
+        if matched.preload is not None
+    ]
     if not sets:
         return Mounted(closure, (), {}, {}, {}, {}, {})
     preloaded = np.asarray([place.set_index in {number for number, _, _ in sets} for place in places])
@@ -226,8 +230,8 @@ def _travels(
             additional = jnp.where(first, 0.0, additional)
     if not groups:
         return {}, {}
-    found = displaced(rest, groups, additional)
-    own = {name: jnp.stack([found[i] for i, other in enumerate(owner) if other == name]) for name in owner}
+    displacements = displaced(rest, groups, additional)
+    own = {name: jnp.stack([displacements[i] for i, other in enumerate(owner) if other == name]) for name in owner}
     return {name: jnp.sum(each) for name, each in own.items()}, {name: jnp.max(each) for name, each in own.items()}
 
 

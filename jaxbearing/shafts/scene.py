@@ -121,7 +121,7 @@ class ShaftSystem(AbstractScene):
                 return
         for part, names in (
             ("bearing", [place.name for place in places]),
-            ("set", [one.name for one in self.sets]),
+            ("set", [matched.name for matched in self.sets]),
             ("force", [force.name for force in self.forces]),
         ):
             for name in sorted({name for name in names if names.count(name) > 1}):
@@ -179,24 +179,24 @@ class ShaftSystem(AbstractScene):
     def _shapes(self) -> Iterator[str]:
         """Problems of flexible outer rings: each needs something that holds it in place, and must not have an outer
         load if the shaft has an elastic support or housing there."""
-        found = []
+        problems = []
         for place in self.places:
             ring = place.scene.outer_ring if isinstance(place.scene, AbstractBearing) else None
             if ring is None or not ring.harmonics:
                 continue
             table = f"{self._table_of(place)}.outer_ring"
             if not ring.held:
-                found.append(
+                problems.append(
                     f"{table}: nothing holds the ring; expected housing_stiffness or support_angle, because a bearing "
                     "on a shaft carries no more than what holds its outer ring"
                 )
             elif ring.load_angle is not None and (place.support is not None or self.housing is not None):
-                found.append(
+                problems.append(
                     f"{table}.load_angle: expected none beside an elastic support or housing of the shaft, on which "
                     "loads from outside would act too"
                 )
         # a set has the same parts in each of its bearings
-        yield from dict.fromkeys(found)
+        yield from dict.fromkeys(problems)
 
     def _table_of(self, place: Place) -> str:
         """Path of the table of a bearing, or of its set."""
@@ -210,17 +210,21 @@ class ShaftSystem(AbstractScene):
     @property
     def places(self) -> tuple[Place, ...]:
         """All bearings: those of the sets in their order, then the single bearings."""
-        found = []
-        for index, one in enumerate(self.sets):
-            mismatch = np.zeros(one.count) if one.mismatch is None else one.mismatch
+        places = []
+        for index, entry in enumerate(self.sets):
+            mismatch = np.zeros(entry.count) if entry.mismatch is None else entry.mismatch
             for name, scene, position, sense, closure in zip(
-                one.names, one.scenes, one.positions(), one.senses, mismatch, strict=True
+                entry.names, entry.scenes, entry.positions(), entry.senses, mismatch, strict=True
             ):
-                found.append(Place(name, scene, position, sense, closure, one.expansion, one.support, index))
-        for one in self.bearings:
-            support = one.support
-            found += [Place(one.name, one.scene, one.position, one.sense, one.closure, one.expansion, support, None)]
-        return tuple(found)
+                places.append(Place(name, scene, position, sense, closure, entry.expansion, entry.support, index))
+        for entry in self.bearings:
+            support = entry.support
+            places += [
+                Place(
+                    entry.name, entry.scene, entry.position, entry.sense, entry.closure, entry.expansion, support, None
+                )
+            ]
+        return tuple(places)
 
     def replace(self, changes: Any) -> "ShaftSystem":
         """A copy with other values. `changes`: dotted path of scene files (`paths`) -> SI number or part.

@@ -91,12 +91,12 @@ class _Ports(NamedTuple):
 def _held(
     problem: Problem, rows: list[AbstractRow | None], displacement: Float[Array, "bearing 5"], states: list[RowState]
 ) -> _Ports:
-    found = [
+    held = [
         batch.hold(row, displacement[batch.index], own)
         for batch, row, own in zip(problem.batches, rows, states, strict=True)
     ]
-    of = lambda name: spread(problem.batches, [getattr(one, name) for one in found], problem.balance.count)
-    return _Ports(of("energy"), of("force"), of("stiffness"), [one.state for one in found])
+    of = lambda name: spread(problem.batches, [getattr(part, name) for part in held], problem.balance.count)
+    return _Ports(of("energy"), of("force"), of("stiffness"), [part.state for part in held])
 
 
 def ports(
@@ -108,10 +108,10 @@ def ports(
         own = displacement[batch.index]
         if isinstance(batch, RollingBatch):
             expansion = problem.expansion[batch.index]
-            found = acting(batch, own, expansion, problem.balance.typical_load, options)
-            forces.append(found.force)
-            stiffness.append(found.stiffness)
-            good &= found.converged
+            held = acting(batch, own, expansion, problem.balance.typical_load, options)
+            forces.append(held.force)
+            stiffness.append(held.stiffness)
+            good &= held.converged
         else:
             assert isinstance(batch, LinearBatch)
             forces.append(batch.force_at(None, own, None))

@@ -250,7 +250,7 @@ class ShaftSolution(AbstractSolution):
             lane = int(np.argmax(np.asarray(self.duty.states.status) == Status.THERMAL_RUNAWAY))
             state = jax.tree.map(lambda leaf: leaf[lane], self.duty.states)
             return f"{state._runaway()}, in state {self.duty.names[lane]}"
-        solved = {name: one.solution for name, one in self.bearings.items() if one.solution is not None}
-        warm = {name: one.thermal for name, one in solved.items() if one.thermal is not None}
-        name, hottest = max(warm.items(), key=lambda one: float(jnp.max(one[1].last)))
+        solved = {name: bearing.solution for name, bearing in self.bearings.items() if bearing.solution is not None}
+        warm = {name: solution.thermal for name, solution in solved.items() if solution.thermal is not None}
+        name, hottest = max(warm.items(), key=lambda entry: float(jnp.max(entry[1].last)))
         return f"{hottest.ending(Status.THERMAL_RUNAWAY)}, in bearing {name}"

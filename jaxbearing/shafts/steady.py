@@ -87,17 +87,19 @@ def _duty(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
     leaves = jax.tree.leaves(stacked)
     # the scene of each state has checks of its own
     solve = lambda own: with_checked_inputs(jax.tree.unflatten(structure, own), lambda lane: _solve(lane, options))
-    found = jax.lax.map(solve, leaves)
+    by_state = jax.lax.map(solve, leaves)
     shares = jnp.stack([jnp.asarray(state.share, dtype=float) for state in system.states])
     names = tuple(state.name or str(number + 1) for number, state in enumerate(system.states))
-    first = jax.tree.map(lambda leaf: leaf[0], found)
-    duty = DutyResult(*_duty_lives(system, found, shares, stacked.shaft.speed), shares, found, names)
-    status = jnp.max(found.status)
+    first = jax.tree.map(lambda leaf: leaf[0], by_state)
+    duty = DutyResult(*_duty_lives(system, by_state, shares, stacked.shaft.speed), shares, by_state, names)
+    status = jnp.max(by_state.status)
     causes = {
         text: FailureCause(jnp.any(cause.applies), jnp.max(cause.numbers))
-        for text, cause in found.failure_causes.items()
+        for text, cause in by_state.failure_causes.items()
     }
-    return dataclasses.replace(first, status=status, duty=duty, checks=_any_state(found.checks), failure_causes=causes)
+    return dataclasses.replace(
+        first, status=status, duty=duty, checks=_any_state(by_state.checks), failure_causes=causes
+    )
 
 
 def _any_state(checks: Checks) -> Checks:
@@ -107,13 +109,13 @@ def _any_state(checks: Checks) -> Checks:
 
 
 def _duty_lives(
-    system: ShaftSystem, found: ShaftSolution, shares: Array, speeds: Array
+    system: ShaftSystem, by_state: ShaftSolution, shares: Array, speeds: Array
 ) -> tuple[dict[str, SpectrumLife], SystemLifeResult | None]:
     """Life of each rated bearing under the duty cycle by name, and life of the system (`None` if one has no rating)."""
-    rated = {name: one.life for name, one in found.bearings.items() if one.life is not None}
+    rated = {name: bearing.life for name, bearing in by_state.bearings.items() if bearing.life is not None}
     states = lambda life: [jax.tree.map(lambda leaf, at=at: leaf[at], life) for at in range(len(shares))]
     lives = {name: spectrum_life(states(life), shares, speeds) for name, life in rated.items()}
-    if len(lives) < len(found.bearings):
+    if len(lives) < len(by_state.bearings):
         return lives, None
     rates = [miner_rates(states(life), revolution_shares(shares, speeds)) for life in rated.values()]
     mean_speed = jnp.sum(shares * jnp.abs(speeds))
@@ -172,31 +174,32 @@ def _results(
     problem: Problem,
     root: Root,
     mounted: Mounted,
-    given: tuple[Array, Array],
+    layout: tuple[Array, Array],
     options: NewtonOptions,
 ) -> ShaftSolution:
-    balance, (position, closure) = problem.balance, given
+    balance, (position, closure) = problem.balance, layout
     parts = balance.parts(root.unknowns)
     displacement = balance.displacements(root.unknowns)
-    found, checks, notes, good = _bearings(
+    bearings, checks, notes, good = _bearings(
         places, problem, displacement, parts, (position, closure), root.solved, options
     )
     good &= root.solved
     sets = {
-        one.name: _set_result(system, places, found, number, mounted, parts) for number, one in enumerate(system.sets)
+        matched.name: _set_result(system, places, bearings, number, mounted, parts)
+        for number, matched in enumerate(system.sets)
     }
     if mounted.springs or mounted.closures:
-        checks |= _preload_checks(system, places, found, mounted)
+        checks |= _preload_checks(system, places, bearings, mounted)
     causes = {
         TOO_MUCH_PRELOAD.format(name): FailureCause(~good & (asked > FARTHEST), 1e3 * asked)
         for name, asked in mounted.asked.items()
     }
-    torque = _torques(system, axis, found)
-    life = _system_life(system, found)
+    torque = _torques(system, axis, bearings)
+    life = _system_life(system, bearings)
     nodes = _nodes(system, axis, parts, position)
     # counts and states stay whole numbers
     unless_failed = lambda leaf: jnp.where(good, leaf, jnp.nan) if jnp.issubdtype(leaf.dtype, jnp.inexact) else leaf
-    shown = jax.tree.map(unless_failed, (found, nodes, sets, torque, life))
+    shown = jax.tree.map(unless_failed, (bearings, nodes, sets, torque, life))
     failed = jnp.where(root.solved, int(Status.NOT_CONVERGED), root.status)
     return ShaftSolution(
         status=jnp.where(good, int(Status.CONVERGED), failed),
@@ -223,16 +226,16 @@ def _bearings(
     problem: Problem,
     displacement: Float[Array, "bearing 5"],
     parts: Parts,
-    given: tuple[Array, Array],
+    layout: tuple[Array, Array],
     solved: Bool[Array, ""],
     options: NewtonOptions,
 ) -> tuple[dict[str, BearingOnShaft], dict[str, Bool[Array, ""]], list[str], Bool[Array, ""]]:
     """Results of all bearings, their checks and notes, and whether all have a solution."""
-    found: dict[int, BearingOnShaft] = {}
+    bearings: dict[int, BearingOnShaft] = {}
     checks: dict[str, Bool[Array, ""]] = {}
     notes: list[str] = []
     good = jnp.asarray(True)
-    position, closure = given
+    position, closure = layout
     for batch in problem.batches:
         own = displacement[batch.index]
         stack: Solution | None = None
@@ -256,11 +259,11 @@ def _bearings(
         for number, index in enumerate(batch.places):
             place = places[index]
             pick = lambda tree, number=number: jax.tree.map(lambda leaf: leaf[number], tree)
-            one: Solution | None = None if stack is None else pick(stack)
+            solution: Solution | None = None if stack is None else pick(stack)
             mirror = jnp.asarray([place.sense, 1.0, 1.0, place.sense, place.sense])
             ring = own[number].at[0].add(-closure[index])
             centre = jnp.zeros(()) if isinstance(place.scene, LinearBearing) else pressure_centre(place.scene)
-            found[index] = BearingOnShaft(
+            bearings[index] = BearingOnShaft(
                 position=position[index],
                 ring=RingDisplacement(**dict(zip(RING_FREEDOMS, ring, strict=True))),
                 force=force[number],
@@ -271,30 +274,30 @@ def _bearings(
                 expansion=problem.expansion[index],
                 largest_load=jnp.asarray(jnp.nan) if most is None else most[number],
                 pressure_centre=position[index] + place.sense * centre,
-                solution=one,
-                life=None if one is None else one.life,
+                solution=solution,
+                life=None if solution is None else solution.life,
                 name=place.name,
                 sense=place.sense,
                 sliding_difference=None if apart is None else apart[number],
             )
-            if one is not None:
-                checks |= {about(place.name, text): flag for text, flag in one.checks.items()}
-                notes += [about(place.name, note) for note in one.notes]
+            if solution is not None:
+                checks |= {about(place.name, text): flag for text, flag in solution.checks.items()}
+                notes += [about(place.name, note) for note in solution.notes]
             if apart is not None:
                 notes.append(f"{place.name}: {SLIDING_APART}")
-            if one is not None and _has_angle(place):
-                wrong = (one.elements.load_inner > LIGHT) & (one.elements.contact_angle_inner < 0)
+            if solution is not None and _has_angle(place):
+                wrong = (solution.elements.load_inner > LIGHT) & (solution.elements.contact_angle_inner < 0)
                 checks[f"{place.name}: {MISSING_SHOULDER}"] = jnp.any(wrong)
             steep = jnp.max(jnp.abs(own[number, 3:])) > STEEP_TILT
             checks[f"{place.name}: the inner ring is tilted by more than 1 mrad against the outer ring"] = steep
-    in_order = {places[index].name: found[index] for index in range(len(places))}
+    in_order = {places[index].name: bearings[index] for index in range(len(places))}
     return in_order, checks, notes, good
 
 
 def _with_life_of(scene: AbstractBearing, rated: Solution, shown: Solution) -> Solution:
     """The solution `shown` with the life from the loads of `rated`, another solution of the same bearing."""
-    found = with_life(scene, rated)
-    return dataclasses.replace(shown, life=found.life, checks=found.checks, notes=found.notes)
+    source = with_life(scene, rated)
+    return dataclasses.replace(shown, life=source.life, checks=source.checks, notes=source.notes)
 
 
 def _has_angle(place: Place) -> bool:
@@ -308,22 +311,22 @@ def _has_angle(place: Place) -> bool:
 def _set_result(
     system: ShaftSystem,
     places: tuple[Place, ...],
-    found: dict[str, BearingOnShaft],
+    bearings: dict[str, BearingOnShaft],
     number: int,
     mounted: Mounted,
     parts: Parts,
 ) -> SetResult:
-    one = system.sets[number]
-    centres = [found[name].pressure_centre for name in one.names]
-    spring = mounted.spring_numbers.get(one.name)
+    matched = system.sets[number]
+    centres = [bearings[name].pressure_centre for name in matched.names]
+    spring = mounted.spring_numbers.get(matched.name)
     travel = force = None
     if spring is not None:
         pressed, travel = mounted.springs[spring], parts.springs[spring]
         force = pressed.force - pressed.stiffness * travel
     return SetResult(
-        preload=mounted.forces.get(one.name),
-        closure=mounted.closures.get(one.name),
-        loss_force=mounted.losses.get(one.name),
+        preload=mounted.forces.get(matched.name),
+        closure=mounted.closures.get(matched.name),
+        loss_force=mounted.losses.get(matched.name),
         travel=travel,
         spring_force=force,
         support_distance=jnp.abs(centres[-1] - centres[0]),
@@ -331,33 +334,33 @@ def _set_result(
 
 
 def _preload_checks(
-    system: ShaftSystem, places: tuple[Place, ...], found: dict[str, BearingOnShaft], mounted: Mounted
+    system: ShaftSystem, places: tuple[Place, ...], bearings: dict[str, BearingOnShaft], mounted: Mounted
 ) -> dict[str, Bool[Array, ""]]:
     """Warnings on sets: a bearing that has lost its preload, pressure centres that are near each other."""
     checks = {}
-    for number, one in enumerate(system.sets):
-        preload = mounted.forces.get(one.name)
+    for number, matched in enumerate(system.sets):
+        preload = mounted.forces.get(matched.name)
         if preload is None:
             continue
         share = preload / jnp.stack([jnp.asarray(float(group.sum())) for group in groups_of(places, number)])
-        for name, sense in zip(one.names, one.senses, strict=True):
-            group = 1 if sense == one.senses[-1] else 0
+        for name, sense in zip(matched.names, matched.senses, strict=True):
+            group = 1 if sense == matched.senses[-1] else 0
             text = f"{name}: its axial force is less than 1 % of the preload"
-            checks[text] = found[name].force[0] < EMPTY * share[group]
-        rows = one.positions()
-        centres = [found[name].pressure_centre for name in one.names]
+            checks[text] = bearings[name].force[0] < EMPTY * share[group]
+        rows = matched.positions()
+        centres = [bearings[name].pressure_centre for name in matched.names]
         near = jnp.abs(centres[-1] - centres[0]) < 0.5 * (rows[-1] - rows[0])
-        text = f"{one.name}: the pressure centres are nearer than half of the rows: it hardly carries moments"
+        text = f"{matched.name}: the pressure centres are nearer than half of the rows: it hardly carries moments"
         checks[text] = near
     return checks
 
 
-def _torques(system: ShaftSystem, axis: Axis, found: dict[str, BearingOnShaft]) -> TorqueBalance:
+def _torques(system: ShaftSystem, axis: Axis, by_name: dict[str, BearingOnShaft]) -> TorqueBalance:
     zero = jnp.zeros(())
     forces = jnp.sum(axis.given.torque) + zero
     bearings, losses = zero, zero
-    for one in found.values():
-        solution = one.solution
+    for bearing in by_name.values():
+        solution = bearing.solution
         if solution is not None and solution.inner_torque is not None:
             bearings = bearings + solution.inner_torque
         if solution is not None and solution.power_loss.total is not None:
@@ -365,8 +368,8 @@ def _torques(system: ShaftSystem, axis: Axis, found: dict[str, BearingOnShaft]) 
     return TorqueBalance(forces=forces, bearings=bearings, drive=bearings - forces, power_loss=losses)
 
 
-def _system_life(system: ShaftSystem, found: dict[str, BearingOnShaft]) -> SystemLifeResult | None:
-    lives = [one.life for one in found.values()]
+def _system_life(system: ShaftSystem, bearings: dict[str, BearingOnShaft]) -> SystemLifeResult | None:
+    lives = [bearing.life for bearing in bearings.values()]
     rated = [life for life in lives if life is not None]
     if len(rated) < len(lives):
         return None

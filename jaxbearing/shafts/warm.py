@@ -60,9 +60,11 @@ class _Warm:
         self.names = [places[i].name for i in self.index]
         self.networks = [bearing_network(scene) for scene in self.scenes]
         self.position = jnp.stack([jnp.asarray(places[i].position, dtype=float) for i in self.index])
-        inlets = [inlet_temperature(scene) for scene, one in zip(self.scenes, self.networks, strict=True) if one.oil]
-        coldest = [jnp.asarray(one.ambient, dtype=float) for one in self.networks]
-        self.coldest = jnp.min(jnp.stack([*coldest, *(jnp.asarray(one, dtype=float) for one in inlets)]))
+        inlets = [
+            inlet_temperature(scene) for scene, network in zip(self.scenes, self.networks, strict=True) if network.oil
+        ]
+        coldest = [jnp.asarray(network.ambient, dtype=float) for network in self.networks]
+        self.coldest = jnp.min(jnp.stack([*coldest, *(jnp.asarray(inlet, dtype=float) for inlet in inlets)]))
         """Lowest temperature of all ambients and oil inlets, K, the ambient of the network. Warmer ambients and inlets
         bring in heat, which is therefore never negative."""
         assert system.thermal is not None
@@ -73,12 +75,12 @@ class _Warm:
         """Network of the nodes of all bearings. The conductances between them come with the losses."""
         nodes: list[str] = []
         ways: list[_Way] = []
-        for name, one in zip(self.names, self.networks, strict=True):
-            for place, node in enumerate(one.nodes):
-                oil = one.oil if place == one.oil_node else None
+        for name, network in zip(self.names, self.networks, strict=True):
+            for place, node in enumerate(network.nodes):
+                oil = network.oil if place == network.oil_node else None
                 nodes.append(f"{node} of {name}")
                 flow = jnp.zeros(()) if oil is None else jnp.asarray(oil.capacity_rate / oil.mixing)
-                ways.append(_Way(one.to_ambient[place], flow))
+                ways.append(_Way(network.to_ambient[place], flow))
         return Network(tuple(nodes), jnp.zeros((len(nodes), len(nodes))), tuple(ways), self.coldest)
 
     def each(self, temperatures: Float[Array, " node"]) -> Float[Array, "bearing 6"]:
@@ -92,26 +94,28 @@ class _Warm:
     def start(self) -> Float[Array, " node"]:
         """Temperatures at which the search begins: `thermal.start` of a bearing if it is given, else a cold start."""
         starts = [
-            one.start() if scene.thermal.start is None else jnp.full(NODES, scene.thermal.start)
-            for scene, one in zip(self.scenes, self.networks, strict=True)
+            network.start() if scene.thermal.start is None else jnp.full(NODES, scene.thermal.start)
+            for scene, network in zip(self.scenes, self.networks, strict=True)
         ]
         return jnp.concatenate(starts)
 
     def capacity(self) -> Float[Array, " node"] | None:
-        found = [heat_capacities(scene) for scene in self.scenes]
-        known = [one for one in found if one is not None]
-        return jnp.concatenate(known) if len(known) == len(found) else None
+        capacities = [heat_capacities(scene) for scene in self.scenes]
+        known = [capacity for capacity in capacities if capacity is not None]
+        return jnp.concatenate(known) if len(known) == len(capacities) else None
 
     def from_outside(self, number: int, heat: NodeHeat, temperatures: Float[Array, "6"]) -> Float[Array, "6"]:
         """Heat that ambient and oil of a bearing bring in because they are warmer than `coldest`, W."""
-        one, outside = self.networks[number], heat.to_ambient
+        network, outside = self.networks[number], heat.to_ambient
         assert outside is not None
-        laws = zip(one.to_ambient, temperatures, strict=True)
+        laws = zip(network.to_ambient, temperatures, strict=True)
         ways = jnp.stack([jnp.asarray(law(t) if callable(law) else law, dtype=float) for law, t in laws]) + outside
-        brought = ways * (one.ambient - self.coldest)
-        if one.oil is None or one.oil_node is None:
+        brought = ways * (network.ambient - self.coldest)
+        if network.oil is None or network.oil_node is None:
             return brought
-        return brought.at[one.oil_node].add(one.oil.capacity_rate / one.oil.mixing * (one.oil.inlet - self.coldest))
+        return brought.at[network.oil_node].add(
+            network.oil.capacity_rate / network.oil.mixing * (network.oil.inlet - self.coldest)
+        )
 
 
 def solve_warm_shaft(system: ShaftSystem, solve: SolveAt) -> ShaftSolution:

@@ -189,8 +189,8 @@ def elements_surface(diameter: Values, count: Values | int, length: Values | Non
 
     **Arguments:** `diameter`: m; `count`: number of elements; `length`: length of rollers, m, `None` for balls.
     """
-    one = jnp.square(diameter) if length is None else diameter * length + 0.5 * jnp.square(diameter)
-    return jnp.asarray(count * math.pi * one)
+    surface = jnp.square(diameter) if length is None else diameter * length + 0.5 * jnp.square(diameter)
+    return jnp.asarray(count * math.pi * surface)
 
 
 def seat_conductance(

@@ -254,7 +254,7 @@ def conductances_between(
     if plain:
         # known numbers stay known, so that they can be checked
         return np.asarray(rows, dtype=float)
-    return jnp.stack([jnp.stack([jnp.asarray(one, dtype=float) for one in row]) for row in rows])
+    return jnp.stack([jnp.stack([jnp.asarray(conductance, dtype=float) for conductance in row]) for row in rows])
 
 
 class Slopes(NamedTuple):

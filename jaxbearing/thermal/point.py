@@ -58,8 +58,8 @@ class ThermalOptions(eqx.Module):
 @eqx.filter_jit
 def _evaluated(losses: Callable[[Array], NodeHeat], temperatures: Array) -> NodeHeat:
     """The losses at temperatures. All loops of the search share one trace of this function."""
-    found = losses(temperatures)
-    return jax.tree.map(lambda one: jnp.asarray(one, dtype=jnp.result_type(one)), found)
+    heat = losses(temperatures)
+    return jax.tree.map(lambda leaf: jnp.asarray(leaf, dtype=jnp.result_type(leaf)), heat)
 
 
 class Problem(NamedTuple):

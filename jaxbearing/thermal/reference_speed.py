@@ -109,8 +109,8 @@ def reference_speed(
     """
     require_numbers("> 0", heat=heat, viscosity=viscosity, diameter=diameter)
     require_numbers(">= 0", load=load, f0=f0, f1=f1)
-    args = [jnp.asarray(one, dtype=float) for one in (heat, viscosity, load, diameter, f0, f1)]
-    power = lambda speed, given: palmgren_torque(speed, *given[1:]) * speed
+    args = [jnp.asarray(value, dtype=float) for value in (heat, viscosity, load, diameter, f0, f1)]
+    power = lambda speed, inputs: palmgren_torque(speed, *inputs[1:]) * speed
     root = _root_in_logarithm(power, args, args[0], jnp.asarray(1e-3), jnp.asarray(1e6))
     return jnp.exp(root.value)
 
@@ -139,8 +139,8 @@ def _root_in_logarithm(
     ends = [jnp.full(shape, jnp.log(end)) for end in (lower, upper)]
     middle = 0.5 * (ends[0] + ends[1])
 
-    def excess(log_speed: Array, given: tuple[Given, Array]) -> Array:
-        own, target = given
+    def excess(log_speed: Array, inputs: tuple[Given, Array]) -> Array:
+        own, target = inputs
         return jnp.log(power(jnp.exp(log_speed), own)) - jnp.log(target)
 
     return monotone_root(excess, (args, heat), ends[0], ends[1], middle)
@@ -154,11 +154,11 @@ def safe_speed_ratio(lubricant_parameter: Values, load_parameter: Values) -> Flo
     **Arguments:** `lubricant_parameter` k_L, `load_parameter` k_P: numbers >= 0, one of them > 0 (`safe_speed`).
     """
     require_numbers(">= 0", lubricant_parameter=lubricant_parameter, load_parameter=load_parameter)
-    viscous, load = (jnp.asarray(one, dtype=float) for one in (lubricant_parameter, load_parameter))
+    viscous, load = (jnp.asarray(value, dtype=float) for value in (lubricant_parameter, load_parameter))
     shape = jnp.broadcast_shapes(viscous.shape, load.shape)
 
-    def excess(log_ratio: Array, given: tuple[Array, Array]) -> Array:
-        first, second = given
+    def excess(log_ratio: Array, inputs: tuple[Array, Array]) -> Array:
+        first, second = inputs
         return jnp.log(first * jnp.exp(2.0 / 3.0 * log_ratio) + second) + log_ratio
 
     ends = jnp.full(shape, math.log(1e-6)), jnp.full(shape, math.log(1e6))

@@ -103,8 +103,8 @@ class ThermalResult(eqx.Module):
         """Heat flow from the first to the second node of each pair, W, negative if it flows the other way. The second
         node may be `ambient` or `neighbours`."""
         ends = itertools.product(self.nodes, (*self.nodes, "ambient", "neighbours"))
-        found = {(first, second): getattr(self.flows, f"{first}_{second}", None) for first, second in ends}
-        return {pair: flow for pair, flow in found.items() if flow is not None}
+        flows = {(first, second): getattr(self.flows, f"{first}_{second}", None) for first, second in ends}
+        return {pair: flow for pair, flow in flows.items() if flow is not None}
 
     def losses(self) -> dict[str, _Number]:
         """The part of the power loss that heats each node directly, W. In a steady state this is the heat that flows

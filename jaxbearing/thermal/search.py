@@ -111,11 +111,11 @@ def _quasi_newton(problem: Problem, options: ThermalOptions) -> _QuasiNewton:
         updated = rank_one(state.matrix, line.trial - line.base, point.residual - state.point.residual)
         matrix = jnp.where(first, -conduction, jnp.where(accepted, updated, state.matrix))
         following = line.goes_on(accepted, -lapack.solve_vector(matrix, point.residual))
-        found = accepted & point.balanced(options.tolerance)
+        converged = accepted & point.balanced(options.tolerance)
         spent = following.stuck | (state.passes + 1 >= options.quasi_newton_solves)
         # if the losses cannot be computed at the start, the search cannot begin
         lost = first & point.broken
-        status = jnp.where(lost, point.failure, jnp.where(found, int(Status.CONVERGED), GOING))
+        status = jnp.where(lost, point.failure, jnp.where(converged, int(Status.CONVERGED), GOING))
         kept = jax.tree.map(lambda new, old: jnp.where(accepted | first, new, old), point, state.point)
         return _QuasiNewton(following, kept, matrix, conduction, state.passes + 1, spent, status)
 
@@ -176,9 +176,9 @@ def _second_loop(problem: Problem, options: ThermalOptions, quasi: _QuasiNewton,
         in_time = _time_pass(state, point, matrix, problem, capacity, -quasi.conduction, options)
         pick = lambda a, b: jax.tree.map(lambda x, y: jnp.where(state.marching, x, y), a, b)
         following = pick(in_time, newton) if exact else in_time
-        found = following.status == Status.CONVERGED
+        converged = following.status == Status.CONVERGED
         # Newton's iteration has failed: steps in time begin from the start
-        turns = ~found & ~following.marching & (following.newton >= options.newton_steps)
+        turns = ~converged & ~following.marching & (following.newton >= options.newton_steps)
         line = jax.tree.map(lambda x, y: jnp.where(turns, x, y), Line.at(problem.start), following.line)
         wanted = slopes if options.stability else None
         return following._replace(
@@ -206,15 +206,15 @@ def _newton_pass(state: _Second, point: Point, matrix: Array, options: ThermalOp
     to its limit if the iteration has failed."""
     accepted = state.line.accepts(point, state.point.norm, state.newton == 0)
     following = state.line.goes_on(accepted, -lapack.solve_vector(matrix, point.residual))
-    found = accepted & point.balanced(options.tolerance)
+    converged = accepted & point.balanced(options.tolerance)
     stuck = following.stuck | (point.broken & (state.newton == 0))
     # the root is the point of the evaluation, not the next trial
-    line = jax.tree.map(lambda x, y: jnp.where(found, x, y), Line.at(state.line.trial), following)
+    line = jax.tree.map(lambda x, y: jnp.where(converged, x, y), Line.at(state.line.trial), following)
     return state._replace(
         line=line,
         point=jax.tree.map(lambda new, old: jnp.where(accepted, new, old), point, state.point),
         newton=jnp.where(stuck, options.newton_steps, state.newton + 1),
-        status=jnp.where(found, int(Status.CONVERGED), GOING),
+        status=jnp.where(converged, int(Status.CONVERGED), GOING),
     )
 
 

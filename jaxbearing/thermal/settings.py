@@ -166,8 +166,8 @@ class Thermal(Checked):
         if self.stability and self.jacobian == "never":
             raise ValueError("thermal.stability = true needs the Jacobian: only with thermal.jacobian = 'when_needed'")
         if (self.housing_diameter is None) != (self.housing_area is None):
-            missing, given = ("diameter", "area") if self.housing_diameter is None else ("area", "diameter")
-            raise ValueError(f"thermal.housing_{missing}: found nothing, housing_{given} needs it beside it")
+            missing, present = ("diameter", "area") if self.housing_diameter is None else ("area", "diameter")
+            raise ValueError(f"thermal.housing_{missing}: found nothing, housing_{present} needs it beside it")
 
     @property
     def exact_jacobian(self) -> Literal["when_needed", "never"]:

@@ -102,9 +102,9 @@ def _row(name: str, nodes: tuple[str, ...], parts: Mapping[str, Scalar | None]) 
     *others, last = parts
     for node in others:
         require_numbers("between 0 and 1", **{f"the share of {name} to {node}": parts[node]})
-    given: list[Scalar] = [parts[node] for node in others]
-    rest = 1.0 - sum(given)
-    numbers = known(parts[last], *given)
+    values: list[Scalar] = [parts[node] for node in others]
+    rest = 1.0 - sum(values)
+    numbers = known(parts[last], *values)
     if numbers is not None and abs(sum(numbers) - 1.0) > SUM_ERROR:
         raise ValueError(f"the shares of {name} must add up to 1, got {sum(numbers):g}")
     require_numbers("between 0 and 1", **{f"the share of {name} to {last}": rest})

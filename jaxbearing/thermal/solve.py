@@ -138,19 +138,19 @@ def solve_network(
     def known(root: _Root, stiffness: bool) -> _Root:
         return _at_known_root(network, losses, root, stiffness)
 
-    found = at_known_root(search, known)
-    solved = found.status == Status.CONVERGED
-    flows = network.flows(found.temperatures, found.losses)
+    solution = at_known_root(search, known)
+    solved = solution.status == Status.CONVERGED
+    flows = network.flows(solution.temperatures, solution.losses)
     masked = lambda value: jnp.where(solved, value, jnp.nan)
-    total = jnp.sum(found.losses.heat)
+    total = jnp.sum(solution.losses.heat)
     leaving = flows.to_oil + flows.to_ambient
-    margin, rate = _stability(found.slopes, solved, held[1])
-    oil_out = network.oil_out(found.temperatures)
+    margin, rate = _stability(solution.slopes, solved, held[1])
+    oil_out = network.oil_out(solution.temperatures)
     return ThermalState(
         nodes=network.nodes,
-        status=found.status,
-        temperatures=masked(found.temperatures),
-        heat=masked(found.losses.heat),
+        status=solution.status,
+        temperatures=masked(solution.temperatures),
+        heat=masked(solution.losses.heat),
         total=masked(total),
         heat_to_oil=masked(flows.to_oil),
         heat_to_ambient=masked(flows.to_ambient),
@@ -158,11 +158,11 @@ def solve_network(
         oil_out=None if oil_out is None else masked(oil_out),
         margin=None if margin is None else masked(margin),
         rate=None if rate is None else masked(rate),
-        losses=jax.tree.map(lambda leaf: masked(leaf) if eqx.is_inexact_array(leaf) else leaf, found.losses),
-        ended=jax.lax.stop_gradient(found.losses),
-        last=jax.lax.stop_gradient(found.temperatures),
-        solves=jnp.asarray(found.solves),
-        derivatives=jnp.asarray(found.derivatives),
+        losses=jax.tree.map(lambda leaf: masked(leaf) if eqx.is_inexact_array(leaf) else leaf, solution.losses),
+        ended=jax.lax.stop_gradient(solution.losses),
+        last=jax.lax.stop_gradient(solution.temperatures),
+        solves=jnp.asarray(solution.solves),
+        derivatives=jnp.asarray(solution.derivatives),
     )
 
 
@@ -186,8 +186,8 @@ def _stability(slopes: Slopes | None, solved: Array, capacity: Array | None) -> 
     return in_turn(_margin_and_rate, jax.lax.stop_gradient((there, capacity)))
 
 
-def _margin_and_rate(given: tuple[Slopes, Array | None]) -> tuple[Array, Array | None]:
-    there, capacity = given
+def _margin_and_rate(inputs: tuple[Slopes, Array | None]) -> tuple[Array, Array | None]:
+    there, capacity = inputs
     return thermal_margin(there), None if capacity is None else thermal_rate(there, capacity)
 
 
@@ -204,7 +204,7 @@ class _Root(NamedTuple):
 
 @eqx.filter_custom_jvp
 def _root(problem: Problem, *, options: ThermalOptions) -> _Root:
-    ended: Ended = in_turn(lambda given: search_root(given, options), problem)
+    ended: Ended = in_turn(lambda lane: search_root(lane, options), problem)
     return _Root(ended.temperatures, ended.point.losses, ended.slopes, ended.status, ended.solves, ended.derivatives)
 
 
@@ -220,8 +220,8 @@ def _root_jvp(primals: tuple[Problem], tangents: tuple[Problem], *, options: The
         problem, jax.tree.map(lambda dot: dot is not None, problem_dot, is_leaf=lambda dot: dot is None)
     )
 
-    def balances(given: Problem, temperatures: Array) -> tuple[Array, NodeHeat]:
-        into, heat, losses, _ = evaluate(eqx.combine(given, fixed), temperatures)
+    def balances(numbers: Problem, temperatures: Array) -> tuple[Array, NodeHeat]:
+        into, heat, losses, _ = evaluate(eqx.combine(numbers, fixed), temperatures)
         return into + heat, eqx.filter(losses, eqx.is_inexact_array)
 
     # one trace of the losses for all directions
@@ -257,8 +257,8 @@ def _at_known_root(network: Network, losses: Losses, root: _Root, stiffness: boo
         into = network.flows(temperatures, heat).into_nodes
         return into + heat.heat, eqx.filter(dataclasses.replace(heat, roots=()), eqx.is_inexact_array)
 
-    found, rest = eqx.partition(dataclasses.replace(root.losses, roots=()), eqx.is_inexact_array)
-    place = _Place(root.temperatures, found, root.status == Status.CONVERGED)
+    numbers, rest = eqx.partition(dataclasses.replace(root.losses, roots=()), eqx.is_inexact_array)
+    place = _Place(root.temperatures, numbers, root.status == Status.CONVERGED)
     temperatures, moved = _known_place(eqx.filter_closure_convert(balances, root.temperatures), place=place)
     return root._replace(temperatures=temperatures, losses=eqx.combine(moved, rest))
 
@@ -292,9 +292,9 @@ def _known_place_jvp(
     moved, fixed = eqx.partition(balances, moving)
     size = place.temperatures.size
 
-    def along(given: object, step: Array) -> tuple[Array, NodeHeat]:
+    def along(direction: object, step: Array) -> tuple[Array, NodeHeat]:
         evaluate = lambda numbers, temperatures: eqx.combine(numbers, fixed)(temperatures)
-        return jax.jvp(evaluate, (moved, place.temperatures), (given, step))[1]
+        return jax.jvp(evaluate, (moved, place.temperatures), (direction, step))[1]
 
     # one batched derivative serves the direction that is asked for and the directions of the temperatures
     first = jax.tree.map(lambda dot: jnp.zeros((1 + size, *dot.shape)).at[0].set(dot), balances_dot)

@@ -106,11 +106,11 @@ def warm_up(
     first = at_time(jnp.zeros(()))
     begin = jnp.full(len(first.nodes), first.ambient) if start is None else jnp.asarray(start, dtype=float)
     balance = Balance(at_time, losses, capacity)
-    found = integrate(balance, begin, times, limit, chosen, jumps=jumps, adjoint=adjoint)
+    reached = integrate(balance, begin, times, limit, chosen, jumps=jumps, adjoint=adjoint)
     ahead = AHEAD * chosen.shortest_step
-    beyond = found.last + ahead * balance.rates(found.end, found.last, None)
-    status = run_status(found, losses(beyond[: begin.size], found.end + ahead).status)
-    return _history(first.nodes, begin, capacity, times, balance.flows_at, found, status)
+    beyond = reached.last + ahead * balance.rates(reached.end, reached.last, None)
+    status = run_status(reached, losses(beyond[: begin.size], reached.end + ahead).status)
+    return _history(first.nodes, begin, capacity, times, balance.flows_at, reached, status)
 
 
 def usual_options() -> IntegratorOptions:
@@ -189,7 +189,7 @@ def integrate(
 
     # diffrax calls the field in many places: so it is traced once
     field: Any = eqx.filter_jit(_with_differences(balance.rates, begin) if differences else balance.rates)
-    found = dfx.diffeqsolve(
+    solution = dfx.diffeqsolve(
         dfx.ODETerm(field),
         # the elimination that has derivatives of the energies
         diffrax_solver(dataclasses.replace(options, elimination="dense"), noise=STAGE_NOISE),
@@ -204,9 +204,9 @@ def integrate(
         throw=False,
         adjoint=dfx.RecursiveCheckpointAdjoint() if adjoint is None else adjoint,
     )
-    saved: Any = found.ys
-    ends: Any = found.ts
-    result: Any = found.result
+    saved: Any = solution.ys
+    ends: Any = solution.ts
+    result: Any = solution.result
     last = saved[1][0]
     finite = jnp.all(jnp.isfinite(last))
     return Reached(
@@ -216,8 +216,8 @@ def integrate(
         finished=finite & (result == dfx.RESULTS.successful),
         hot=finite & (result == dfx.RESULTS.event_occurred),
         out_of_steps=result == dfx.RESULTS.max_steps_reached,
-        accepted=found.stats["num_accepted_steps"],
-        rejected=found.stats["num_rejected_steps"],
+        accepted=solution.stats["num_accepted_steps"],
+        rejected=solution.stats["num_rejected_steps"],
         step_times=ends[2] if steps else None,
         step_states=saved[2] if steps else None,
     )
@@ -272,14 +272,14 @@ def _history(
     capacity: Array,
     times: Array,
     flows_at: Callable[[Array, Array], tuple[NodeHeat, HeatFlows]],
-    found: Reached,
+    reached: Reached,
     status: Array,
 ) -> WarmUp:
     """Heat flows at the instants, and energies at the end."""
     size = begin.size
-    temperatures, energies = found.last[:size], ENERGY * found.last[size:]
+    temperatures, energies = reached.last[:size], ENERGY * reached.last[size:]
     stored = jnp.sum(capacity * (temperatures - begin))
-    there = times <= found.end
+    there = times <= reached.end
 
     def heats(instant: tuple[Array, Array, Array]) -> tuple[Array, Array, Array, Array]:
         time, state, passed = instant
@@ -288,7 +288,7 @@ def _history(
         values = (trial, jnp.sum(heat.heat), flows.to_oil, flows.to_ambient)
         return jax.tree.map(lambda value: jnp.where(passed, value, jnp.nan), values)
 
-    shown, total, to_oil, to_ambient = jax.lax.map(heats, (times, found.states, there))
+    shown, total, to_oil, to_ambient = jax.lax.map(heats, (times, reached.states, there))
     return WarmUp(
         nodes=nodes,
         status=status,
@@ -297,20 +297,20 @@ def _history(
         total=total,
         heat_to_oil=to_oil,
         heat_to_ambient=to_ambient,
-        end=found.end,
+        end=reached.end,
         last=temperatures,
         losses_energy=energies[0],
         oil_energy=energies[1],
         ambient_energy=energies[2],
         energy_error=(energies[0] - energies[1] - energies[2] - stored) / jnp.where(energies[0] == 0, 1.0, energies[0]),
-        accepted=found.accepted,
-        rejected=found.rejected,
+        accepted=reached.accepted,
+        rejected=reached.rejected,
     )
 
 
-def run_status(found: Reached, of_losses: Array) -> Int[Array, ""]:
+def run_status(reached: Reached, of_losses: Array) -> Int[Array, ""]:
     """The status with which a run ended. **Arguments:** `of_losses`: status of the losses just beyond the end."""
-    failed = jnp.where(found.out_of_steps, int(Status.NOT_CONVERGED), int(Status.DIVERGED))
+    failed = jnp.where(reached.out_of_steps, int(Status.NOT_CONVERGED), int(Status.DIVERGED))
     failed = jnp.where(of_losses == Status.CONVERGED, failed, of_losses)
-    ended = jnp.where(found.hot, int(Status.THERMAL_RUNAWAY), failed)
-    return jnp.where(found.finished, int(Status.CONVERGED), ended)
+    ended = jnp.where(reached.hot, int(Status.THERMAL_RUNAWAY), failed)
+    return jnp.where(reached.finished, int(Status.CONVERGED), ended)

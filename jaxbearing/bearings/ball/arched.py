@@ -166,8 +166,8 @@ class ArchedBallSystem(AbstractBallEquations):
         args = (self.laws, contact, stiffness, closed, races.mean_speed, races.rolling, self.oil, self.inlet, share)
         root, opened = _filled(args)
         load = jnp.exp(root.value)
-        found = self.laws.film_state(contact, load, races.mean_speed, races.rolling, self.oil, self.inlet)
-        return load, found, jnp.max(jnp.where(opened, 0.0, root.residual))
+        film = self.laws.film_state(contact, load, races.mean_speed, races.rolling, self.oil, self.inlet)
+        return load, film, jnp.max(jnp.where(opened, 0.0, root.residual))
 
     def _least_slip(self, load: Float[Array, "contact ball"], angle: Float[Array, "contact ball"]) -> BallMotion:
         weight = slip_weights(load, self.arcs, FORCE_FLOOR)

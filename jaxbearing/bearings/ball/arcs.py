@@ -93,9 +93,9 @@ class Arcs(NamedTuple):
             names[race] + ("_second" if side == -1 else "") for race, side in zip(self.races, self.sides, strict=True)
         )
 
-    def named(self, found: dict[str, Float[Array, "contact ball"]]) -> dict[str, Float[Array, " ball"]]:
+    def named(self, results: dict[str, Float[Array, "contact ball"]]) -> dict[str, Float[Array, " ball"]]:
         """Results of the single contacts, under the names of their fields (`load_inner`, `load_inner_second`, ...)."""
-        return {f"{name}_{place}": values[k] for name, values in found.items() for k, place in enumerate(self.names)}
+        return {f"{name}_{place}": values[k] for name, values in results.items() for k, place in enumerate(self.names)}
 
     def of_contacts(self, values: Float[Array, "2"]) -> Float[Array, " contact"]:
         """Value of each contact, from the values of the inner and the outer race."""

@@ -16,13 +16,13 @@ def _angles(result: SolvedBearing) -> Excess:
             return {}
         # in the model the cross-section of each arc is a full circle
         text = "a loaded ball touches the groove of {place} beyond 90°, where no groove is: it cannot run so"
-        found = contacts.said(text, contacts.most(jnp.abs(contacts.angle)) - 0.5 * np.pi)
+        excess = contacts.said(text, contacts.most(jnp.abs(contacts.angle)) - 0.5 * np.pi)
         if scene.geometry.has_arcs:
-            return found | _cusps(scene, contacts)
+            return excess | _cusps(scene, contacts)
         if scene.geometry.contact_angle is not None:
             text = "a loaded ball leans on the other shoulder of {place}: an angular-contact bearing has none there"
-            found |= contacts.said(text, contacts.most(-contacts.angle) - 1e-9)
-        return found
+            excess |= contacts.said(text, contacts.most(-contacts.angle) - 1e-9)
+        return excess
 
     return result.each(leaning)
 
@@ -32,16 +32,16 @@ def _cusps(scene: BallBearing, contacts: Contacts) -> Excess:
     geometry, arcs = scene.geometry, scene.geometry.arcs
     assert contacts.angle is not None
     radii = (geometry.conformity_inner * geometry.ball_diameter, geometry.conformity_outer * geometry.ball_diameter)
-    found: Excess = {}
+    excess: Excess = {}
     text = "a loaded ball touches {place} beyond the cusp between both arcs: the model is wrong there"
     for k, (race, side) in enumerate(zip(arcs.races, arcs.sides, strict=True)):
         apart = arcs[race]
         if apart is not None:
             past = contacts.most(jnp.arcsin(apart / radii[race]) - side * contacts.angle)
-            found[text.format(place=contacts.places[k])] = past[k]
+            excess[text.format(place=contacts.places[k])] = past[k]
     carrying = jnp.sum(contacts.load > LOADED * jnp.max(contacts.load), axis=0, dtype=float)
     text = "balls with more than two contacts under load slide: friction and wear rise, as with mainly radial load"
-    return found | {text: jnp.max(carrying) - 2.5}
+    return excess | {text: jnp.max(carrying) - 2.5}
 
 
 def missing_thrust(scene: BallBearing) -> Float[Array, ""]:

@@ -47,7 +47,7 @@ def ball_results(
     if scene.kinematics.gyroscopic is None:
         more["gyroscopic_limit"] = 0.5 * USUAL_FRICTION * kinematics.ball_diameter * jnp.sum(load, axis=0)
     more |= _second(arcs, load, angle, pressure, ratios)
-    others: dict[str, Any] = {name: None if one is None else _every(scene, one) for name, one in more.items()}
+    others: dict[str, Any] = {name: None if result is None else _every(scene, result) for name, result in more.items()}
     elements = BallResults(
         azimuth=azimuths(geometry, geometry.n_balls),
         load_inner=_every(scene, load[0]),
@@ -84,7 +84,7 @@ def _second(arcs: Arcs, load: Array, angle: Array, pressure: Array, ratios: Arra
     spins = jnp.abs(ratios)
     named = arcs.named({"load": load, "contact_angle": angle, "pressure": pressure, "spin_to_roll": spins})
     carrying = jnp.sum(load > LOADED * jnp.max(load), axis=0, dtype=float)
-    return {"loaded_contacts": carrying, **{name: one for name, one in named.items() if name.endswith("_second")}}
+    return {"loaded_contacts": carrying, **{name: result for name, result in named.items() if name.endswith("_second")}}
 
 
 def _at_shoulders(scene: BallBearing, contacts: Contacts, arcs: Arcs, transverse: Array) -> Contacts:

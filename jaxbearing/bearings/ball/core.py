@@ -189,9 +189,9 @@ class BallCore(AbstractBallSystem):
         """These equations with the minimum of the convex problem as first guess, and the number of Newton steps of
         that minimisation."""
         problem, centres, rings = self._estimates()
-        found = start(problem, rings[0])
-        guess, heavy = self._points(centres.at[0].set(found.centre), rings.at[0].set(found.ring))
-        return dataclasses.replace(self, guess=guess, heavy_guess=heavy), found.steps
+        minimum = start(problem, rings[0])
+        guess, heavy = self._points(centres.at[0].set(minimum.centre), rings.at[0].set(minimum.ring))
+        return dataclasses.replace(self, guess=guess, heavy_guess=heavy), minimum.steps
 
     def _points(
         self, centres: Float[Array, "2 2 ball"], rings: Float[Array, "2 coordinate"]

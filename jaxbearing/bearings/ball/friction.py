@@ -123,8 +123,8 @@ def mixed_state(system: AbstractLubricatedBallSystem, state: BallsState) -> Mixe
     shear = state.traction
     assert shear is not None
     sliding, speed = _sliding(system, state), state.races.mean_speed
-    found = system.laws.mixed_state(state.contact, state.load, state.film, speed, sliding, shear, system.oil)
-    return None if found is None else found._replace(boundary=jnp.asarray(-system.arcs.senses * found.boundary))
+    mixed = system.laws.mixed_state(state.contact, state.load, state.film, speed, sliding, shear, system.oil)
+    return None if mixed is None else mixed._replace(boundary=jnp.asarray(-system.arcs.senses * mixed.boundary))
 
 
 def _moments(

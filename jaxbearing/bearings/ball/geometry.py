@@ -78,9 +78,9 @@ class BallGeometry(AbstractGeometry):
             name = "geometry.diametral_clearance"
             yield from refusals_of(check_interference, name, -clearance[0], self.pitch_diameter)
         if (self.contact_angle is None) == (self.diametral_clearance is None):
-            found = "neither contact_angle nor" if self.contact_angle is None else "both contact_angle and"
+            words = "neither contact_angle nor" if self.contact_angle is None else "both contact_angle and"
             yield (
-                f"geometry.contact_angle: found {found} diametral_clearance, expected one of the two: each follows "
+                f"geometry.contact_angle: found {words} diametral_clearance, expected one of the two: each follows "
                 "from the other"
             )
         for name in ("shim_inner", "shim_outer"):
@@ -97,9 +97,9 @@ class BallGeometry(AbstractGeometry):
             )
 
     def _shim_problems(self, name: str) -> Iterator[str | ValueError]:
-        found = numbers_or_none(getattr(self, name))
-        if found is not None:
-            angle = found[0]
+        shim = numbers_or_none(getattr(self, name))
+        if shim is not None:
+            angle = shim[0]
             yield from refusals_of(
                 demand,
                 f"geometry.{name} must be at least {LEAST_SHIM:g} degree",

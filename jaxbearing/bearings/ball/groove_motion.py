@@ -180,7 +180,7 @@ def conjugate_loads(
     friction.
     """
     parts = [arm.conjugate(frame.axis, force) for arm, force in zip(arms, forces, strict=True)]
-    on_centre, on_axis = added([one for one, _ in parts]), added([one for _, one in parts])
+    on_centre, on_axis = added([centre for centre, _ in parts]), added([axis for _, axis in parts])
     if moment is not None:
         on_axis = on_axis + frame.on_turned(moment)
     return jnp.concatenate([on_centre, frame.on_tilt(on_axis)])

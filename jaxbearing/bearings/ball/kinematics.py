@@ -150,7 +150,7 @@ class BallKinematics(eqx.Module):
         default: one contact on each.
         """
         ring = jnp.where(senses > 0, self.inner_speed, self.outer_speed)
-        return self._over(jax.tree.map(lambda one: one[None], motion), angle, senses, ring)
+        return self._over(jax.tree.map(lambda leaf: leaf[None], motion), angle, senses, ring)
 
     def _over(
         self, motion: BallMotion, angle: Values, side: float | Float[np.ndarray, "contact 1"], ring_speed: Array

@@ -44,7 +44,7 @@ def slip_weights(load: Float[Array, "contact ball"], arcs: Arcs, floor: float) -
     """
     on_ring = (arcs.on_inner(load), arcs.on_outer(load))
     least = [floor + DRIVEN * other for other in on_ring[::-1]]
-    added = [one * (one / (one + there)) ** 5 for one, there in zip(least, on_ring, strict=True)]
+    added = [sigma * (sigma / (sigma + there)) ** 5 for sigma, there in zip(least, on_ring, strict=True)]
     return jnp.stack([load[k] + added[race] for k, race in enumerate(arcs.races)])
 
 

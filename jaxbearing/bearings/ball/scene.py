@@ -253,16 +253,16 @@ class BallBearing(AbstractMovingBearing):
             )
 
     def _attitude_problems(self) -> Iterator[str]:
-        found = self.kinematics.attitude
+        attitude = self.kinematics.attitude
         if self.geometry.has_arcs:
             yield from self._arc_problems()
             return
-        if not self.slips and found not in ("outer", "inner", "linear_slip"):
+        if not self.slips and attitude not in ("outer", "inner", "linear_slip"):
             yield (
-                f"kinematics.attitude: '{found}' needs traction (contact.traction); without "
+                f"kinematics.attitude: '{attitude}' needs traction (contact.traction); without "
                 "friction the attitude is that of 'outer' or 'inner' race control"
             )
-        if self.contact is not None and found == "linear_slip":
+        if self.contact is not None and attitude == "linear_slip":
             yield (
                 "kinematics.attitude: 'linear_slip' is for bearings without films and friction; leave out [contact] or "
                 "choose another attitude"
@@ -394,44 +394,44 @@ class BallBearing(AbstractMovingBearing):
 
     def assumptions(self) -> tuple[str, ...]:
         """Notes for the user: assumptions of the model, and uses for which the data of the scene are not intended."""
-        said = []
+        notes = []
         if self.contact is not None and self.oil is not None:
-            said += [f"oil: {note}" for note in self.oil.notes]
+            notes += [f"oil: {note}" for note in self.oil.notes]
             if self.contact.traction is not None:
-                said += self.contact.traction.notes(self.oil)
+                notes += self.contact.traction.notes(self.oil)
             if self.contact.heathcote:
-                said.append(
+                notes.append(
                     "contact.heathcote: ball and race slide also because their contact is curved (Heathcote slip), "
                     "which the source leaves out"
                 )
             if self.contact.mixed is not None:
-                said.append(
+                notes.append(
                     "contact.mixed: boundary friction against the spin of the balls is left out, balls that spin lose "
                     "too little in mixed friction"
                 )
         if self.slips and self.cage is not None:
-            said += self.cage.assumptions()
+            notes += self.cage.assumptions()
         if self.kinematics.orbit == "common":
-            said.append(
+            notes.append(
                 "kinematics.orbit = 'common': all balls orbit at the mean of their own speeds, weighted by their inner "
                 "loads"
             )
         if self.slips and self.kinematics.attitude != "equilibrium":
-            said.append(
+            notes.append(
                 f"kinematics.attitude = '{self.kinematics.attitude}' is a hypothesis: the moments about the radius do "
                 "not balance, and the losses do not add up to the drive power"
             )
         if self.kinematics.attitude == "linear_slip":
-            said.append(
+            notes.append(
                 "kinematics.attitude = 'linear_slip': speeds of the balls are those of tractions proportional to "
                 "pressure and sliding; no loss of sliding is computed from them"
             )
-        said += said_of_bending(self)
+        notes += said_of_bending(self)
         if self.rating is not None:
-            said += self.rating.groove_assumptions()
+            notes += self.rating.groove_assumptions()
         if self.tilts_by_standard:
-            said.append(
+            notes.append(
                 "rating.tilt = 'iso': displacements, loads and stiffness follow the equations of ISO 16281, to first "
                 "order in the tilt and with half the pitch diameter as its lever"
             )
-        return tuple(said)
+        return tuple(notes)

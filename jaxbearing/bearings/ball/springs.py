@@ -133,12 +133,14 @@ def inner_springs(problem: CentrifugalProblem, centre: Array, groove: Array) -> 
     springs = [spring(place - centre, problem.offset[0], problem.stiffness[0]) for place in places]
     if problem.arcs.inner is None:
         return springs[0], springs[0], springs[0].stiffness
-    energy = added([one.energy for one in springs])
-    ball = Spring(energy, added([one.force for one in springs]), added([one.stiffness for one in springs]))
-    pairs = [(one, coordinate_map(side)) for one, side in zip(springs, problem.arcs.inner_sides, strict=True)]
-    coupling = added([jnp.einsum("abn,bp->apn", one.stiffness, of) for one, of in pairs])
-    force = added([jnp.einsum("ap,an->pn", of, one.force) for one, of in pairs])
-    stiffness = added([jnp.einsum("ap,abn,bq->pqn", of, one.stiffness, of) for one, of in pairs])
+    energy = added([contact.energy for contact in springs])
+    ball = Spring(
+        energy, added([contact.force for contact in springs]), added([contact.stiffness for contact in springs])
+    )
+    pairs = [(contact, coordinate_map(side)) for contact, side in zip(springs, problem.arcs.inner_sides, strict=True)]
+    coupling = added([jnp.einsum("abn,bp->apn", contact.stiffness, of) for contact, of in pairs])
+    force = added([jnp.einsum("ap,an->pn", of, contact.force) for contact, of in pairs])
+    stiffness = added([jnp.einsum("ap,abn,bq->pqn", of, contact.stiffness, of) for contact, of in pairs])
     return ball, Spring(energy, force, stiffness), coupling
 
 

@@ -216,19 +216,19 @@ def hold(
         total = problem.multiplicity * jnp.sum(scale)
         return scale, total if outer is None else total + outer.given_load()
 
-    found = _descend(bending, guess, scales, cap, BENDING_TOLERANCE)
-    rings = jnp.concatenate([ring, found.ring])
-    forces = forces_at(problem, found.centre, problem.groove_at(rings))
+    minimum = _descend(bending, guess, scales, cap, BENDING_TOLERANCE)
+    rings = jnp.concatenate([ring, minimum.ring])
+    forces = forces_at(problem, minimum.centre, problem.groove_at(rings))
     force, matrix = _on_ring(problem, forces)
     balance, matrix = problem.ring_balance(rings, force), _anchored(problem.ring_stiffness(rings, matrix), count)
     follow = solve_dense(matrix[count:, count:], balance[count:])
-    energy = problem.multiplicity * jnp.sum(forces.energy) - bending.ring_work(found.ring)
+    energy = problem.multiplicity * jnp.sum(forces.energy) - bending.ring_work(minimum.ring)
     return HeldBalls(
         energy - 0.5 * jnp.sum(balance[count:] * follow),
         force[:count] - matrix[:count, count:] @ follow,
         condensed(matrix, count),
-        found.centre,
-        found.ring,
+        minimum.centre,
+        minimum.ring,
     )
 
 

@@ -143,16 +143,16 @@ def _lubricated(
     scene: BallBearing, system: AbstractBallEquations, result: NewtonResult, state: BallsState
 ) -> Results[BallResults, BallPowerLoss]:
     film, shear, pocket, arcs = state.film, state.traction, state.pocket, system.arcs
-    found: dict[str, Array] = {"film": film.film}
+    by_contact: dict[str, Array] = {"film": film.film}
     if film.rise is not None:
-        found["temperature_rise"] = film.rise
+        by_contact["temperature_rise"] = film.rise
     if shear is not None:
-        found |= {
+        by_contact |= {
             "sliding": state.races.rolling,
             "traction": jnp.asarray(-arcs.senses * shear.rolling),
             "spin_moment": shear.moment,
         }
-    more: dict[str, Array | None] = {**arcs.named(found)}
+    more: dict[str, Array | None] = {**arcs.named(by_contact)}
     mixed = None if shear is None else mixed_state(system, state)
     more |= mixed_results(mixed, arcs.names)
     if system.resolved:
@@ -197,7 +197,7 @@ def _rolling_alone(
     system: AbstractBallEquations, state: BallsState, elements: BallResults, facts: Facts
 ) -> Results[BallResults, BallPowerLoss]:
     """Results of balls that roll without sliding, with the rolling resistance if the scene models it."""
-    resistance, found = rolling_resistance(system, state), []
+    resistance, interactions = rolling_resistance(system, state), []
     if resistance is not None:
         power = system.multiplicity * jnp.sum(system.arcs.senses * resistance * state.races.roll)
         if system.common_orbit or isinstance(system, ArchedBallSystem):
@@ -205,8 +205,8 @@ def _rolling_alone(
         else:
             balance = rolling_balance(system, state, resistance)
             torques = _ball_torques(system, state, balance.forward, balance.about, (resistance,))
-        found = [Interaction("rolling_resistance", power, *torques, _by_race(system, state, resistance))]
-    totals = friction_totals(BallPowerLoss, found, system.kinematics)
+        interactions = [Interaction("rolling_resistance", power, *torques, _by_race(system, state, resistance))]
+    totals = friction_totals(BallPowerLoss, interactions, system.kinematics)
     return Results(elements, totals, facts)
 
 
@@ -214,7 +214,7 @@ def _raceway_power(system: AbstractBallEquations, state: BallsState) -> RacewayP
     shear, races = state.traction, state.races
     assert shear is not None
     senses, by_race = system.arcs.senses, system.arcs.by_race
-    total = lambda power: [system.multiplicity * jnp.sum(one) for one in by_race(power)]
+    total = lambda power: [system.multiplicity * jnp.sum(on_race) for on_race in by_race(power)]
     spin, rolling = total(shear.moment * races.spin), total(shear.rolling * (senses * races.rolling))
     transverse = total(shear.transverse * (senses * races.transverse))
     parts = RacewayPower(spin[0], rolling[0], transverse[0], spin[1], rolling[1], transverse[1])
@@ -232,7 +232,7 @@ def _interactions(system: AbstractBallEquations, state: BallsState, land: LandSt
     curved, senses = () if state.curvature is None else (state.curvature,), system.arcs.senses
     sheared = system.arcs.by_race(shear.power)
     inner, outer = _ball_torques(system, state, jnp.asarray(-senses * shear.rolling), -shear.moment, curved)
-    found = [
+    interactions = [
         Interaction("inner_raceway", total(sheared[0]), inner_torque=inner),
         Interaction("outer_raceway", total(sheared[1]), outer_torque=outer),
     ]
@@ -240,17 +240,17 @@ def _interactions(system: AbstractBallEquations, state: BallsState, land: LandSt
         nothing = jnp.zeros_like(state.rolling)
         torques = _ball_torques(system, state, nothing, nothing, (state.rolling,))
         power = total(senses * state.rolling * state.races.roll)
-        found.append(Interaction("rolling_resistance", power, *torques, _by_race(system, state, state.rolling)))
+        interactions.append(Interaction("rolling_resistance", power, *torques, _by_race(system, state, state.rolling)))
     if pocket is not None:
         radius = 0.5 * system.kinematics.ball_diameter
         power = pocket.friction * motion.axial_spin + pocket.transverse * motion.radial_spin
-        found.append(Interaction("pocket", total(radius * power)))
+        interactions.append(Interaction("pocket", total(radius * power)))
     if land is not None and system.cage is not None:
-        found.append(of_land(land.power, land.ring_torque, system.cage.guidance))
+        interactions.append(of_land(land.power, land.ring_torque, system.cage.guidance))
     if state.drag_force is not None:
         speed = 0.5 * system.kinematics.pitch_diameter * motion.orbital_speed
-        found.append(Interaction("drag", total(state.drag_force * speed)))
-    return found
+        interactions.append(Interaction("drag", total(state.drag_force * speed)))
+    return interactions
 
 
 def _by_race(system: AbstractBallEquations, state: BallsState, resistance: Array) -> Float[Array, "2"]:
@@ -274,7 +274,7 @@ def _ball_torques(
     torque = forward * radius - senses * about * sine
     for resistance in resistances:
         torque = torque + senses * (senses * resistance) * cosine
-    inner, outer = (system.multiplicity * jnp.sum(one) for one in system.arcs.by_race(torque))
+    inner, outer = (system.multiplicity * jnp.sum(on_race) for on_race in system.arcs.by_race(torque))
     return inner, outer
 
 

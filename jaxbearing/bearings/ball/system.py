@@ -256,12 +256,12 @@ class AbstractBallSystem(AbstractBetweenRings):
         frame = motion.frame(shift)
         place = centre - grooves.rest
         offsets = [0.0 if self.arcs.inner is None else side * self.arcs.inner for side in self.arcs.inner_sides]
-        found = [inner_arm(frame, place, grooves.lever, offset) for offset in offsets]
+        inner = [inner_arm(frame, place, grooves.lever, offset) for offset in offsets]
 
         def on_ring(forces: tuple[Array, ...], moment: Array | None) -> Array:
-            return self.multiplicity * motion.on_freedoms(conjugate_loads(frame, found, forces, moment))
+            return self.multiplicity * motion.on_freedoms(conjugate_loads(frame, inner, forces, moment))
 
-        return tuple(InnerArm(arm.vector, length_of(arm.vector), frame.turned) for arm in found), on_ring
+        return tuple(InnerArm(arm.vector, length_of(arm.vector), frame.turned) for arm in inner), on_ring
 
     def centrifugal(self, orbital_speed: Array) -> Array:
         """Centrifugal force of balls on the pitch circle, N."""
@@ -328,12 +328,12 @@ class AbstractBallSystem(AbstractBetweenRings):
         rests = self.arcs.from_outer(centre)
         lengths = [*(arm.length for arm in arms), *(safe_norm(rest[0], rest[1]) for rest in rests)]
         leaning = [*(arm.vector for arm in arms), *rests]
-        axial, outward = jnp.stack([one[:2] for one in leaning], axis=1)
+        axial, outward = jnp.stack([vector[:2] for vector in leaning], axis=1)
         direction = angle = jnp.arctan2(axial, outward)
         if arms[0].turned is not None:
             # senses are 1 at inner arcs and -1 at outer ones: only the inner race turns with the ring
             angle = direction - arms[0].turned[None] * np.maximum(self.arcs.senses, 0.0)
-        normals = tuple(one / length[None] for one, length in zip(leaning, lengths, strict=True))
+        normals = tuple(vector / length[None] for vector, length in zip(leaning, lengths, strict=True))
         return Touch(jnp.stack(lengths), normals, direction, angle, on_ring)
 
     def push(

@@ -156,8 +156,8 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         mean_speed, _ = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))
         along = self.ring.across()
         opening = self.radial_clearance
-        for given in (self.held, self.out_of_round):
-            opening = opening if given is None else opening - given
+        for inward in (self.held, self.out_of_round):
+            opening = opening if inward is None else opening - inward
         shift, log_load = guessed_loads(
             self.contact,
             self.laws,

@@ -130,19 +130,21 @@ def friction_on_rings(
     traction, resistance = contact.traction, contact.rolling_force
     assert traction is not None
     power = jnp.sum(traction * sliding, axis=1)
-    found = [
+    interactions = [
         Interaction("inner_raceway", power[0], inner_torque=jnp.sum(traction[0]) * motion.inner_radius),
         Interaction("outer_raceway", power[1], outer_torque=-jnp.sum(traction[1]) * motion.outer_radius),
     ]
     if resistance is not None:
         torques = _against_rolling(motion, resistance)
         own = jnp.sum(resistance * rolling, axis=1)
-        found.append(Interaction("rolling_resistance", jnp.sum(resistance * rolling), *torques, own))
+        interactions.append(Interaction("rolling_resistance", jnp.sum(resistance * rolling), *torques, own))
     if inner_flange is not None:
-        found.append(Interaction("flange", jnp.sum(inner_flange.power), -jnp.sum(inner_flange.ring_moment)))
+        interactions.append(Interaction("flange", jnp.sum(inner_flange.power), -jnp.sum(inner_flange.ring_moment)))
     if outer_flange is not None:
-        found.append(Interaction("flange", jnp.sum(outer_flange.power), None, -jnp.sum(outer_flange.ring_moment)))
-    return found
+        interactions.append(
+            Interaction("flange", jnp.sum(outer_flange.power), None, -jnp.sum(outer_flange.ring_moment))
+        )
+    return interactions
 
 
 def _against_rolling(motion: RollerKinematics, resistance: Array) -> tuple[Array, Array]:
@@ -173,8 +175,8 @@ def rolling_alone(
     power = jnp.sum(rolling) * speed
     own = jnp.sum(rolling, axis=1) * speed
     constraint = jnp.sum(traction, axis=1) * jnp.stack([motion.inner_radius, -motion.outer_radius])
-    found = [
+    interactions = [
         Interaction("", None, constraint[0], constraint[1]),
         Interaction("rolling_resistance", power, *_against_rolling(motion, rolling), own),
     ]
-    return friction_totals(PowerLoss, found, motion)
+    return friction_totals(PowerLoss, interactions, motion)

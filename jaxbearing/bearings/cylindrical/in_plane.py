@@ -45,8 +45,8 @@ class AbstractInPlane(AbstractBetweenRings):
         """Displacement of the inner ring towards each roller, m, from the ring's unknowns. It includes `held` and
         `out_of_round`."""
         shift = jnp.sum(shared * self.directions, axis=0) * LENGTH_UNIT
-        for given in (self.held, self.out_of_round):
-            shift = shift if given is None else shift + given
+        for inward in (self.held, self.out_of_round):
+            shift = shift if inward is None else shift + inward
         return shift
 
     def approaching(self, globals_: Float[Array, " g"]) -> Float[Array, " roller"]:

@@ -213,9 +213,9 @@ def distributed_loads(
     number of rollers."""
     if guess is None:
         guess = jax.lax.stop_gradient(system).initial()
-    found = plain_newton(system, guess, tolerance=tolerance, max_steps=max_steps)
-    load, ring = system.both(found.point.elements[0]), found.point.globals * LENGTH_UNIT
-    return Distribution(load, ring, found.residual, found.point)
+    root = plain_newton(system, guess, tolerance=tolerance, max_steps=max_steps)
+    load, ring = system.both(root.point.elements[0]), root.point.globals * LENGTH_UNIT
+    return Distribution(load, ring, root.residual, root.point)
 
 
 def film_growth(scene: "CylindricalRollerBearing", load: Float[Array, ""]) -> Float[Array, ""]:

@@ -50,9 +50,9 @@ class TiltingRow(AbstractRow):
 
 def _with_flanges(row: HeldRow, flanges: ThrustFlanges, axial: Array) -> HeldRow:
     sides = [side * axial - flanges.gap for side in flanges.sides]
-    energy = flanges.stiffness / (1.0 + EXPONENT) * sum(positive_power(one, 1.0 + EXPONENT) for one in sides)
+    energy = flanges.stiffness / (1.0 + EXPONENT) * sum(positive_power(side, 1.0 + EXPONENT) for side in sides)
     # at first contact this power, with exponent 1/9, has an unbounded slope
-    touched = [jnp.where(one > 0, jnp.where(one > 0, one, 1.0) ** (EXPONENT - 1.0), 0.0) for one in sides]
+    touched = [jnp.where(side > 0, jnp.where(side > 0, side, 1.0) ** (EXPONENT - 1.0), 0.0) for side in sides]
     stiffness = flanges.stiffness * EXPONENT * sum(touched)
     return row._replace(
         energy=row.energy + energy,

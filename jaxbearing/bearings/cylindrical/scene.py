@@ -307,25 +307,25 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
     def assumptions(self) -> tuple[str, ...]:
         """Notes for the user: assumptions of the model, and uses for which the scene's data were not made."""
-        said = []
+        notes = []
         if self.contact is not None and self.oil is not None:
-            said += [f"oil: {note}" for note in self.oil.notes]
-            said += _misfit(self.contact, self.oil)
+            notes += [f"oil: {note}" for note in self.oil.notes]
+            notes += _misfit(self.contact, self.oil)
         if self.tilts and self.contact is not None:
-            said.append(
+            notes.append(
                 "tilting rollers roll without sliding: cage, skidding and sliding friction are not modelled, losses "
                 + ("are those of rolling resistance alone" if self.contact.resists_rolling else "are not either")
             )
         if self.geometry.flange_stiffness is not None:
-            said.append(NOT_MODELLED)
+            notes.append(NOT_MODELLED)
         if self.geometry.contact_length is None:
-            said.append("geometry.contact_length is not given: the whole roller length carries load")
+            notes.append("geometry.contact_length is not given: the whole roller length carries load")
         if self.slips and self.cage is not None:
-            said += self.cage.assumptions()
-        said += said_of_bending(self)
+            notes += self.cage.assumptions()
+        notes += said_of_bending(self)
         if self.slips and self.flange is not None and self.flange.height is None:
-            said.append(f"flange.height is not given: assumed {ASSUMED_FLANGE_HEIGHT:.3f} of the roller diameter")
-        return tuple(said)
+            notes.append(f"flange.height is not given: assumed {ASSUMED_FLANGE_HEIGHT:.3f} of the roller diameter")
+        return tuple(notes)
 
 
 def check_run(operation: Operation) -> None:
@@ -344,13 +344,13 @@ def check_run(operation: Operation) -> None:
 
 def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:
     """Notes on laws that were not made for this oil."""
-    said = []
+    notes = []
     if contact.traction is not None:
-        said += contact.traction.notes(oil)
+        notes += contact.traction.notes(oil)
     isoviscous = isinstance(oil.pressure_viscosity, NoPressureViscosity)
     if isinstance(contact.rolling, RigidRollingResistance) and not isoviscous:
-        said.append(
+        notes.append(
             "contact.rolling_resistance leaves out the rise of viscosity with pressure: about half the resistance of a "
             "loaded contact (full_range has it)"
         )
-    return said
+    return notes

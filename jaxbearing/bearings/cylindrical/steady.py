@@ -306,12 +306,12 @@ def _interactions(system: LubricatedRollerSystem, state: RollerState, land: Land
     assert pocket is not None
     assert cage is not None
     speeds, flanges = (state.sliding_speed, state.mean_speed), (state.inner_flange, state.outer_flange)
-    found = friction_on_rings(motion, state.contact, *speeds, *flanges)
+    interactions = friction_on_rings(motion, state.contact, *speeds, *flanges)
     friction = pocket.friction_front + pocket.friction_rear
-    found.append(Interaction("pocket", jnp.sum(friction * motion.roller_radius * state.spin_speed)))
+    interactions.append(Interaction("pocket", jnp.sum(friction * motion.roller_radius * state.spin_speed)))
     if state.rails is not None:
-        found.append(Interaction("element_ends", jnp.sum(state.rails.power)))
-    found.append(of_land(land.power, land.ring_torque, cage.guidance))
+        interactions.append(Interaction("element_ends", jnp.sum(state.rails.power)))
+    interactions.append(of_land(land.power, land.ring_torque, cage.guidance))
     if state.drag_force is not None:
-        found.append(Interaction("drag", jnp.sum(state.drag_force * motion.pitch_radius * state.orbital_speed)))
-    return found
+        interactions.append(Interaction("drag", jnp.sum(state.drag_force * motion.pitch_radius * state.orbital_speed)))
+    return interactions

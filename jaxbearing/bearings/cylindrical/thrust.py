@@ -85,7 +85,7 @@ class ThrustFlanges(eqx.Module):
             place, stiffness = self.under(load)
         else:
             load, stiffness = jax.value_and_grad(self.force)(jnp.asarray(held))
-        load, place, stiffness = (jnp.where(solution.converged, one, jnp.nan) for one in (load, place, stiffness))
+        load, place, stiffness = (jnp.where(solution.converged, value, jnp.nan) for value in (load, place, stiffness))
         named = lambda names: tuple(name for name in RING_FREEDOMS if name == "axial" or name in names)
         holds, stiff = solution.held_freedom, solution.stiffness_freedom
         return dataclasses.replace(

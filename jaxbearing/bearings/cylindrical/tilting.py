@@ -149,8 +149,8 @@ class TiltingRollers(AbstractRowSystem):
         are placed on the outer race. A very small centrifugal force needs very small approaches, and the search does
         not find such positions from far away.
         """
-        found = in_turn(_minimum, jax.lax.stop_gradient(self))
-        return dataclasses.replace(self, guess=found.point), found
+        minimum = in_turn(_minimum, jax.lax.stop_gradient(self))
+        return dataclasses.replace(self, guess=minimum.point), minimum
 
     def seated(self, point: ArrowPoint) -> ArrowPoint:
         """The point, with each roller that does not touch the inner race moved to where its centrifugal force is in
@@ -179,7 +179,9 @@ class TiltingRollers(AbstractRowSystem):
         # `turn` is about the middle of the roller
         inner = inward - self.radial_clearance - 0.5 * self.line.length * turn - out
         opened = self.opened(shared)
-        approach = [one - opened[side] if side in opened else one for side, one in (("inner", inner), ("outer", out))]
+        approach = [
+            value - opened[side] if side in opened else value for side, value in (("inner", inner), ("outer", out))
+        ]
         approach, slope = jnp.stack(approach), jnp.stack([turn - tilt, tilt])
         return TiltingState(approach, slope, *self.line.load_and_moment(approach, slope))
 
@@ -202,14 +204,14 @@ def _minimum(system: TiltingRollers) -> Minimum:
 
     def search(carry: tuple[ArrowPoint, Array], centrifugal: Array) -> tuple[tuple[ArrowPoint, Array], Minimum]:
         guess, steps = carry
-        found = find_minimum(
+        minimum = find_minimum(
             dataclasses.replace(system, guess=guess, centrifugal=centrifugal), tolerance=START_TOLERANCE
         )
-        seated = system.seated(found.point)
-        guess = ArrowPoint(*(jnp.where(slow, new, old) for new, old in zip(seated, found.point, strict=True)))
-        return (guess, steps + found.steps), found
+        seated = system.seated(minimum.point)
+        guess = ArrowPoint(*(jnp.where(slow, new, old) for new, old in zip(seated, minimum.point, strict=True)))
+        return (guess, steps + minimum.steps), minimum
 
     first = (resting.initial(), jnp.asarray(0))
     both = jnp.stack([resting.centrifugal, system.centrifugal])
-    (_, steps), founds = jax.lax.scan(search, first, both)
-    return jax.tree.map(lambda leaf: leaf[-1], founds)._replace(steps=steps)
+    (_, steps), minima = jax.lax.scan(search, first, both)
+    return jax.tree.map(lambda leaf: leaf[-1], minima)._replace(steps=steps)

@@ -185,10 +185,10 @@ def _films(
     inlet_along = along(inlet)
     speed = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))[0][:, None]
 
-    def loaded(one: LineContact, load: Array, speed: Array, inlet: InletOil) -> tuple[Array, ContactState]:
+    def loaded(line: LineContact, load: Array, speed: Array, inlet: InletOil) -> tuple[Array, ContactState]:
         carries = load > 0
         safe = jnp.where(carries, load, 1.0)
-        return carries, laws.evaluate(one, safe, speed + 0.0 * safe, 0.0 * safe, oil, inlet)
+        return carries, laws.evaluate(line, safe, speed + 0.0 * safe, 0.0 * safe, oil, inlet)
 
     carries, whole = loaded(contact, load, speed, inlet)
     radius, modulus = along((contact.reduced_radius, contact.reduced_modulus))

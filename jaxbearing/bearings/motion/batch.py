@@ -43,9 +43,9 @@ def simulate_bearing_batch(
     pieces = max(1, round(length / interval))
     times = jnp.linspace(0.0, length, pieces + 1)[1:]
     # without a given simulation each lane takes that of its scene, which may differ between lanes
-    given = simulation is not None or scene.simulation is None
+    shared = simulation is not None or scene.simulation is None
     share = may_be_shared_out((scene, chosen, values))
-    return _batch(scene, chosen if given else None, values, times, method, share)
+    return _batch(scene, chosen if shared else None, values, times, method, share)
 
 
 @eqx.filter_jit
@@ -67,9 +67,9 @@ def _batch(
     return (shared_out(lanes) if share else lanes)(values, numbers, times)
 
 
-def _lane(scene: AbstractMovingBearing, given: Simulation | None, times: Float[Array, " time"]) -> History:
+def _lane(scene: AbstractMovingBearing, chosen: Simulation | None, times: Float[Array, " time"]) -> History:
     """One complete run of the batch, from its quasi-static start; pure."""
-    simulation: Simulation = given or scene.simulation or Simulation()
+    simulation: Simulation = chosen or scene.simulation or Simulation()
     operation = scene.operation
     scene, inputs = checked_lane(scene, simulation)
     motion = scene.motion
@@ -78,8 +78,8 @@ def _lane(scene: AbstractMovingBearing, given: Simulation | None, times: Float[A
     begun = jnp.where(inputs.valid, start.status, int(Status.INVALID_INPUT))
     # a lane whose start was not found takes no steps, so that the other lanes need not wait for it
     until = jnp.where(begun == Status.CONVERGED, times, zero)
-    found = advance(start.dynamics, start.state, zero, until, simulation.options, jnp.asarray(FIRST_STEP))
-    segment = found.segment
+    advanced = advance(start.dynamics, start.state, zero, until, simulation.options, jnp.asarray(FIRST_STEP))
+    segment = advanced.segment
     status = jnp.where(begun == Status.CONVERGED, segment.status, begun)
     # a run that stopped early has its last state after the instants that it reached
     reached = jnp.sum(times <= segment.last_time) + 1
@@ -87,20 +87,20 @@ def _lane(scene: AbstractMovingBearing, given: Simulation | None, times: Float[A
     shown = jnp.arange(times.shape[0] + 1) < jnp.where(stopped, reached + 1, reached)
     shown = shown & (begun == Status.CONVERGED)
     masked = lambda leaf: jnp.where(jnp.reshape(shown, (-1, *(1 for _ in leaf.shape[1:]))), leaf[:-1], jnp.nan)
-    ends = [jax.tree.map(lambda leaf, at=at: leaf[at], found.instants) for at in (0, -1)]
+    ends = [jax.tree.map(lambda leaf, at=at: leaf[at], advanced.instants) for at in (0, -1)]
     energy = start.dynamics.energy(segment.last, *ends)
     return History(
         status=jnp.asarray(status),
-        time=masked(found.times),
+        time=masked(advanced.times),
         stop=times[-1],
         accepted=segment.accepted,
         rejected=segment.rejected,
         reference_speed=start.dynamics.reference_speed,
         operation=jax.tree.map(jnp.asarray, operation),
-        instants=jax.tree.map(masked, found.instants),
+        instants=jax.tree.map(masked, advanced.instants),
         energy=energy,
         checks=Checks(
-            run_checks(scene, energy, motion.range_excess(scene, found.instants)), inputs.broken, inputs.rules
+            run_checks(scene, energy, motion.range_excess(scene, advanced.instants)), inputs.broken, inputs.rules
         ),
         solver=simulation.solver,
         element_name=scene.element,

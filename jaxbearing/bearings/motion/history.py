@@ -190,10 +190,10 @@ class History(AbstractHistory, Generic[Moment]):
 
     def lane(self, index: int) -> "History[Moment]":
         """One run of a batch, up to the last instant that it reached."""
-        one = jax.tree.map(lambda leaf: np.asarray(np.asarray(leaf)[index]), self)
-        reached = np.isfinite(one.time)
-        instants = jax.tree.map(lambda leaf: leaf[reached], one.instants)
-        return eqx.tree_at(lambda h: (h.time, h.instants), one, (one.time[reached], instants))
+        run = jax.tree.map(lambda leaf: np.asarray(np.asarray(leaf)[index]), self)
+        reached = np.isfinite(run.time)
+        instants = jax.tree.map(lambda leaf: leaf[reached], run.instants)
+        return eqx.tree_at(lambda h: (h.time, h.instants), run, (run.time[reached], instants))
 
     def solver_failure(self) -> str:
         if np.size(self.time) == 0:

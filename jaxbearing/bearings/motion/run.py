@@ -72,7 +72,7 @@ def advance(
     coarse = jax.tree.map(lambda leaf: leaf[parts - 1 :: parts], safe)
     states = jax.tree.map(lambda a, ys, b: jnp.concatenate([a[None], ys, b[None]]), state, coarse, segment.last)
     at = jnp.concatenate([start[None], fine[:, -1], segment.last_time[None]])
-    instants = jax.lax.map(lambda given: dynamics.observe(*given), (at, states))
+    instants = jax.lax.map(lambda pair: dynamics.observe(*pair), (at, states))
     between = dynamics.peaks(fine, safe)
     if between is not None:
         # the last state lies in the first interval that was not reached
@@ -110,9 +110,9 @@ def check_fits(scene: AbstractMovingBearing, last: object) -> None:
     wanted = scene.motion.instant
     if np.shape(last.elements)[0] != len(wanted.element_state) or np.shape(last.cage) != (len(wanted.cage_state),):
         raise ValueError(f"restart: a state of another kind of bearing, for a scene of a {type(scene).__name__}")
-    count, found = scene.n_elements, np.shape(last.elements)[-1]
-    if found != count:
-        raise ValueError(f"restart: a state of {found} {scene.element}s, for a scene with {count}")
+    count, stored = scene.n_elements, np.shape(last.elements)[-1]
+    if stored != count:
+        raise ValueError(f"restart: a state of {stored} {scene.element}s, for a scene with {count}")
     if last.has_cage != (scene.cage is not None):
         has = lambda cage: "with a cage" if cage else "without a cage"
         raise ValueError(f"restart: a state {has(last.has_cage)}, for a scene {has(scene.cage is not None)}")

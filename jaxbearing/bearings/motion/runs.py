@@ -87,8 +87,8 @@ def _quasi_static(scene: AbstractMovingBearing) -> Any:
     return scene.motion.quasi_static(scene)
 
 
-def _begin(scene: AbstractMovingBearing, simulation: Simulation, found: Any) -> Start:
-    return scene.motion.begin(scene, simulation, found)
+def _begin(scene: AbstractMovingBearing, simulation: Simulation, steady: Any) -> Start:
+    return scene.motion.begin(scene, simulation, steady)
 
 
 def _resume(scene: AbstractMovingBearing, simulation: Simulation, last: LastState) -> Resumed:
@@ -170,11 +170,11 @@ def simulate_bearing(
     step = jnp.asarray(FIRST_STEP, dtype=float)
 
     if last is None:
-        found = _QUASI_STATIC(at_start(scene, chosen))
-        if int(found.status) != Status.CONVERGED:
-            status = Status(int(found.status))
+        result = _QUASI_STATIC(at_start(scene, chosen))
+        if int(result.status) != Status.CONVERGED:
+            status = Status(int(result.status))
             raise SolveError(f"the quasi-static start of the run was not found: {status.text}", status)
-        begun = _BEGIN(scene, chosen, found)
+        begun = _BEGIN(scene, chosen, result)
         dynamics, state = begun.dynamics, begun.state
     else:
         # the identity has been compared above; the program does not need it
@@ -185,16 +185,16 @@ def simulate_bearing(
         try:
             for piece in range(pieces):
                 here = times[piece * SEGMENT : (piece + 1) * SEGMENT + 1]
-                found = _ADVANCE(dynamics, state, jnp.asarray(here[0]), jnp.asarray(here[1:]), chosen.options, step)
-                state, step = found.segment.last, found.segment.step
-                done.append((*_kept(found, here, first=piece == 0), _EXCESS(scene, found.instants)))
+                result = _ADVANCE(dynamics, state, jnp.asarray(here[0]), jnp.asarray(here[1:]), chosen.options, step)
+                state, step = result.segment.last, result.segment.step
+                done.append((*_kept(result, here, first=piece == 0), _EXCESS(scene, result.instants)))
                 if piece == 0:
                     # from now on an interrupt ends the run but keeps its results
                     interrupt = stack.enter_context(deferred_interrupts())
-                if int(found.segment.status) != Status.CONVERGED:
+                if int(result.segment.status) != Status.CONVERGED:
                     break
                 if progress is not None:
-                    progress(float(found.segment.last_time), stop)
+                    progress(float(result.segment.last_time), stop)
                 if interrupt.seen:
                     break
         except KeyboardInterrupt:
@@ -255,17 +255,21 @@ def _history(
 def run_checks(scene: AbstractMovingBearing, energy: Energy, excess: Excess) -> dict[str, Array]:
     """Warnings of a run: those of its energy balance, of its results, of the inputs and of the fits."""
     text = f"the energy balance leaves more than {ENERGY_LIMIT:g} of the drive work open: choose a smaller tolerance"
-    found = input_excess(scene) | excess
+    all_excess = input_excess(scene) | excess
     _, fit, _ = running_scene(scene)
     if fit is not None:
-        found |= fit_excess(scene, fit)
-    return {text: jnp.abs(energy.error) > ENERGY_LIMIT} | {said: value > 0 for said, value in found.items()}
+        all_excess |= fit_excess(scene, fit)
+    return {text: jnp.abs(energy.error) > ENERGY_LIMIT} | {warning: value > 0 for warning, value in all_excess.items()}
 
 
-def _kept(found: Advanced, times: np.ndarray, first: bool) -> tuple[np.ndarray, Instant, Segment]:
+def _kept(advanced: Advanced, times: np.ndarray, first: bool) -> tuple[np.ndarray, Instant, Segment]:
     """Times and instants of a segment that the history keeps: those that were reached, without the start except in the
     first piece, and with the last state if the segment stopped early."""
-    segment = found.segment
+    segment = advanced.segment
     good = np.append(times <= float(segment.last_time), int(segment.status) != Status.CONVERGED)
     good[0] = first
-    return np.asarray(found.times)[good], jax.tree.map(lambda leaf: np.asarray(leaf)[good], found.instants), segment
+    return (
+        np.asarray(advanced.times)[good],
+        jax.tree.map(lambda leaf: np.asarray(leaf)[good], advanced.instants),
+        segment,
+    )

@@ -93,7 +93,7 @@ def ring_columns(azimuth: Float[Array, " roller"], lever: Array, load_position: 
     # a tilt that moves azimuth 0 along +a is -t; it turns about the reference point and moves the apex radially
     tilt = jnp.stack([zero, load_position * cosine, -cosine]) / lever
     tilt_lateral = jnp.stack([zero, load_position * sine, -sine]) / lever
-    shifts = [jnp.stack(one) for one in ((one, zero, zero), (zero, cosine, zero), (zero, sine, zero))]
+    shifts = [jnp.stack(motion) for motion in ((one, zero, zero), (zero, cosine, zero), (zero, sine, zero))]
     return jnp.stack([*shifts, tilt, tilt_lateral])
 
 

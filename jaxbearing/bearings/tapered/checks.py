@@ -7,7 +7,7 @@ from ..facts import BUSY, Excess, RangeChecks, SolvedBearing
 from .scene import TaperedRollerBearing
 
 
-def _would_skid(result: SolvedBearing) -> Excess:
+def _skidding(result: SolvedBearing) -> Excess:
     reserve = result.facts.traction_reserve
     if reserve is None:
         return {}
@@ -32,4 +32,4 @@ def _at_apex(scene: TaperedRollerBearing) -> Excess:
     return {text: jnp.where(jnp.asarray(scene.operation.load_position) == 0.0, 1.0, -1.0)}
 
 
-CHECKS = RangeChecks(results=(_would_skid,), loads=(_at_apex,))
+CHECKS = RangeChecks(results=(_skidding,), loads=(_at_apex,))

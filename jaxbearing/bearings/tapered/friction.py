@@ -195,16 +195,16 @@ def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> Tapere
     total = lambda values: multiplicity * jnp.sum(values, axis=-1)
     inner, outer = total(torques)
     # the constraint forces act on the rings and do no work
-    found = [Interaction("", None, inner, outer)]
+    interactions = [Interaction("", None, inner, outer)]
     if races.rolling is not None:
         powers = total(races.rolling * races.speed)
-        found.append(Interaction("rolling_resistance", jnp.sum(powers), by_race=powers))
+        interactions.append(Interaction("rolling_resistance", jnp.sum(powers), by_race=powers))
     if traction is not None:
-        found.append(Interaction("flange", total(traction.power)))
+        interactions.append(Interaction("flange", total(traction.power)))
     if drag is not None:
         power = geometry.n_rollers * drag * 0.5 * geometry.pitch_diameter * motion.orbital_speed
-        found.append(Interaction("drag", power))
-    return nothing._replace(balance=balance, totals=friction_totals(TaperedPowerLoss, found, scene.operation))
+        interactions.append(Interaction("drag", power))
+    return nothing._replace(balance=balance, totals=friction_totals(TaperedPowerLoss, interactions, scene.operation))
 
 
 def _roller(geometry: TaperedGeometry) -> _Roller:
@@ -233,14 +233,14 @@ def _races(
     loaded = load > 0
     pressing, still = jnp.where(loaded, load, 1.0), jnp.zeros_like(load)
     alone = dataclasses.replace(laws, traction=None, mixed=None)
-    found = alone.evaluate(contact, pressing, speed + still, still, oil, inlet)
-    rise, capacity, asperities = found.temperature_rise, None, None
+    state = alone.evaluate(contact, pressing, speed + still, still, oil, inlet)
+    rise, capacity, asperities = state.temperature_rise, None, None
     if laws.traction is not None:
         base = inlet.temperature + (still if rise is None else rise)
         capacity = laws.traction.force(
             contact,
             pressing,
-            found.film,
+            state.film,
             laws.entrainment(speed) + still,
             SKIDDING * jnp.abs(speed) + still,
             base,
@@ -248,20 +248,20 @@ def _races(
             oil.viscosity.viscosity(0.0, base),
         )
         if laws.mixed is not None:
-            asperities = laws.asperities(contact, pressing, found.film, speed + still, inlet)
+            asperities = laws.asperities(contact, pressing, state.film, speed + still, inlet)
             capacity = laws.mixed.force(pressing, asperities.share, capacity, SKIDDING * jnp.abs(speed) + still)
             asperities = jax.tree.map(lambda values: jnp.where(loaded, values, jnp.nan), asperities)
     present = lambda values, absent: None if values is None else jnp.where(loaded, values, absent)
     return RaceFriction(
-        film=jnp.where(loaded, found.film, jnp.nan),
+        film=jnp.where(loaded, state.film, jnp.nan),
         temperature_rise=present(rise, jnp.nan),
-        rolling=present(found.rolling_force, 0.0),
+        rolling=present(state.rolling_force, 0.0),
         capacity=present(capacity, 0.0),
         speed=speed,
         radius=jnp.broadcast_to(contact.reduced_radius, (2, 1)),
-        residual=found.inner_residual,
+        residual=state.inner_residual,
         asperities=asperities,
-        starved=found.supply,
+        starved=state.supply,
     )
 
 

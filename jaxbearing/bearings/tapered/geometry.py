@@ -82,7 +82,7 @@ class TaperedGeometry(AbstractGeometry):
             return
         sizes = numbers_or_none(
             *(self.roller_diameter, self.roller_length, self.contact_angle, self.roller_half_angle),
-            *(one for one in (self.flange_angle, self.end_radius) if one is not None),
+            *(size for size in (self.flange_angle, self.end_radius) if size is not None),
         )
         if sizes is not None:
             diameter, _, cup, half = sizes[:4]
@@ -111,13 +111,13 @@ class TaperedGeometry(AbstractGeometry):
 
     def assumptions(self) -> list[str]:
         """Notes for the user on dimensions that are estimated."""
-        said = {
+        estimates = {
             "flange_angle": f"so that rib and roller touch {USUAL_RIB_HEIGHT:g} of the big end's radius below the axis",
             "end_radius": f"{USUAL_END_RADIUS:g} of the length of the roller's cone (0.85 to 0.99 are usual)",
         }
         return [
             f"geometry.{name} is not given: estimated {words}"
-            for name, words in said.items()
+            for name, words in estimates.items()
             if getattr(self, name) is None
         ]
 

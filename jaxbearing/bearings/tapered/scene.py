@@ -243,9 +243,9 @@ class TaperedRollerBearing(AbstractBearing):
 
     def assumptions(self) -> tuple[str, ...]:
         """Notes for the user: assumptions of the model, and uses for which its data were not made."""
-        said = self.geometry.assumptions() + said_of_bending(self)
+        notes = self.geometry.assumptions() + said_of_bending(self)
         if self.contact is not None and self.oil is not None:
-            said += [f"oil: {note}" for note in self.oil.notes]
+            notes += [f"oil: {note}" for note in self.oil.notes]
             laws = (self.contact.traction, None if self.rib is None else self.rib.traction)
-            said += dict.fromkeys(note for law in laws if law is not None for note in law.notes(self.oil))
-        return tuple(said)
+            notes += dict.fromkeys(note for law in laws if law is not None for note in law.notes(self.oil))
+        return tuple(notes)

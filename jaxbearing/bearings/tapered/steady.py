@@ -122,9 +122,9 @@ def tips_over(scene: TaperedRollerBearing) -> Bool[Array, ""]:
     ranges = _moment_ranges(scene)
     if scene.geometry.n_rollers < 2 or not ranges:
         return jnp.asarray(False)
-    beyond = [one.moment - one.middle for one in ranges.values()]
+    beyond = [span.moment - span.middle for span in ranges.values()]
     size = jnp.abs(beyond[0]) if len(beyond) == 1 else safe_norm(beyond[0], beyond[1])
-    rounding = sum(jnp.abs(one.moment) + jnp.abs(one.middle) for one in ranges.values())
+    rounding = sum(jnp.abs(span.moment) + jnp.abs(span.middle) for span in ranges.values())
     return size > next(iter(ranges.values())).most + ROUNDING * rounding
 
 
@@ -148,39 +148,39 @@ def _moment_ranges(scene: TaperedRollerBearing) -> dict[str, _MomentRange]:
     operation, geometry = scene.operation, scene.geometry
     cup, length = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.roller_length)
     most = 0.5 * length * jnp.asarray(operation.axial_load) / jnp.sin(cup)
-    found = {}
-    given = {
+    ranges = {}
+    moments = {
         "moment": (operation.moment, operation.radial_load),
         "moment about the load line": (operation.moment_lateral, operation.radial_load_lateral),
     }
-    for name, (moment, load) in given.items():
+    for name, (moment, load) in moments.items():
         if moment is not None:
             force = jnp.asarray(0.0 if load is None else load)
             shift = jnp.asarray(operation.load_position) * force
             middle = (geometry.apex_distance - 0.5 * length) * force / jnp.cos(cup)
-            found[name] = _MomentRange(jnp.asarray(moment) - shift, middle, most, shift)
-    return found
+            ranges[name] = _MomentRange(jnp.asarray(moment) - shift, middle, most, shift)
+    return ranges
 
 
 def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, FailureCause]:
     """Possible causes of a failed solve: loads beyond the static bounds, with the bounds."""
     sliding, least = slides_out(scene, inertia), least_axial_load(scene, inertia)
-    given = jnp.asarray(scene.operation.axial_load)
-    found = {
+    axial_load = jnp.asarray(scene.operation.axial_load)
+    causes = {
         "the axial load of {:.6g} N must be at least {:.6g} N to hold the cone in the cup; where an opposed bearing "
         "gives it, operation.displacement.axial in its place holds the cone": FailureCause(
-            sliding, jnp.stack([given, least * (1.0 + ROUNDED_UP)])
+            sliding, jnp.stack([axial_load, least * (1.0 + ROUNDED_UP)])
         )
     }
     ranges, tipping = _moment_ranges(scene), tips_over(scene) & ~sliding
     for name, (moment, middle, most, shift) in ranges.items():
         ends = jnp.stack([moment + shift, middle - most + shift, middle + most + shift])
         text = f"the {name} of {{:.4g}} N m must lie between {{:.4g}} and {{:.4g}} N m"
-        found[text] = FailureCause(tipping, ends)
+        causes[text] = FailureCause(tipping, ends)
     if len(ranges) == 2:
         text = "both moments together, as a vector, at most {:.4g} N m from the middles of these ranges"
-        found[text] = FailureCause(tipping, ranges["moment"].most[None])
-    return found
+        causes[text] = FailureCause(tipping, ranges["moment"].most[None])
+    return causes
 
 
 def _axial_only(system: TaperedSystem) -> Float[Array, " freedom"]:

@@ -242,9 +242,9 @@ class TaperedSystem(AbstractRowSystem):
         **Arguments:** `hopeless`: True if it is known that there is no minimum.
         """
         both = in_turn(_minima, jax.lax.stop_gradient((self, hopeless)))
-        found, seated = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
-        system = dataclasses.replace(self, guess=found.point, seated=seated.point)
-        return system, found._replace(steps=found.steps + seated.steps)
+        minimum, seated = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
+        system = dataclasses.replace(self, guess=minimum.point, seated=seated.point)
+        return system, minimum._replace(steps=minimum.steps + seated.steps)
 
     # -- physics --------------------------------------------------------------------------------------------------
 
@@ -289,7 +289,9 @@ class TaperedSystem(AbstractRowSystem):
         below = jnp.sin(form.flange_tilt)
         flange = rib - along * jnp.cos(form.flange_tilt) - (across + tilt * form.end_height) * below
         if self.closing is not None:
-            inner, outer, flange = (one + more for one, more in zip((inner, outer, flange), self.closing, strict=True))
+            inner, outer, flange = (
+                approach + more for approach, more in zip((inner, outer, flange), self.closing, strict=True)
+            )
         return jnp.stack([inner, outer]), jnp.stack([turn - tilt, tilt]), flange
 
     def _loaded(self, approach: Array, slope: Array, flange: Array) -> TaperedState:
@@ -325,9 +327,9 @@ class TaperedSystem(AbstractRowSystem):
         return jnp.stack([axial, radial, state.moment[1] - form.apex_distance * outer])
 
 
-def _minima(given: tuple[TaperedSystem, Bool[Array, ""]]) -> Minimum:
+def _minima(inputs: tuple[TaperedSystem, Bool[Array, ""]]) -> Minimum:
     """Minima of the potential for the actual and for increased inertia forces, along a first axis."""
-    system, hopeless = given
+    system, hopeless = inputs
     start = system.initial()
     nothing = Minimum(start, jnp.asarray(0), jnp.asarray(False))
 

@@ -133,8 +133,8 @@ class WarmUpHistory(AbstractHistory):
 
     def at(self, index: int) -> WarmInstant:
         """The results at one instant. **Arguments:** `index`: number of the instant, from 0; -1 is the last one."""
-        found: WarmInstant = jax.tree.map(lambda leaf: leaf[index], self.instants)
-        return found
+        instant: WarmInstant = jax.tree.map(lambda leaf: leaf[index], self.instants)
+        return instant
 
     def solver_failure(self) -> str:
         last = np.asarray(self.node_temperatures())[-1]

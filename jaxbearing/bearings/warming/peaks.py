@@ -51,19 +51,19 @@ def find_peaks(time: Float[np.ndarray, " time"], instants: WarmInstant, finer: F
     **Arguments:** `time`: times of the instants and of the ends of steps, s; `instants`: the bearing at these times;
     `finer`: function that refines them, `None` to search only these times."""
     play = play_of(instants)
-    load = lambda one: -np.asarray(one.largest_load)
+    load = lambda part: -np.asarray(part.largest_load)
     depth = LEAST_LOAD_DEPTH * float(np.max(np.asarray(instants.largest_load)))
-    found = _peak(time, instants, load, depth, finer)
+    peak = _peak(time, instants, load, depth, finer)
     least = None
     if play is not None:
-        least = _peak(time, instants, lambda one: np.asarray(getattr(one.fit, play[0])), LEAST_PLAY_DEPTH, finer)
-    hottest = _peak(time, instants, lambda one: -_highest(one), LEAST_HEAT_DEPTH, finer)
+        least = _peak(time, instants, lambda part: np.asarray(getattr(part.fit, play[0])), LEAST_PLAY_DEPTH, finer)
+    hottest = _peak(time, instants, lambda part: -_highest(part), LEAST_HEAT_DEPTH, finer)
     number = lambda value: jnp.asarray(value, dtype=float)
     return WarmPeaks(
         least_play=None if least is None else number(least[1]),
         least_play_time=None if least is None else number(least[0]),
-        largest_load=number(-found[1]),
-        largest_load_time=number(found[0]),
+        largest_load=number(-peak[1]),
+        largest_load_time=number(peak[0]),
         highest_temperature=number(-hottest[1]),
         highest_temperature_time=number(hottest[0]),
     )
@@ -71,7 +71,10 @@ def find_peaks(time: Float[np.ndarray, " time"], instants: WarmInstant, finer: F
 
 def _highest(instants: WarmInstant) -> Float[np.ndarray, " time"]:
     """The temperature of the hottest node, K."""
-    return np.max([np.asarray(one) for one in vars(instants.temperatures).values() if one is not None], axis=0)
+    return np.max(
+        [np.asarray(temperature) for temperature in vars(instants.temperatures).values() if temperature is not None],
+        axis=0,
+    )
 
 
 def _peak(
@@ -83,14 +86,14 @@ def _peak(
 ) -> tuple[float, float]:
     """Time, s, and value of the minimum of `values_of`."""
     values = values_of(instants)
-    found = lowest(values, depth)
-    place, best = found.place, (float(time[found.place]), float(values[found.place]))
-    for _ in range(REFINEMENTS if finer is not None and found.inside else 0):
+    minimum = lowest(values, depth)
+    place, best = minimum.place, (float(time[minimum.place]), float(values[minimum.place]))
+    for _ in range(REFINEMENTS if finer is not None and minimum.inside else 0):
         assert finer is not None
         if not 0 < place < time.size - 1:
             break
         time, instants = finer(time, instants, place)
         values = values_of(instants)
         place = int(np.argmin(values))
-        best = min(best, (float(time[place]), float(values[place])), key=lambda one: one[1])
+        best = min(best, (float(time[place]), float(values[place])), key=lambda peak: peak[1])
     return best

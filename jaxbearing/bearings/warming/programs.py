@@ -53,9 +53,9 @@ def _balance(scene: AbstractBearing, settings: WarmUpSimulation, begin: Scalar) 
         return bearing_network(at_instant(scene, settings, begin + time))
 
     def losses(temperatures: Array, time: Array) -> NodeHeat:
-        found = _heat(at_instant(scene, settings, begin + time), temperatures)
+        heat = _heat(at_instant(scene, settings, begin + time), temperatures)
         # the steps need the heat and the conductances, but not the whole solution
-        return NodeHeat(found.heat, found.status, found.between, found.to_ambient)
+        return NodeHeat(heat.heat, heat.status, heat.between, heat.to_ambient)
 
     return Balance(network, losses, _capacity(scene))
 
@@ -94,15 +94,15 @@ def instants_at(
     """The bearing solved at each of the times, s, with the node temperatures at these times, K."""
     capacity = _capacity(scene)
 
-    def one(given: tuple[Array, Array]) -> Seen:
-        time, nodes = given
+    def seen_at(pair: tuple[Array, Array]) -> Seen:
+        time, nodes = pair
         lane = at_instant(scene, settings, time)
         network, heat = bearing_network(lane), _heat(lane, nodes)
         flows, solution = network.flows(nodes, heat), heat.other
         into = flows.into_nodes + heat.heat
         return Seen(_instant(lane, network, nodes, heat, into), heat.status, into / capacity, dict(solution.checks))
 
-    return jax.lax.map(one, (times, temperatures))
+    return jax.lax.map(seen_at, (times, temperatures))
 
 
 def _instant(lane: AbstractBearing, network: Network, nodes: Array, heat: NodeHeat, into: Array) -> WarmInstant:

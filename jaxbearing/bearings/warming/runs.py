@@ -46,13 +46,13 @@ SLOWLY = "the bearing is in its steady state at each instant; its own motion is 
 Progress = Callable[[float, float], None]
 
 
-def settings_of(scene: AbstractBearing, given: object) -> WarmUpSimulation:
+def settings_of(scene: AbstractBearing, simulation: object) -> WarmUpSimulation:
     """Settings of a run: those given, or those of the scene. A `Simulation`, which is meant for runs of the rolling
     elements, is converted.
 
     **Raises:** `TypeError` for an object of another class; `ValueError` for a rotating load.
     """
-    chosen = getattr(scene, "simulation", None) if given is None else given
+    chosen = getattr(scene, "simulation", None) if simulation is None else simulation
     if chosen is None:
         return WarmUpSimulation()
     if isinstance(chosen, Simulation):
@@ -167,8 +167,8 @@ def simulate_warm_up(
     every = None if interval is None else static_number("interval", interval, float)
     if not (length > 0 and (every is None or every > 0)):
         raise ValueError(f"duration and interval must be > 0 s, got {length:g} and {every}")
-    given = restart.last_state() if isinstance(restart, WarmUpHistory) else restart
-    last = None if given is None else check_restart(scene, given)
+    state = restart.last_state() if isinstance(restart, WarmUpHistory) else restart
+    last = None if state is None else check_restart(scene, state)
     begin = 0.0 if last is None else float(last.time)
     kinks = np.concatenate([np.asarray(law.kinks(), dtype=float) for law in chosen.laws])
     # the compiled program must not depend on duration, start temperature and number of instants of the run
@@ -212,7 +212,7 @@ class _Run:
         count = times.size
         fill = PIECE - count
         padded = np.pad(times, (0, fill), mode="edge"), np.pad(temperatures, ((0, fill), (0, 0)), mode="edge")
-        seen = LOOK(self.scene, self.settings, *(jnp.asarray(one) for one in padded))
+        seen = LOOK(self.scene, self.settings, *(jnp.asarray(values) for values in padded))
         return jax.tree.map(lambda leaf: np.asarray(leaf)[:count], seen)
 
     def follow(self, pieces: list[_Piece], progress: Progress | None) -> bool:
@@ -243,27 +243,27 @@ class _Run:
 
     def _advance(self, piece: _Piece) -> None:
         count = piece.times.size
-        found = self._integrated(piece.begin, self.now, piece.times, self.step)
+        reached = self._integrated(piece.begin, self.now, piece.times, self.step)
         nodes = self.now.size
-        energies, self.now = ENERGY * np.asarray(found.last)[nodes:], np.asarray(found.last)[:nodes]
-        end, finished = piece.begin + float(found.end), bool(found.finished)
+        energies, self.now = ENERGY * np.asarray(reached.last)[nodes:], np.asarray(reached.last)[:nodes]
+        end, finished = piece.begin + float(reached.end), bool(reached.finished)
         good = piece.times <= end if not finished else np.full(count, True)
         if finished and not piece.end_wanted:
             good[-1] = False
-        times, states = piece.times[good], np.asarray(found.states)[:count, :nodes][good]
+        times, states = piece.times[good], np.asarray(reached.states)[:count, :nodes][good]
         if not finished:
             times, states = np.append(times, end), np.concatenate([states, self.now[None]])
-        self.step = max(float(found.end) / max(int(found.accepted), 1), FIRST_STEP)
+        self.step = max(float(reached.end) / max(int(reached.accepted), 1), FIRST_STEP)
         if times.size > PIECE:
             times, states = times[1:], states[1:]
         seen = self._look(times, states) if times.size else jax.tree.map(lambda leaf: leaf[:0], self.done[0].seen)
-        steps = int(found.accepted), int(found.rejected)
-        ends = np.asarray(found.step_times)
-        inside = np.isfinite(ends) & np.all(np.isfinite(np.asarray(found.step_states)), axis=1)
-        within = piece.begin + ends[inside], np.asarray(found.step_states)[inside, :nodes]
+        steps = int(reached.accepted), int(reached.rejected)
+        ends = np.asarray(reached.step_times)
+        inside = np.isfinite(ends) & np.all(np.isfinite(np.asarray(reached.step_states)), axis=1)
+        within = piece.begin + ends[inside], np.asarray(reached.step_states)[inside, :nodes]
         self.done.append(_Done(times, seen, energies, *steps, *within))
         if not finished:
-            self.status = self._failure(found, end, seen)
+            self.status = self._failure(reached, end, seen)
 
     def _integrated(self, begin: float, nodes: np.ndarray, times: np.ndarray, step: float) -> Reached:
         """Integrates from the time `begin`, s, with the node temperatures `nodes`, K.
@@ -272,7 +272,7 @@ class _Run:
         lengths = np.pad(times - begin, (0, PIECE - times.size), mode="edge")
         # a table may have a jump at the start, of which the value after the jump is wanted
         begin = np.nextafter(begin, math.inf) if begin > 0.0 else begin
-        numbers = (jnp.asarray(one, dtype=float) for one in (nodes, begin, lengths, step))
+        numbers = (jnp.asarray(number, dtype=float) for number in (nodes, begin, lengths, step))
         return ADVANCE(self.scene, self.settings, *numbers)
 
     def _between(self, time: np.ndarray, instants: WarmInstant, index: int) -> tuple[np.ndarray, WarmInstant]:
@@ -282,62 +282,62 @@ class _Run:
         nodes = np.asarray(
             [getattr(instants.temperatures, name)[index - 1] for name in thermal_of(self.scene).node_names]
         )
-        found = self._integrated(begin, nodes, times, (end - begin) / PIECE)
-        states = np.asarray(found.states)[:, : nodes.size]
-        good = np.all(np.isfinite(states), axis=1) & (times <= begin + float(found.end))
+        result = self._integrated(begin, nodes, times, (end - begin) / PIECE)
+        states = np.asarray(result.states)[:, : nodes.size]
+        good = np.all(np.isfinite(states), axis=1) & (times <= begin + float(result.end))
         first = jax.tree.map(lambda leaf: np.asarray(leaf)[index - 1 : index], instants)
         if not np.any(good):
             return time[index - 1 : index], first
         seen = self._look(times[good], states[good])
         solved = seen.status == Status.CONVERGED
-        found = jax.tree.map(lambda one, leaf: np.concatenate([one, leaf[solved]]), first, seen.instant)
-        return np.append(time[index - 1], times[good][solved]), found
+        result = jax.tree.map(lambda head, leaf: np.concatenate([head, leaf[solved]]), first, seen.instant)
+        return np.append(time[index - 1], times[good][solved]), result
 
     def _with_steps(self, time: np.ndarray, instants: WarmInstant) -> tuple[np.ndarray, WarmInstant]:
         """Joins the instants and the bearing at the ends of the integrator steps between them, in order of time."""
-        times = np.concatenate([one.step_times for one in self.done])
-        nodes = np.concatenate([one.step_nodes for one in self.done])
+        times = np.concatenate([piece.step_times for piece in self.done])
+        nodes = np.concatenate([piece.step_nodes for piece in self.done])
         between = ~np.isin(times, time) & (times > time[0]) & (times < time[-1])
         times, nodes = times[between], nodes[between]
         parts = [slice(first, first + PIECE) for first in range(0, times.size, PIECE)]
         seen = [self._look(times[part], nodes[part]) for part in parts]
-        solved = [one.status == Status.CONVERGED for one in seen]
+        solved = [look.status == Status.CONVERGED for look in seen]
         own = [times[part][good] for part, good in zip(parts, solved, strict=True)]
         pairs = zip(seen, solved, strict=True)
-        found = [jax.tree.map(lambda leaf, good=good: leaf[good], one.instant) for one, good in pairs]
+        at_steps = [jax.tree.map(lambda leaf, good=good: leaf[good], look.instant) for look, good in pairs]
         whole = np.concatenate([time, *own])
         order = np.argsort(whole, kind="stable")
-        joined = jax.tree.map(lambda *leaves: np.concatenate(leaves)[order], instants, *found)
+        joined = jax.tree.map(lambda *leaves: np.concatenate(leaves)[order], instants, *at_steps)
         return whole[order], joined
 
-    def _failure(self, found: Reached, end: float, seen: Seen) -> Status:
+    def _failure(self, reached: Reached, end: float, seen: Seen) -> Status:
         """The status of a piece that stopped early."""
         ahead = AHEAD * float(self.settings.options.shortest_step)
         beyond = self._look(np.asarray([end + ahead]), (self.now + ahead * seen.rates[-1])[None])
-        return Status(int(run_status(found, jnp.asarray(beyond.status[0]))))
+        return Status(int(run_status(reached, jnp.asarray(beyond.status[0]))))
 
     def history(self, stop: float, interrupted: bool) -> WarmUpHistory:
         """The history of all computed pieces."""
         scene = self.scene
         instants: WarmInstant = jax.tree.map(
-            lambda *leaves: jnp.asarray(np.concatenate(leaves)), *(one.seen.instant for one in self.done)
+            lambda *leaves: jnp.asarray(np.concatenate(leaves)), *(piece.seen.instant for piece in self.done)
         )
-        time = np.concatenate([one.times for one in self.done])
+        time = np.concatenate([piece.times for piece in self.done])
         looked_at = (time, instants, None) if interrupted else (*self._with_steps(time, instants), self._between)
-        energies = np.sum([one.energies for one in self.done], axis=0)
+        energies = np.sum([piece.energies for piece in self.done], axis=0)
         capacity = np.asarray(heat_capacities(scene))
         stored = float(np.sum(capacity * (self.now - self.first)))
-        losses, to_oil, to_ambient = (float(one) for one in energies)
+        losses, to_oil, to_ambient = (float(energy) for energy in energies)
         error = (losses - to_oil - to_ambient - stored) / (losses if losses else 1.0)
         return WarmUpHistory(
             status=jnp.asarray(int(Status.NOT_CONVERGED if interrupted else self.status)),
             time=jnp.asarray(time),
             stop=jnp.asarray(stop),
-            accepted=jnp.asarray(sum(one.accepted for one in self.done)),
-            rejected=jnp.asarray(sum(one.rejected for one in self.done)),
+            accepted=jnp.asarray(sum(piece.accepted for piece in self.done)),
+            rejected=jnp.asarray(sum(piece.rejected for piece in self.done)),
             operation=scene.operation,
             instants=instants,
-            energy=WarmEnergy(*(jnp.asarray(one) for one in (losses, to_oil, to_ambient, stored, error))),
+            energy=WarmEnergy(*(jnp.asarray(number) for number in (losses, to_oil, to_ambient, stored, error))),
             peaks=find_peaks(*looked_at),
             checks=self._checks(error),
             nodes=thermal_of(scene).node_names,
@@ -358,12 +358,12 @@ class _Run:
         """Warnings about the energy balance, and about the bearing at any instant."""
         most = ENERGY_FACTOR * float(self.settings.tolerance)
         text = f"the energy balance leaves more than {most:g} of the losses open: choose a smaller tolerance"
-        found = {text: jnp.asarray(abs(error) > most)}
+        checks = {text: jnp.asarray(abs(error) > most)}
         own = input_excess(scene=self.scene)
         for name in self.done[0].seen.checks:
-            applies = any(bool(np.any(one.seen.checks[name])) for one in self.done)
-            found[name if name in own else type(name)(AT_SOME_TIME + name)] = jnp.asarray(applies)
-        return found
+            applies = any(bool(np.any(piece.seen.checks[name])) for piece in self.done)
+            checks[name if name in own else type(name)(AT_SOME_TIME + name)] = jnp.asarray(applies)
+        return checks
 
 
 def _of_seats(scene: AbstractBearing) -> tuple[str, ...]:

@@ -84,8 +84,8 @@ def at_instant(scene: "AbstractBearing", settings: WarmUpSimulation, time: Scala
         changes |= {f"operation.{name}": factor * getattr(operation, name) for name in ("inner_speed", "outer_speed")}
     if not isinstance(settings.load, Steady):
         factor = settings.load.factor(time)
-        given = {name: getattr(operation, name) for name in LOAD_FIELDS.values()}
-        changes |= {f"operation.{name}": factor * load for name, load in given.items() if load is not None}
+        loads = {name: getattr(operation, name) for name in LOAD_FIELDS.values()}
+        changes |= {f"operation.{name}": factor * load for name, load in loads.items() if load is not None}
     if not isinstance(settings.oil_flow, Steady):
         changes["operation.oil_flow"] = settings.oil_flow.factor(time) * operation.oil_flow
     if not isinstance(settings.oil_inlet, Steady):

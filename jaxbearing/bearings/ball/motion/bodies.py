@@ -110,10 +110,10 @@ def moving_lands(cage: MovingCage, offset: Float[Array, "2 land"], speeds: LandS
     k_z, c_f = land.film_factors(cage.oil.density, viscosity, journal - bush)
     (y, z), (v_y, v_z) = offset, speeds.offset
     film = land.force_on_journal(y, z, v_y, v_z, journal, bush, viscosity, k_z)
-    found = land.line_of_centres(y, z)
-    along, across = found.direction
-    torques = land.torques(found.eccentricity_ratio, film[1] * along - film[0] * across, journal, bush, viscosity, c_f)
-    return Lands(LandSpeeds(jnp.stack(film), jnp.sum(jnp.stack(torques), axis=1)), found.eccentricity_ratio)
+    line = land.line_of_centres(y, z)
+    along, across = line.direction
+    torques = land.torques(line.eccentricity_ratio, film[1] * along - film[0] * across, journal, bush, viscosity, c_f)
+    return Lands(LandSpeeds(jnp.stack(film), jnp.sum(jnp.stack(torques), axis=1)), line.eccentricity_ratio)
 
 
 class MovingRing(eqx.Module):

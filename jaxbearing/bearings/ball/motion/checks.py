@@ -55,8 +55,8 @@ def run_excess(scene: BallBearing, instants: BallInstant) -> Excess:
     largest = {name: jnp.nanmax(jnp.abs(jnp.asarray(getattr(instants.ring, name)))) for name in RING_FREEDOMS}
     own, zero = instants.cage, jnp.zeros(())
     cage = None if own is None else CageState(zero, zero, jnp.nanmax(jnp.asarray(own.eccentricity_ratio)), zero)
-    found = result_excess(scene, Facts((contacts,)), RingDisplacement(**largest), cage)
-    return {type(text)(AT_SOME_TIME + text): value for text, value in found.items()}
+    excess = result_excess(scene, Facts((contacts,)), RingDisplacement(**largest), cage)
+    return {type(text)(AT_SOME_TIME + text): value for text, value in excess.items()}
 
 
 def _mean_speeds(

@@ -200,5 +200,5 @@ def pocket_peaks(dynamics: BallDynamics, times: Float[Array, "interval part"], s
         place, walls, lands = dynamics.at_cage(time, state)
         return PocketPeaks(*front_and_rear(place, *walls.load), land=lands.load)
 
-    found = jax.vmap(at_once)(times.reshape(-1), states)
-    return jax.tree.map(lambda loads: jnp.max(loads.reshape(*times.shape, *loads.shape[1:]), axis=1), found)
+    peaks = jax.vmap(at_once)(times.reshape(-1), states)
+    return jax.tree.map(lambda loads: jnp.max(loads.reshape(*times.shape, *loads.shape[1:]), axis=1), peaks)

@@ -97,7 +97,7 @@ class MeridianBalance(AbstractArrowSystem):
         own = self.moved(unknowns, shared)
         meridian = dynamics.levers.meridian(own)
         rates = self.rates._replace(centre=jnp.zeros((2, count)), ring=jnp.zeros((5, count)))
-        move = lambda given: dynamics.levers.race_speeds(own, meridian, given)
+        move = lambda rate: dynamics.levers.race_speeds(own, meridian, rate)
         (_, races), transpose = jax.vjp(move, rates)
         approach = meridian.distance - dynamics.levers.grooves.offset[:, None]
         pressed = dynamics.races.pressed(approach, meridian, races)
@@ -161,10 +161,10 @@ class QuasiStaticBallDynamics(AbstractDynamics):
     ) -> tuple[ArrowPoint, Float[Array, ""]]:
         """Solution of the balances (positions of balls and ring), and its scaled residual over the tolerance."""
         limit = LOAD_TOLERANCE * jnp.sqrt(tolerance)
-        found = plain_newton(
+        root = plain_newton(
             self.balance(time, state), self.guess if guess is None else guess, tolerance=limit, max_steps=STEPS
         )
-        return found.point, found.residual / limit
+        return root.point, root.residual / limit
 
     # -- rates ----------------------------------------------------------------------------------------------------
 
@@ -205,5 +205,5 @@ def quasi_static_dynamics(full: BallDynamics, state: ArrowPoint) -> tuple[QuasiS
     parts = dataclasses.replace(full, ring=ring, contact_damping=jnp.zeros(()), on_pitch_circle=True)
     free = np.flatnonzero(full.ring.free)
     guess = ArrowPoint(state.elements[5:7], state.globals[CAGE : CAGE + 5][free])
-    found = QuasiStaticBallDynamics(full.reference_speed, parts, guess)
-    return found, found.of_whole(state)
+    dynamics = QuasiStaticBallDynamics(full.reference_speed, parts, guess)
+    return dynamics, dynamics.of_whole(state)

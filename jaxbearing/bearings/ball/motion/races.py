@@ -101,8 +101,8 @@ class LubricatedRaces(AbstractRaceLaw):
     def friction(self, pressed: Pressed, load: Float[Array, "2 ball"], races: RaceMotion) -> RaceFriction:
         assert pressed.film is not None
         held = safe_norm(load, LOAD_FLOOR)
-        found = race_friction(self.system, RaceState(held, pressed.contact, races, pressed.film))
-        shear, rolling, curvature = found
+        friction = race_friction(self.system, RaceState(held, pressed.contact, races, pressed.film))
+        shear, rolling, curvature = friction
         moments = [jnp.asarray(-RACE_SENSES * moment) for moment in (rolling, curvature) if moment is not None]
         return RaceFriction(
             rolling=jnp.asarray(-RACE_SENSES * shear.rolling),

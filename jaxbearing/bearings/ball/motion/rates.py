@@ -193,7 +193,7 @@ class BallDynamics(AbstractDynamics):
         """Positions, speeds, loads and forces in a given state."""
         places, rates = self.moving(time, state)
         meridian = self.levers.meridian(places)
-        speeds, transpose = jax.vjp(lambda given: self.levers.speeds(places, meridian, given), rates)
+        speeds, transpose = jax.vjp(lambda rate: self.levers.speeds(places, meridian, rate), rates)
         approach = meridian.distance - self.levers.grooves.offset[:, None]
         pressed = self.races.pressed(approach, meridian, speeds.races)
         load = pressed.load * jnp.maximum(1.0 + self.contact_damping * speeds.apart, 0.0)

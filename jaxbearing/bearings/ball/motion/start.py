@@ -234,26 +234,26 @@ def quasi_static(scene: BallBearing, options: NewtonOptions | None = None) -> Qu
     core, _ = build_core(scene, exact=False).started()
     solved, result = newton_solve(build_lubricated(scene, core), options)
     assert isinstance(solved, LubricatedBallSystem)
-    found, ring = solved.at(result.point), solved.ring
+    balls, ring = solved.at(result.point), solved.ring
     every = lambda values: jnp.broadcast_to(values, (*values.shape[:-1], count))
-    motion = found.motion
+    motion = balls.motion
     orbit = every(motion.orbital_speed)
     moved = ring.moved(result.point.globals[: len(ring.freedoms)])
     position, centre, cage_orbit = jnp.zeros(count), jnp.zeros(2), jnp.mean(orbit)
     if solved.cage is not None:
-        assert found.pocket is not None
+        assert balls.pocket is not None
         cage_orbit = solved.orbit(result.point.globals[-1])
         if solved.multiplicity == 1:
-            centre = _cage_centre(solved, result.point, found, moved, cage_orbit)
+            centre = _cage_centre(solved, result.point, balls, moved, cage_orbit)
         azimuth = jnp.asarray(azimuths(scene.geometry, count))
         # displacement of the pockets along the orbit by the eccentricity of the cage
         aside = centre[0] * jnp.sin(azimuth) - centre[1] * jnp.cos(azimuth)
-        position = 0.5 * solved.cage.pocket.clearance - every(found.pocket.film_front) - aside
+        position = 0.5 * solved.cage.pocket.clearance - every(balls.pocket.film_front) - aside
     return QuasiStatic(
         orbit=orbit,
         cage_orbit=cage_orbit,
         spin=every(jnp.stack([motion.axial_spin, motion.radial_spin, motion.transverse])),
-        centre=every(found.centre),
+        centre=every(balls.centre),
         position=position,
         cage=centre,
         ring=moved,
@@ -263,13 +263,13 @@ def quasi_static(scene: BallBearing, options: NewtonOptions | None = None) -> Qu
 
 
 def _cage_centre(
-    solved: LubricatedBallSystem, point: ArrowPoint, found: BallsState, ring: Float[Array, "5"], orbit: Array
+    solved: LubricatedBallSystem, point: ArrowPoint, balls: BallsState, ring: Float[Array, "5"], orbit: Array
 ) -> Float[Array, "2"]:
     """Displacement of the centre of the cage at which its lands carry the sum of the pocket forces, m."""
-    parts, motion, land = solved.cage, solved.kinematics, solved.land_at(point, found)
+    parts, motion, land = solved.cage, solved.kinematics, solved.land_at(point, balls)
     assert parts is not None
-    assert found.cage_force is not None
-    inner, pull = parts.guidance == "inner_ring", jnp.sum(found.cage_force, axis=1)
+    assert balls.cage_force is not None
+    inner, pull = parts.guidance == "inner_ring", jnp.sum(balls.cage_force, axis=1)
     # the land films transmit the sum of the pocket forces to the ring
     toward = pull if inner else -pull
     mean_speed = 0.5 * ((motion.inner_speed if inner else motion.outer_speed) + orbit)
@@ -279,7 +279,7 @@ def _cage_centre(
     return ring[1:3] - offset if inner else offset
 
 
-def begin(scene: BallBearing, simulation: Simulation, found: QuasiStatic) -> Start:
+def begin(scene: BallBearing, simulation: Simulation, steady: QuasiStatic) -> Start:
     """Equations of motion, and the initial state, in which balls, cage and ring are as in the steady state at time 0;
     pure.
 
@@ -288,22 +288,24 @@ def begin(scene: BallBearing, simulation: Simulation, found: QuasiStatic) -> Sta
     the couple they are not 0.
     """
     factor = simulation.speed.factor(jnp.zeros(()))
-    dynamics = build_dynamics(scene, simulation, found.cage_orbit / factor)
-    pitch, still = dynamics.levers.pitch_radius, jnp.zeros_like(found.orbit)
-    offset, outward = found.centre[0] - dynamics.free_offset, found.centre[1] - dynamics.free_radius
-    behind = pitch * (found.orbit - found.cage_orbit)
-    spin = dynamics.levers.ball_radius * found.spin
+    dynamics = build_dynamics(scene, simulation, steady.cage_orbit / factor)
+    pitch, still = dynamics.levers.pitch_radius, jnp.zeros_like(steady.orbit)
+    offset, outward = steady.centre[0] - dynamics.free_offset, steady.centre[1] - dynamics.free_radius
+    behind = pitch * (steady.orbit - steady.cage_orbit)
+    spin = dynamics.levers.ball_radius * steady.spin
     balls = jnp.concatenate(
-        [jnp.stack([found.position, behind]), spin, jnp.stack([offset, outward, still, still])],
+        [jnp.stack([steady.position, behind]), spin, jnp.stack([offset, outward, still, still])],
     )
-    cage, shift = jnp.zeros(12), jnp.where(dynamics.ring.mask > 0, found.ring, 0.0)
+    cage, shift = jnp.zeros(12), jnp.where(dynamics.ring.mask > 0, steady.ring, 0.0)
     if dynamics.cage is not None:
-        cage = cage.at[0].set(jnp.mean(offset)).at[1:3].set(found.cage)
+        cage = cage.at[0].set(jnp.mean(offset)).at[1:3].set(steady.cage)
     state = dynamics.scaled(balls, jnp.concatenate([cage, shift, jnp.zeros(5)]))
-    return Start(*_by(simulation, dynamics, state), found.status, found.residual)
+    return Start(*_chosen_equations(simulation, dynamics, state), steady.status, steady.residual)
 
 
-def _by(simulation: Simulation, dynamics: BallDynamics, state: ArrowPoint) -> tuple[AbstractDynamics, ArrowPoint]:
+def _chosen_equations(
+    simulation: Simulation, dynamics: BallDynamics, state: ArrowPoint
+) -> tuple[AbstractDynamics, ArrowPoint]:
     """The equations chosen by the settings (`meridian`), and their state."""
     if simulation.meridian == "quasi_static":
         return quasi_static_dynamics(dynamics, state)
@@ -322,4 +324,4 @@ def resume(scene: BallBearing, simulation: Simulation, last: LastState) -> Resum
     balls = balls.at[0].add(ahead).at[1].add(faster)
     if last.has_cage:
         shared = shared.at[5].add(ahead).at[11].add(faster)
-    return Resumed(*_by(simulation, dynamics, dynamics.scaled(balls, shared)))
+    return Resumed(*_chosen_equations(simulation, dynamics, dynamics.scaled(balls, shared)))

@@ -74,8 +74,8 @@ def pocket_state(
     rate = (v_c - v) - (v_x * cosine + v_y * sine) + (x * sine - y * cosine) * orbit
     half = 0.5 * clearance
     # one search for both walls needs half as many loops
-    found = face.face(jnp.stack([half + ahead, half - ahead]), jnp.stack([rate, -rate]), jnp.stack([u, u]), viscosity)
-    front, rear = (jax.tree.map(lambda leaf, i=i: leaf[i], found) for i in (0, 1))
+    walls = face.face(jnp.stack([half + ahead, half - ahead]), jnp.stack([rate, -rate]), jnp.stack([u, u]), viscosity)
+    front, rear = (jax.tree.map(lambda leaf, i=i: leaf[i], walls) for i in (0, 1))
     return PocketState(front, rear, rate)
 
 
@@ -108,12 +108,12 @@ def land_forces(
         offset, rate, journal, bush = centre, velocity, cage_orbit, motion.outer_speed
         k_z, c_f = land.film_factors(inlet.density, inlet.viscosity, turbulence_speed - motion.outer_speed)
     film = land.force_on_journal(offset[0], offset[1], rate[0], rate[1], journal, bush, inlet.viscosity, k_z)
-    found = land.line_of_centres(offset[0], offset[1])
-    along, across = found.direction
+    line = land.line_of_centres(offset[0], offset[1])
+    along, across = line.direction
     on_journal, on_bush = land.torques(
-        found.eccentricity_ratio, film[1] * along - film[0] * across, journal, bush, inlet.viscosity, c_f
+        line.eccentricity_ratio, film[1] * along - film[0] * across, journal, bush, inlet.viscosity, c_f
     )
     on_cage, on_ring = (on_bush, on_journal) if inner else (on_journal, on_bush)
     n, sign = land.n_lands, -1.0 if inner else 1.0
     heat = land.dissipation(on_journal, on_bush, journal, bush) - film[0] * rate[0] - film[1] * rate[1]
-    return LandForces(sign * n * jnp.stack(film), n * on_cage, n * on_ring, n * heat, found.eccentricity_ratio)
+    return LandForces(sign * n * jnp.stack(film), n * on_cage, n * on_ring, n * heat, line.eccentricity_ratio)

@@ -53,5 +53,5 @@ def run_excess(scene: CylindricalRollerBearing, instants: RollerInstant) -> Exce
     zero, own = jnp.zeros(()), instants.cage
     ring = RingDisplacement(**dict.fromkeys(RING_FREEDOMS, zero))  # the ring does not tilt in a run
     cage = None if own is None else CageState(zero, zero, jnp.nanmax(jnp.asarray(own.eccentricity_ratio)), zero)
-    found = result_excess(scene, Facts((contacts,)), ring, cage)
-    return {type(text)(AT_SOME_TIME + text): value for text, value in found.items()}
+    excess = result_excess(scene, Facts((contacts,)), ring, cage)
+    return {type(text)(AT_SOME_TIME + text): value for text, value in excess.items()}

@@ -55,7 +55,7 @@ def power_by_location(dynamics: "RollerDynamics", now: "MovingState") -> Frictio
     `powers`)."""
     motion, forces, parts = now.motion, now.forces, dynamics.system.cage
     assert parts is not None
-    found = friction_on_rings(
+    interactions = friction_on_rings(
         motion, now.contact, now.sliding_speed, now.mean_speed, forces.inner_flange, forces.outer_flange
     )
     cosine, sine = cosine_and_sine(now.azimuth)
@@ -64,17 +64,17 @@ def power_by_location(dynamics: "RollerDynamics", now: "MovingState") -> Frictio
         front, rear = now.pocket.front.friction, now.pocket.rear.friction
         outward = now.velocity[1] * cosine - now.velocity[0] * sine
         rubbing = (front + rear) * motion.roller_radius * (now.spin - behind)
-        found.append(Interaction("pocket", jnp.sum(rubbing - (front - rear) * outward)))
+        interactions.append(Interaction("pocket", jnp.sum(rubbing - (front - rear) * outward)))
     rails = forces.rails
     if rails is not None:
         along = -(now.velocity[0] * cosine + now.velocity[1] * sine)
         forward = rails.tangential_force * (motion.pitch_radius * behind - along)
-        found.append(Interaction("element_ends", -jnp.sum(forward + rails.moment * (behind - now.spin))))
+        interactions.append(Interaction("element_ends", -jnp.sum(forward + rails.moment * (behind - now.spin))))
     if now.land is not None:
-        found.append(of_land(now.land.power, now.land.ring_torque, parts.guidance))
+        interactions.append(of_land(now.land.power, now.land.ring_torque, parts.guidance))
     if forces.drag_force is not None:
-        found.append(Interaction("drag", jnp.sum(forces.drag_force * motion.pitch_radius * now.orbit)))
-    return friction_totals(PowerLoss, found, motion)
+        interactions.append(Interaction("drag", jnp.sum(forces.drag_force * motion.pitch_radius * now.orbit)))
+    return friction_totals(PowerLoss, interactions, motion)
 
 
 def powers(dynamics: "RollerDynamics", time: Scalar, now: "MovingState") -> Float[Array, " work"]:

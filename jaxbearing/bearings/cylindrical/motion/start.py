@@ -126,13 +126,13 @@ def quasi_static(scene: CylindricalRollerBearing, options: NewtonOptions | None 
         return QuasiStatic(motion.free_orbit, jnp.zeros(2), zero, spin, jnp.asarray(int(Status.CONVERGED)), zero)
     solved, result = newton_solve(system, options)
     assert isinstance(solved, LubricatedRollerSystem)
-    motion, found, parts = solved.kinematics, solved.at(result.point), solved.cage
+    motion, rollers, parts = solved.kinematics, solved.at(result.point), solved.cage
     assert parts is not None
     assert parts.land is not None
-    assert found.pocket is not None
-    assert found.cage_force is not None
+    assert rollers.pocket is not None
+    assert rollers.cage_force is not None
     orbit, inner = solved.orbit(result.point.globals[-1]), parts.guidance == "inner_ring"
-    land, pull = solved.land_at(result.point, found), jnp.sum(found.cage_force, axis=1)
+    land, pull = solved.land_at(result.point, rollers), jnp.sum(rollers.cage_force, axis=1)
     # the film of the lands transmits the pocket forces to the ring
     toward = pull if inner else -pull
     mean_speed = 0.5 * ((motion.inner_speed if inner else motion.outer_speed) + orbit)
@@ -144,11 +144,11 @@ def quasi_static(scene: CylindricalRollerBearing, options: NewtonOptions | None 
         lateral = ring[1] if "lateral" in solved.freedoms else zero
         centre = jnp.stack([-lateral, ring[0]]) - centre
     offset = centre[0] * jnp.cos(solved.azimuth) + centre[1] * jnp.sin(solved.azimuth)
-    q = 0.5 * jnp.asarray(scene.cage.pocket_clearance) - offset - found.pocket.film_front
-    return QuasiStatic(orbit, centre, q, found.spin_speed, result.status, result.residual_norm)
+    q = 0.5 * jnp.asarray(scene.cage.pocket_clearance) - offset - rollers.pocket.film_front
+    return QuasiStatic(orbit, centre, q, rollers.spin_speed, result.status, result.residual_norm)
 
 
-def begin(scene: CylindricalRollerBearing, simulation: Simulation, found: QuasiStatic) -> Start:
+def begin(scene: CylindricalRollerBearing, simulation: Simulation, steady: QuasiStatic) -> Start:
     """Equations of motion and the initial state of a run, which is the steady state at time 0; pure.
 
     The speed at time 0 must not be 0, because there are no films at rest to carry the rollers. The accelerations of
@@ -156,11 +156,11 @@ def begin(scene: CylindricalRollerBearing, simulation: Simulation, found: QuasiS
     pockets of an eccentric cage. It does not contain a rotating load either.
     """
     factor = simulation.speed.factor(jnp.zeros(()))
-    dynamics = build_dynamics(scene, simulation, found.orbit / factor)
-    still = jnp.zeros_like(found.spin)
-    rollers = jnp.stack([found.position + still, still, dynamics.system.kinematics.roller_radius * found.spin])
-    state = dynamics.scaled(rollers, jnp.concatenate([found.centre, jnp.zeros(4)]))
-    return Start(dynamics, state, found.status, found.residual)
+    dynamics = build_dynamics(scene, simulation, steady.orbit / factor)
+    still = jnp.zeros_like(steady.spin)
+    rollers = jnp.stack([steady.position + still, still, dynamics.system.kinematics.roller_radius * steady.spin])
+    state = dynamics.scaled(rollers, jnp.concatenate([steady.centre, jnp.zeros(4)]))
+    return Start(dynamics, state, steady.status, steady.residual)
 
 
 def resume(scene: CylindricalRollerBearing, simulation: Simulation, last: LastState) -> Resumed:
