@@ -11,13 +11,13 @@ import equinox as eqx
 
 PACKAGES = ("lubricants", "contacts", "gaps", "bearings", "life", "machines", "ehl", "thermal")
 MODULES = ("materials", "time_laws", "sensitivity")
-INSIDE = (
-    *(f"jaxbearing.bearings.{name}" for name in ("ball_core", "ball_equations", "ball_kinematics", "ball_start")),
-    *(f"jaxbearing.bearings.{name}" for name in ("ball_system", "kinematics", "tapered_system", "tilting_roller")),
-    *(f"jaxbearing.bearings.roller_{name}" for name in ("dynamics", "equations", "forces", "loads")),
-    *(f"jaxbearing.ehl.{name}" for name in ("equations", "linear", "steady", "stepping")),
-)
-"""Modules of what the solvers make of a scene: dimensionless or inner quantities that no user meets."""
+INSIDE = {
+    *("ball.arched", "ball.core", "ball.equations", "ball.lubricated", "ball.motion", "ball.pairs", "ball.springs"),
+    *("ball.state", "ball.system", "cylindrical.equations", "cylindrical.forces", "cylindrical.kinematics"),
+    *("cylindrical.loads", "cylindrical.motion", "cylindrical.row", "cylindrical.thrust", "cylindrical.tilting"),
+    *("motion.history", "tapered.row", "tapered.system", "equations", "linear", "steady", "stepping"),
+}
+"""Modules and packages, below `bearings` and `ehl`, of what the solvers make of a scene: quantities inside a solve."""
 KINDS = re.compile(r"\b(diametral|radial|axial|circumferential|total)\b", re.IGNORECASE)
 UNIT = re.compile(
     r"(?<![\w/'])(1/Pa|1/K|1/s|m\^3/s|m\^2/s|kg/m\^3|kg/\(m\^3 K\)|W/\(m K\)|W/\(m K\^2\)|N m/rad|N m|N/m|rad/s|m/s"
@@ -47,8 +47,11 @@ def public_classes():
     names = [f"jaxbearing.{name}" for name in MODULES]
     for package in PACKAGES:
         path = importlib.import_module(f"jaxbearing.{package}").__path__
-        names += [f"jaxbearing.{package}.{module.name}" for module in pkgutil.iter_modules(path)]
-    for name in sorted(set(names) - set(INSIDE)):
+        names += [module.name for module in pkgutil.walk_packages(path, f"jaxbearing.{package}.")]
+    for name in names:
+        inner = name.split(".")[2:]
+        if INSIDE & {".".join(inner[:length]) for length in range(1, len(inner) + 1)}:
+            continue
         for kind in vars(importlib.import_module(name)).values():
             own = isinstance(kind, type) and issubclass(kind, eqx.Module) and kind.__module__ == name
             if own and not kind.__name__.startswith("_"):
@@ -79,13 +82,10 @@ def said(kind, name):
     return None
 
 
-CLASSES = public_classes()
-
-
 def test_fields():
-    wrong = []
-    for name, field in ((name, field) for name, kind in CLASSES.items() for field in numbers(kind)):
-        found = said(CLASSES[name], field.name)
+    wrong, classes = [], public_classes()
+    for name, field in ((name, field) for name, kind in classes.items() for field in numbers(kind)):
+        found = said(classes[name], field.name)
         if found is None:
             wrong.append(f"{name}.{field.name}: nothing says what it is")
             continue
@@ -95,3 +95,4 @@ def test_fields():
         if "clearance" in field.name and not KINDS.search(f"{field.name} {text}"):
             wrong.append(f"{name}.{field.name}: diametral, radial or total? {text!r}")
     assert not wrong
+    assert len(classes) > 200
