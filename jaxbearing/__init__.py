@@ -16,6 +16,7 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from ._forwarding import attributes_of, keep_old_modules
+from ._version import __version__ as __version__
 from .numerics.garbage import rare_garbage_collection
 from .numerics.interrupts import end_command_at_interrupt, is_the_command
 from .numerics.quiet import silence_compiler
@@ -135,7 +136,6 @@ if TYPE_CHECKING:
     from .sweep import sweep as sweep
     from .tolerance.verb import tolerances as tolerances
 
-__version__ = "0.1.0"
 
 _LAZY = {
     "BallAttitude": ".bearings.ball.scene",

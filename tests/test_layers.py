@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from jaxbearing import _solvers
+
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "jaxbearing"
 FITTING = ROOT / "fitting"
@@ -14,6 +16,9 @@ FITTING = ROOT / "fitting"
 RANK = {
     "_types": 0,
     "_forwarding": 0,
+    "_version": 0,
+    # names solvers, and imports the one that is asked for
+    "_solvers": 0,
     "_checks": 2,
     "_derived": 2,
     "_scene": 2,
@@ -163,3 +168,56 @@ def test_top_level_is_as_agreed():
     if listed.returncode != 0:
         pytest.skip("not a git checkout")
     assert {name.split("/")[0] for name in listed.stdout.splitlines() if not name.startswith((".", '"'))} <= allowed
+
+
+def _imports_of_the_package():
+    """Module -> modules of the package that it imports when it runs, at its top or inside functions."""
+    files = {".".join(path.relative_to(ROOT).with_suffix("").parts): path for path in modules(PACKAGE)}
+    files = {name.removesuffix(".__init__"): path for name, path in files.items()}
+    graph = {}
+    for name, path in files.items():
+        package = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
+        graph[name] = set()
+        for node in _running(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                graph[name] |= {alias.name for alias in node.names} & files.keys()
+            if isinstance(node, ast.ImportFrom):
+                above = package[: len(package) + 1 - node.level] if node.level else []
+                base = ".".join([*above, *([node.module] if node.module else [])])
+                for alias in node.names:
+                    graph[name] |= {f"{base}.{alias.name}" if f"{base}.{alias.name}" in files else base} & files.keys()
+    return graph
+
+
+def _running(node):
+    """All nodes below a node, but for imports that only a type checker sees."""
+    for child in ast.iter_child_nodes(node):
+        if not (isinstance(child, ast.If) and "TYPE_CHECKING" in ast.unparse(child.test)):
+            yield child
+            yield from _running(child)
+
+
+def test_imports_make_no_circle():
+    """Modules that import each other, at the top or inside functions, cannot be understood alone. Scenes find their
+    solvers by name (`_solvers`)."""
+    graph, leads_to = _imports_of_the_package(), {}
+    assert len(graph) > 600
+
+    def reached(name):
+        seen, open_ends = set(), [name]
+        while open_ends:
+            for other in graph[open_ends.pop()] - seen:
+                seen.add(other)
+                open_ends.append(other)
+        return seen
+
+    leads_to = {name: reached(name) for name in graph}
+    circles = {name: sorted(other for other in leads_to[name] if name in leads_to[other]) for name in graph}
+    assert not {name: others for name, others in circles.items() if name in leads_to[name]}
+
+
+def test_solvers_are_there():
+    """The table names functions, and methods of scenes; no module is imported before it is asked for."""
+    for kind, functions in _solvers._FUNCTIONS.items():
+        for method in functions:
+            assert callable(_solvers.solver(kind, method)), (kind, method)

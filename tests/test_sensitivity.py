@@ -52,9 +52,10 @@ def test_scenes_without_any_of_the_results_are_refused():
 
 
 CALLERS = {
-    **dict.fromkeys(("solve_ball", "solve_steady", "solve_tilting", "solve_tapered"), ("scene.py",)),
+    # the table of solvers names them
+    **dict.fromkeys(("solve_ball", "solve_rollers", "solve_tapered", "solve_line_contact"), ()),
+    **dict.fromkeys(("solve_steady", "solve_tilting"), ("steady.py",)),
     "solve_two_disk": ("two_disk.py",),
-    "solve_line_contact": ("line_contact.py",),
     "steady_solution": ("solve.py",),
     "with_life": ("solve.py", "steady.py"),  # of a shaft, which rates its bearings itself
     # of a warm-up the losses are asked for alone
@@ -75,7 +76,7 @@ def test_one_function_from_scene_to_solution():
                 name = getattr(node.func, "id", getattr(node.func, "attr", ""))
                 found.add(name)
                 assert path.name in CALLERS.get(name, (path.name,)), f"{path} calls {name}"
-    assert set(CALLERS) <= found
+    assert {name for name, files in CALLERS.items() if files} <= found
 
 
 RESULTS = {

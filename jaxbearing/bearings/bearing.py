@@ -23,6 +23,7 @@ import jax.numpy as jnp
 from jaxtyping import Array
 
 from .._scene import SIMULATED, AbstractHistory, AbstractScene
+from .._solvers import BEARING, solver
 from .._types import Values
 from ..contacts import LineContact, PointContact
 from ..materials import ROLLER_PRESSURE
@@ -87,9 +88,7 @@ class AbstractBearing(AbstractScene):
         elements can be simulated overrides this method, and simulates them if the scene has no network."""
         if self.thermal is None:
             raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; simulate takes: {SIMULATED}")
-        from .warming.runs import simulate_warm_up
-
-        return simulate_warm_up(self, duration, **settings)
+        return solver(BEARING, "simulated")(self, duration, **settings)
 
     def check_restart(self, restart: object, duration: float | None = None) -> None:
         """Checks that a run of this scene can continue from a state.
@@ -97,9 +96,7 @@ class AbstractBearing(AbstractScene):
         **Raises:** `TypeError` or `ValueError` if it cannot."""
         if self.thermal is None:
             raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; simulate takes: {SIMULATED}")
-        from .warming.runs import check_restart
-
-        check_restart(self, restart)
+        solver(BEARING, "check_restart")(self, restart)
 
     def solved_running(self, solve: "Callable[[AbstractBearing], Solution]") -> Solution:
         """Solves the bearing with its running dimensions. If the scene has fits, these and the temperatures and speeds
@@ -157,26 +154,26 @@ class AbstractBearing(AbstractScene):
     play_is_clearance: ClassVar[bool] = True
     """True if the play is a diametral clearance; otherwise it is an axial displacement."""
 
-    @abc.abstractmethod
     def solve_ring(
         self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
     ) -> Solution:
-        """Solves the steady state.
+        """Solves the steady state with the solver of the family (`_solvers`).
 
         **Arguments:**
         - `ring`: an inner ring with given displacements (a held ring); by default the ring of the operating point, with
           its loads.
         - `exact_tilt`: True to move the grooves of a ball bearing by the exact rotation of the ring, False to linearise
-          it; by default the choice of the scene.
+          it; by default the choice of the scene. Rollers have no grooves.
         """
+        return solver(self.kind, "solve_ring")(self, options, ring, exact_tilt)
 
-    @abc.abstractmethod
     def row(self, expansion: Array) -> AbstractRow:
         """The frictionless model of the bearing for a given displacement of the inner ring, from which the solve of a
         shaft starts. Centrifugal forces act at the speeds of the bearing.
 
         **Arguments:** `expansion`: expansion of the inner raceway's radius less that of the outer one, m.
         """
+        return solver(self.kind, "row")(self, expansion)
 
     @abc.abstractmethod
     def range_checks(self) -> RangeChecks:

@@ -9,6 +9,7 @@ the quantity that a check needs, the check adds no entry.
 """
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
 import numpy as np
@@ -21,11 +22,15 @@ from ..contacts.laws import SPEED_SMOOTHING
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..numerics import lapack
 from ..numerics.safe import smooth_abs
-from .bearing import AbstractBearing
 from .cage import AbstractCage
 from .facts import BUSY, Contacts, Excess, Facts, SolvedBearing
 from .ring_shape import AbstractBendingRing
 from .solution import CageState, RingDisplacement
+
+if TYPE_CHECKING:
+    from .bearing import AbstractBearing
+else:
+    AbstractBearing = Any
 
 SKIDDING = 0.1
 """Ratio of sliding to rolling speed, both along the rolling direction, above which the laws for rolling are

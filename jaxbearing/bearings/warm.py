@@ -26,6 +26,7 @@ from ..thermal.result import HeatPaths, NodeTemperatures, ThermalResult, named
 from ..thermal.settings import Thermal
 from ..thermal.shares import oil_temperatures
 from ..thermal.solve import START_NOTE, UNSTABLE, ThermalState, solve_network
+from .checks import input_excess
 from .heat import OUTSIDE, bearing_heat, bearing_network, has_flow, heat_capacities, rings_of, thermal_of
 from .mounted import check_walls
 from .solution import Solution
@@ -171,8 +172,6 @@ def _answer(scene: AbstractBearing, network: Network, state: ThermalState) -> So
     solution: Solution = state.losses.other
     ended: Solution = state.ended.other
     good = state.status == Status.CONVERGED
-    from .checks import input_excess
-
     result, inputs = _result(scene, network, state), input_excess(scene)
     checks = {text: broken & (good | (text in inputs)) for text, broken in solution.checks.items()}
     if result.unstable is not None:

@@ -7,6 +7,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
 from .._scene import AbstractScene, label, number, optional_number
+from .._solvers import solver
 from .._types import Scalar
 from ..contacts import AbstractLineFilm, DowsonHigginson, DowsonToyoda, LineContact, Moes
 from ..lubricants import Lubricant
@@ -134,19 +135,13 @@ class EHLLineContact(AbstractScene):
     simulation: FilmSimulation | None = None
 
     def steady_solution(self, options: NewtonOptions) -> "LineContactSolution":
-        from .solution import solve_line_contact
-
-        return solve_line_contact(self, options)
+        return solver(self.kind, "steady_solution")(self, options)
 
     def simulated(self, duration: float | None, **settings: Any) -> "LineContactHistory":
-        from .run import run_film
-
-        return run_film(self, duration, **settings)
+        return solver(self.kind, "simulated")(self, duration, **settings)
 
     def check_restart(self, restart: object, duration: float | None = None) -> None:
-        from .run import check_state
-
-        check_state(self, restart, duration)
+        solver(self.kind, "check_restart")(self, restart, duration)
 
     @property
     def hertz(self) -> LineContact:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from .. import __version__
+from .._version import __version__
 from ..joint import JointDistribution
 from ..scenes.input_files import check_regular
 from .dataset import write_netcdf

@@ -27,7 +27,7 @@ from typing import Literal
 import numpy as np
 import tomli_w
 
-from .. import __version__
+from .._version import __version__
 from ..bearings.solution import RING_FREEDOMS
 from .files import write_whole
 from .stiffness import StiffnessTable

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from .. import __version__
 from .._identity import Identity
 from .._scene import AbstractSolution
+from .._version import __version__
 from .labels import udunits
 
 CHECK = "check"

@@ -73,7 +73,7 @@ def scene_text(scene: AbstractScene, label: str, header: Iterable[str]) -> str:
 
 
 def _header(lines: Iterable[str]) -> str:
-    from .. import __version__
+    from .._version import __version__
 
     note = f"Written by jaxbearing {__version__}. Parts that are not here are not modelled, or follow from the others."
     return comments([*lines, note]) + "\n"

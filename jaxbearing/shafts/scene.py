@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from .._scene import AbstractScene, label, number, optional_number
+from .._solvers import solver
 from .._types import Scalar
 from ..bearings.bearing import AbstractBearing
 from ..bearings.parts import names_another_bearing
@@ -240,6 +241,4 @@ class ShaftSystem(AbstractScene):
         return path_in_file(self, path)
 
     def steady_solution(self, options: NewtonOptions) -> "ShaftSolution":
-        from .steady import solve_shaft
-
-        return solve_shaft(self, options)
+        return solver(self.kind, "steady_solution")(self, options)

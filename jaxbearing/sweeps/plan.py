@@ -12,7 +12,7 @@ from typing import Any
 import jax
 import numpy as np
 
-from .. import __version__
+from .._version import __version__
 from ..lanes import LaneProgram, Method
 from ..numerics.newton import NewtonOptions
 from ..report.files import atomic_file

@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.padding import Padding
 from rich.table import Table
 
-from .. import __version__
+from .._version import __version__
 from ..distribution import Distribution
 from ..loss_interval import not_counted
 from ..report.backends.json import finite

@@ -1,11 +1,17 @@
 """Range checks of ball bearings, in addition to those of all bearings."""
 
+from typing import TYPE_CHECKING, Any
+
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
 from ..facts import LOADED, Contacts, Excess, RangeChecks, SolvedBearing
-from .scene import BallBearing
+
+if TYPE_CHECKING:
+    from .scene import BallBearing
+else:
+    BallBearing = Any
 
 
 def _angles(result: SolvedBearing) -> Excess:

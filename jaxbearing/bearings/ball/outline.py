@@ -2,12 +2,17 @@
 
 import math
 from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..flanks import SECOND
 from ..outline import RING_SIDE, RING_THICKNESS, Outline, Point, moved
-from .scene import BallBearing
+
+if TYPE_CHECKING:
+    from .scene import BallBearing
+else:
+    BallBearing = Any
 
 _SHOULDER = 0.3
 """Height of the shoulders above the ball centre, in ball diameters; assumed, because scenes do not give it."""

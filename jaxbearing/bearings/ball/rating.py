@@ -1,15 +1,17 @@
 """Sizes and loads of a ball bearing from which its life is computed."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..rated import RatedContacts, sizes_of_loads
-from .scene import BallBearing
 
 if TYPE_CHECKING:
+    from .scene import BallBearing
     from .solution import BallResults
+else:
+    BallBearing = Any
 
 
 def rated_contacts(

@@ -26,7 +26,6 @@ from ...lubricants import Lubricant, NoPressureViscosity
 from ...materials import BALL_PRESSURE, Material
 from ...mounting import Fits, PartTemperatures
 from ...numerics.checks import demand, numbers_or_none
-from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import choice
 from ...thermal.settings import Thermal
@@ -35,7 +34,7 @@ from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..cage import AbstractCage
 from ..facts import RangeChecks
 from ..growth import Growth, Play
-from ..motion.family import AbstractMotion, AbstractMovingBearing
+from ..motion.family import AbstractMovingBearing
 from ..motion.settings import Simulation
 from ..mounted import mounting_problems
 from ..operation import LOAD_FIELDS, AbstractOperation
@@ -43,7 +42,6 @@ from ..outline import Outline
 from ..parts import AbstractMaterials, DragSettings
 from ..rated import RatedContacts
 from ..rating import Rating
-from ..ring import InnerRing
 from ..ring_shape import (
     FlexibleInnerRing,
     FlexibleRing,
@@ -53,13 +51,16 @@ from ..ring_shape import (
     moving_problems,
     said_of_bending,
 )
-from ..row import AbstractRow
-from ..solution import LaminaLoads, Solution
+from ..solution import LaminaLoads
 from ..supplied import supply_problems
 from ..warm import thermal_problems
 from ..warming.settings import WarmUpSimulation
+from .checks import CHECKS
 from .geometry import BallGeometry
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
+from .mounting import groove_bottoms, running_geometry, running_play
+from .outline import ball_outline
+from .rating import rated_contacts
 
 if TYPE_CHECKING:
     from .solution import BallResults
@@ -288,55 +289,25 @@ class BallBearing(AbstractMovingBearing):
                 "orbit each at its own speed"
             )
 
-    def solve_ring(
-        self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
-    ) -> Solution:
-        from .steady import solve_ball
-
-        return solve_ball(self, options, ring, exact_tilt)
-
     @property
     def raceway_diameters(self) -> tuple[Array, Array]:
-        from .mounting import groove_bottoms
-
         return groove_bottoms(self.geometry)
 
     def play(self, growth: Growth) -> Play:
-        from .mounting import running_play
-
         return running_play(self.geometry, growth)
 
     def grown(self, growth: Growth) -> "BallBearing":
-        from .mounting import running_geometry
-
         return dataclasses.replace(self, geometry=running_geometry(self.geometry, growth))
 
-    def row(self, expansion: Array) -> AbstractRow:
-        from .row import ball_row_of
-
-        return ball_row_of(self, expansion)
-
-    @property
-    def motion(self) -> AbstractMotion:
-        from .motion.family import BallBearingMotion
-
-        return BallBearingMotion()
-
     def range_checks(self) -> RangeChecks:
-        from .checks import CHECKS
-
         return CHECKS
 
     def outline(self, of: Callable[[str], float] | None = None) -> Outline:
-        from .outline import ball_outline
-
         return ball_outline(self, of)
 
     def rated_contacts(
         self, elements: "BallResults | None", laminae: LaminaLoads | None, force: Array | None = None
     ) -> RatedContacts:
-        from .rating import rated_contacts
-
         return rated_contacts(self, elements, force)
 
     @property

@@ -1,5 +1,7 @@
 """Range checks that apply to cylindrical roller bearings only."""
 
+from typing import TYPE_CHECKING, Any
+
 import jax.numpy as jnp
 
 from ..._checks import Information
@@ -7,7 +9,11 @@ from ...numerics.safe import safe_norm
 from ..facts import LOADED, Excess, RangeChecks, SolvedBearing
 from ..parts import azimuths
 from .kinematics import roller_kinematics
-from .scene import CylindricalRollerBearing
+
+if TYPE_CHECKING:
+    from .scene import CylindricalRollerBearing
+else:
+    CylindricalRollerBearing = Any
 
 
 def _squeezed(result: SolvedBearing) -> Excess:

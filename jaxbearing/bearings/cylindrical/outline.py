@@ -1,7 +1,13 @@
 """A cylindrical roller between its rings, for drawings."""
 
+from typing import TYPE_CHECKING, Any
+
 from ..outline import RING_SIDE, RING_THICKNESS, Outline
-from .scene import CylindricalRollerBearing
+
+if TYPE_CHECKING:
+    from .scene import CylindricalRollerBearing
+else:
+    CylindricalRollerBearing = Any
 
 
 def roller_outline(scene: CylindricalRollerBearing) -> Outline:

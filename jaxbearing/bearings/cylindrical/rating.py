@@ -1,16 +1,18 @@
 """Sizes and loads of a cylindrical roller bearing from which its life is computed."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..rated import RatedContacts, is_misaligned, sizes_of_loads
 from ..solution import LaminaLoads
-from .scene import CylindricalRollerBearing
 
 if TYPE_CHECKING:
+    from .scene import CylindricalRollerBearing
     from .solution import RollerResults
+else:
+    CylindricalRollerBearing = Any
 
 
 def rated_contacts(

@@ -20,14 +20,13 @@ from ..._types import Scalar
 from ...contacts import LineContact, RigidRollingResistance
 from ...lubricants import Lubricant, NoPressureViscosity
 from ...mounting import Fits, PartTemperatures
-from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
 from ...thermal.settings import Thermal
 from ...thermal.shares import OilTemperatures
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..facts import RangeChecks
 from ..growth import Growth, Play
-from ..motion.family import AbstractMotion, AbstractMovingBearing
+from ..motion.family import AbstractMovingBearing
 from ..motion.settings import Simulation
 from ..mounted import mounting_problems
 from ..operation import Operation
@@ -36,7 +35,6 @@ from ..parts import ContactLaws, Drag, Materials
 from ..profile import RollerProfile
 from ..rated import RatedContacts
 from ..rating import Rating
-from ..ring import InnerRing
 from ..ring_shape import (
     FlexibleInnerRing,
     FlexibleRing,
@@ -45,14 +43,17 @@ from ..ring_shape import (
     bending_problems,
     moving_problems,
     said_of_bending,
-    shaped_parts,
 )
-from ..row import AbstractRow
-from ..solution import RING_FREEDOMS, LaminaLoads, Solution
+from ..solution import RING_FREEDOMS, LaminaLoads
 from ..supplied import supply_problems
 from ..warm import thermal_problems
 from ..warming.settings import WarmUpSimulation
+from .checks import CHECKS
 from .geometry import ASSUMED_FLANGE_HEIGHT, RollerCage, RollerFlange, RollerGeometry, check_height
+from .loads import film_growth
+from .mounting import running_geometry, running_play
+from .outline import roller_outline
+from .rating import rated_contacts
 from .thrust import NOT_MODELLED, check_axial
 
 if TYPE_CHECKING:
@@ -167,28 +168,6 @@ class CylindricalRollerBearing(AbstractMovingBearing):
                         "for an isoviscous one; film = 'moes' and rolling_resistance = 'full_range' do"
                     )
 
-    def solve_ring(
-        self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
-    ) -> Solution:
-        solution, flanges = self._solve_across(options, ring), self.geometry.thrust_flanges
-        return solution if flanges is None else flanges.hold(solution, self.operation, ring)
-
-    def _solve_across(self, options: NewtonOptions, ring: InnerRing | None) -> Solution:
-        """Solution for all degrees of freedom of the ring except the axial one."""
-        # dry rollers that carry evenly have no unknowns if the ring is held: the tilting model finds the same loads
-        evenly = self.slips or not self.tilts
-        if ring is not None:
-            evenly = self.slips
-        elif self.contact is None and not self.unknown_freedoms and not shaped_parts(self):
-            evenly = False
-        if evenly:
-            from .steady import solve_steady
-
-            return solve_steady(self, options, ring)
-        from .tilting_steady import solve_tilting
-
-        return solve_tilting(self, options, ring)
-
     @property
     def raceway_diameters(self) -> tuple[Array, Array]:
         geometry = self.geometry
@@ -203,45 +182,24 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         return self.geometry.roller_length if self.geometry.width is None else self.geometry.width
 
     def play(self, growth: Growth) -> Play:
-        from .mounting import running_play
-
         return running_play(self.geometry, growth)
 
     def grown(self, growth: Growth) -> "CylindricalRollerBearing":
-        from .mounting import running_geometry
-
         return dataclasses.replace(self, geometry=running_geometry(self.geometry, growth))
 
-    def row(self, expansion: Array) -> AbstractRow:
-        from .row import TiltingRow
-
-        return TiltingRow(self, expansion)
-
     def range_checks(self) -> RangeChecks:
-        from .checks import CHECKS
-
         return CHECKS
 
     def outline(self, of: Callable[[str], float] | None = None) -> Outline:
-        from .outline import roller_outline
-
         return roller_outline(self)
 
     def rated_contacts(
         self, elements: "RollerResults | None", laminae: LaminaLoads | None, force: Array | None = None
     ) -> RatedContacts:
-        from .rating import rated_contacts
-
         return rated_contacts(self, elements, laminae, force)
 
     def with_lateral_freedom(self) -> "CylindricalRollerBearing":
         return self if self.tilts else self.replace({"ring_freedom": ("radial", "lateral")})
-
-    @property
-    def motion(self) -> AbstractMotion:
-        from .motion.family import RollerMotion
-
-        return RollerMotion()
 
     @property
     def modelled_freedoms(self) -> tuple[str, ...]:
@@ -258,8 +216,6 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         return not self.slips
 
     def film_growth(self, load: Array) -> Array:
-        from .loads import film_growth
-
         return film_growth(self, load)
 
     @property

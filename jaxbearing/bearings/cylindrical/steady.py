@@ -18,7 +18,7 @@ from ..mixed import boundary_power, mixed_results
 from ..parts import azimuths, drag_density
 from ..profile import pressed_load
 from ..ring import LENGTH_UNIT, InnerRing, Port
-from ..ring_shape import out_of_round
+from ..ring_shape import out_of_round, shaped_parts
 from ..solution import CageState, FailureCause, Solution
 from .equations import DryRollerSystem, LubricatedRollerSystem, RollerState
 from .forces import CageParts, friction_on_rings, rolling_alone
@@ -29,6 +29,7 @@ from .loads import LEAST_LOAD
 from .ring import bending_rings, roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults, SolvedRollers
+from .tilting_steady import solve_tilting
 
 NOTHING_UNKNOWN = ("no unknown: given displacements are the whole state",)
 """Equation names of a system without unknowns."""
@@ -156,6 +157,28 @@ def drag_area(geometry: RollerGeometry, cage: RollerCage | None) -> Array:
     """
     thickness = 0.0 if cage is None else (cage.outside(geometry) - cage.bore(geometry)) / 2.0
     return jnp.asarray(geometry.roller_length) * jnp.maximum(geometry.roller_diameter - thickness, 0.0)
+
+
+def solve_rollers(
+    scene: CylindricalRollerBearing,
+    options: NewtonOptions,
+    ring: InnerRing | None = None,
+    exact_tilt: bool | None = None,
+) -> Solution:
+    """Solves for the steady state, in the plane (`solve_steady`) or with rollers that tilt (`solve_tilting`). The loads
+    that the flanges carry follow from the solution.
+
+    **Arguments:** as `AbstractBearing.solve_ring`; `exact_tilt` has no effect, because rollers have no grooves.
+    """
+    # dry rollers that carry evenly have no unknowns if the ring is held: the tilting model finds the same loads
+    evenly = scene.slips or not scene.tilts
+    if ring is not None:
+        evenly = scene.slips
+    elif scene.contact is None and not scene.unknown_freedoms and not shaped_parts(scene):
+        evenly = False
+    solution = solve_steady(scene, options, ring) if evenly else solve_tilting(scene, options, ring)
+    flanges = scene.geometry.thrust_flanges
+    return solution if flanges is None else flanges.hold(solution, scene.operation, ring)
 
 
 def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions, ring: InnerRing | None = None) -> Solution:

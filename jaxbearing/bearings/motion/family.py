@@ -14,6 +14,7 @@ import equinox as eqx
 from jaxtyping import Array, Float, Int
 
 from ..._scene import AbstractHistory
+from ..._solvers import MOVING_BEARING, solver
 from ..._types import Scalar
 from ...materials import CATALOGUE
 from ...numerics.arrow import ArrowPoint
@@ -157,9 +158,9 @@ class AbstractMovingBearing(AbstractBearing):
     simulation: eqx.AbstractVar[Any]
 
     @property
-    @abc.abstractmethod
     def motion(self) -> AbstractMotion:
         """The object that makes the equations of motion of the family from a scene."""
+        return solver(self.kind, "motion")()
 
     @property
     def cage_section(self) -> CageSection | None:
@@ -172,19 +173,13 @@ class AbstractMovingBearing(AbstractBearing):
     def simulated(self, duration: float | None, **settings: Any) -> AbstractHistory:
         if self.thermal is not None:
             return super().simulated(duration, **settings)
-        from .runs import simulate_bearing
-
-        return simulate_bearing(self, duration, **settings)
+        return solver(MOVING_BEARING, "simulated")(self, duration, **settings)
 
     def simulated_batch(self, duration: float, over: Mapping[str, object], **settings: Any) -> History:
-        from .batch import simulate_bearing_batch
-
-        return simulate_bearing_batch(self, duration, over, **settings)
+        return solver(MOVING_BEARING, "simulated_batch")(self, duration, over, **settings)
 
     def check_restart(self, restart: object, duration: float | None = None) -> None:
         if self.thermal is not None:
             super().check_restart(restart, duration)
             return
-        from .run import check_fits
-
-        check_fits(self, restart)
+        solver(MOVING_BEARING, "check_restart")(self, restart)

@@ -1,10 +1,16 @@
 """Range checks that apply to tapered roller bearings only."""
 
+from typing import TYPE_CHECKING, Any
+
 import jax.numpy as jnp
 
 from ..._checks import Information
 from ..facts import BUSY, Excess, RangeChecks, SolvedBearing
-from .scene import TaperedRollerBearing
+
+if TYPE_CHECKING:
+    from .scene import TaperedRollerBearing
+else:
+    TaperedRollerBearing = Any
 
 
 def _skidding(result: SolvedBearing) -> Excess:

@@ -1,11 +1,16 @@
 """Outline of a tapered roller between cup, cone and rib, for drawings."""
 
 import math
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..outline import RING_SIDE, RING_THICKNESS, Outline, Point, between, moved
-from .scene import TaperedRollerBearing
+
+if TYPE_CHECKING:
+    from .scene import TaperedRollerBearing
+else:
+    TaperedRollerBearing = Any
 
 
 def tapered_outline(scene: TaperedRollerBearing) -> Outline:

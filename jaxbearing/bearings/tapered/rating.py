@@ -1,11 +1,17 @@
 """Sizes and loads of a tapered roller bearing from which its life is computed."""
 
+from typing import TYPE_CHECKING, Any
+
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..rated import RatedContacts, is_misaligned, sizes_of_loads
 from ..solution import LaminaLoads
-from .scene import TaperedRollerBearing
+
+if TYPE_CHECKING:
+    from .scene import TaperedRollerBearing
+else:
+    TaperedRollerBearing = Any
 
 
 def rated_contacts(

@@ -22,7 +22,6 @@ from ...contacts.laws import ContactLaws
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant
 from ...mounting import Fits, PartTemperatures
-from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
 from ...thermal.settings import Thermal
 from ...thermal.shares import OilTemperatures
@@ -36,7 +35,6 @@ from ..parts import Drag, Materials
 from ..profile import RollerProfile
 from ..rated import RatedContacts
 from ..rating import Rating
-from ..ring import InnerRing
 from ..ring_shape import (
     FlexibleInnerRing,
     FlexibleRing,
@@ -45,12 +43,15 @@ from ..ring_shape import (
     bending_problems,
     said_of_bending,
 )
-from ..row import AbstractRow
-from ..solution import LaminaLoads, Solution
+from ..solution import LaminaLoads
 from ..supplied import supply_problems
 from ..warm import thermal_problems
 from ..warming.settings import WarmUpSimulation
+from .checks import CHECKS
 from .geometry import TaperedGeometry
+from .mounting import closing, raceway_diameters, running_play
+from .outline import tapered_outline
+from .rating import rated_contacts
 
 if TYPE_CHECKING:
     from .solution import TaperedResults
@@ -147,19 +148,10 @@ class TaperedRollerBearing(AbstractBearing):
             yield "rib.rolling: the rib has none, the roller ends slide on it"
         yield from refusals_of(self.operation.check_rings_turn)
 
-    def solve_ring(
-        self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
-    ) -> Solution:
-        from .steady import solve_tapered
-
-        return solve_tapered(self, options, ring)
-
     play_is_clearance: ClassVar[bool] = False
 
     @property
     def raceway_diameters(self) -> tuple[Array, Array]:
-        from .mounting import raceway_diameters
-
         return raceway_diameters(self.geometry)
 
     @property
@@ -168,35 +160,20 @@ class TaperedRollerBearing(AbstractBearing):
         return self.geometry.roller_length if self.geometry.width is None else self.geometry.width
 
     def play(self, growth: Growth) -> Play:
-        from .mounting import running_play
-
         return running_play(self.geometry, growth)
 
     def grown(self, growth: Growth) -> "TaperedRollerBearing":
-        from .mounting import closing
-
         return dataclasses.replace(self, closing=closing(self.geometry, growth))
 
-    def row(self, expansion: Array) -> AbstractRow:
-        from .row import TaperedRow
-
-        return TaperedRow(self, expansion)
-
     def range_checks(self) -> RangeChecks:
-        from .checks import CHECKS
-
         return CHECKS
 
     def outline(self, of: Callable[[str], float] | None = None) -> Outline:
-        from .outline import tapered_outline
-
         return tapered_outline(self)
 
     def rated_contacts(
         self, elements: "TaperedResults | None", laminae: LaminaLoads | None, force: Array | None = None
     ) -> RatedContacts:
-        from .rating import rated_contacts
-
         return rated_contacts(self, laminae, force)
 
     @property

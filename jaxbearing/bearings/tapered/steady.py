@@ -38,7 +38,9 @@ HIGHEST = 9.0
 """Number 1/(10/9 - 1) in the formula of `line_pressure`."""
 
 
-def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: InnerRing | None = None) -> Solution:
+def solve_tapered(
+    scene: TaperedRollerBearing, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
+) -> Solution:
     """Solves for the steady state. The function is pure and can be jitted, vmapped and differentiated. A failed solve
     does not raise.
 
@@ -47,7 +49,7 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
     that the cone, with all else in equilibrium, is still pushed further at a tilt of 0.1 rad or at a displacement of
     the apex distance (`numerics.convex.find_minimum`).
 
-    **Arguments:** `ring`: inner ring to use instead of the one at the scene's operating point.
+    **Arguments:** as `AbstractBearing.solve_ring`; `exact_tilt` has no effect, because rollers have no grooves.
     """
     asked = build_tapered(scene, ring)
     sliding = slides_out(scene, asked.inertia) | tips_over(scene) if _bounded(scene, ring) else jnp.asarray(False)

@@ -7,8 +7,8 @@ from datetime import datetime
 from importlib.metadata import version
 from typing import Any
 
-from ... import __version__
 from ..._checks import Information
+from ..._version import __version__
 from ..display import typeset
 from ..page_content import Content
 from ..panels import Bars, Curves, Numbers, Panel, Polar

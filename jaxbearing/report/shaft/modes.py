@@ -7,13 +7,19 @@ axis and against tilting; the shaft is held axially. Rotors of ROSS have no tilt
 the frequencies are those of ROSS.
 """
 
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from ...shafts.forces import Mass
 from ...shafts.scene import ShaftSystem
 from .bending import cowper
 from .ross import rotor_nodes, section_between
-from .stiffness import ShaftStiffness
+
+if TYPE_CHECKING:
+    from .stiffness import ShaftStiffness
+else:
+    ShaftStiffness = Any
 
 _FREEDOMS = (1, 3, 2, 4)
 """Indices of the degrees of freedom of a node in a stiffness matrix: radial, tilt, lateral, lateral tilt."""

@@ -13,19 +13,23 @@ import math
 import os
 from collections import Counter
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import tomli_w
 
-from ... import __version__
+from ..._version import __version__
 from ...materials import Material
 from ...shafts.forces import Mass
 from ...shafts.scene import ShaftSystem
 from ...shafts.shaft import Section
 from ..files import write_whole
 from ..ross import NEWEST, TESTED, WEIGHT_DIRECTION, Version, element_of, one_line
-from .stiffness import ShaftStiffness
+
+if TYPE_CHECKING:
+    from .stiffness import ShaftStiffness
+else:
+    ShaftStiffness = Any
 
 SAME = 1e-9
 """Distance up to which two positions are the same node, m."""

@@ -28,6 +28,7 @@ from ..backends.screen import (
 )
 from ..display import digits, display_unit, with_unit
 from .facts import shaft_warnings
+from .modes import natural_frequencies
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -107,8 +108,6 @@ def shaft_stiffness_over_speed(
     )
     if not system.shaft.sections:
         return table
-    from .modes import natural_frequencies
-
     modes = [natural_frequencies(table, system, place)[:MODES] for place in range(len(scenes))]
     return table._replace(natural_frequencies=np.stack(modes))
 

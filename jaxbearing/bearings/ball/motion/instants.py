@@ -1,7 +1,7 @@
 """Results of a transient run of a ball bearing at one time."""
 
 import dataclasses
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -28,9 +28,13 @@ from .energy import (
 )
 from .groove_loss import groove_loss
 from .neighbours import neighbour_place
-from .rates import BallDynamics, MovingBalls
 from .results import BallInstant
 from .speeds import PocketPlace
+
+if TYPE_CHECKING:
+    from .rates import BallDynamics, MovingBalls
+else:
+    BallDynamics = MovingBalls = Any
 
 STILL = 1e-6
 """Floor of the mean speed of the surfaces in the slide-to-roll ratio, m/s, added as a square."""

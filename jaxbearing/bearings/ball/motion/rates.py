@@ -39,9 +39,11 @@ from ..kinematics import BallKinematics, BallMotion
 from ..state import BallDrag
 from .bodies import Lands, MovingCage, MovingRing, moving_lands
 from .energy import WORKS, energy_of, powers
+from .instants import observe, pocket_peaks
 from .layout import BALL_UNITS, GLOBAL_UNITS, Places, Rates, tilt_levers
 from .neighbours import Neighbours, NeighbourSpeeds, neighbour_place
 from .races import AbstractRaceLaw, Pressed, RaceFriction
+from .results import BallInstant
 from .speeds import Levers, Meridian, PocketPlace, PocketSpeeds, Speeds
 
 WORK_PART = 0.1
@@ -317,18 +319,12 @@ class BallDynamics(AbstractDynamics):
     # -- results --------------------------------------------------------------------------------------------------
 
     def observe(self, time: Scalar, state: ArrowPoint) -> Instant:
-        from .instants import observe
-
         return observe(self, time, state)
 
     def peaks(self, times: Float[Array, "interval part"], states: ArrowPoint) -> PocketPeaks | None:
-        from .instants import pocket_peaks
-
         return None if self.cage is None else pocket_peaks(self, times, states)
 
     def energy(self, state: ArrowPoint, first: Instant, last: Instant) -> Energy:
-        from .results import BallInstant
-
         assert isinstance(first, BallInstant)
         assert isinstance(last, BallInstant)
         return energy_of(self, state, first, last)

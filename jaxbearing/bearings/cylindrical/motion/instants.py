@@ -1,5 +1,7 @@
 """Results of a moving cylindrical roller bearing at one time."""
 
+from typing import TYPE_CHECKING, Any
+
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -11,8 +13,12 @@ from ...solution import RING_FREEDOMS, RingDisplacement
 from ..solution import RollerResults
 from ..steady import cage_slip
 from .energy import kinetic_energy, pocket_energy, power_by_location, raceway_energy
-from .rates import RollerDynamics
 from .results import RollerInstant
+
+if TYPE_CHECKING:
+    from .rates import RollerDynamics
+else:
+    RollerDynamics = Any
 
 
 def observe(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> RollerInstant:

@@ -39,6 +39,7 @@ from ..kinematics import RollerKinematics
 from ..loads import Distribution, RaceLoads, distributed_loads
 from .cage_forces import LandForces, PocketState, RingShift, land_forces, pocket_state
 from .energy import WORKS, energy_of, powers
+from .instants import observe, pocket_peaks
 from .results import RollerInstant
 
 if TYPE_CHECKING:
@@ -339,13 +340,9 @@ class RollerDynamics(AbstractDynamics):
     # -- results --------------------------------------------------------------------------------------------------
 
     def observe(self, time: Scalar, state: ArrowPoint) -> RollerInstant:
-        from .instants import observe
-
         return observe(self, time, state)
 
     def peaks(self, times: Float[Array, "interval part"], states: ArrowPoint) -> PocketPeaks | None:
-        from .instants import pocket_peaks
-
         return None if self.pocket is None else pocket_peaks(self, times, states)
 
     def energy(self, state: ArrowPoint, first: Instant, last: Instant) -> Energy:

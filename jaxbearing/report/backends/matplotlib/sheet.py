@@ -4,7 +4,7 @@ import textwrap
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from .... import __version__
+from ...._version import __version__
 from ...colours import FAINT, GRID, INK
 
 if TYPE_CHECKING:
