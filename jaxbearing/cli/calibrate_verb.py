@@ -180,7 +180,7 @@ def calibrate(
                     tell("predicting")
                 predicted = _predicted(calibration, others, drawn)
         show = lambda: _print(calibration, label, inputs.notes, ranked, drawn, again, predicted, as_json)
-        deliver(show, outputs(drawn, again) if calibration.converged else ())
+        deliver(show, outputs(drawn, again) if calibration.converged else (), as_json=as_json)
     if not calibration.converged:
         left_out = [str(path) for path in (*(out or []), plot, plot_posterior) if path is not None]
         if left_out:

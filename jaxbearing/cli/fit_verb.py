@@ -180,7 +180,8 @@ def fit(
                     tell("sampling the posterior")
                 drawn, again = _sampled(result, sampling)
         files = outputs(drawn, again)
-        deliver(lambda: show(drawn, again), files if result.converged else files[:2] if result.undetermined else ())
+        delivered = files if result.converged else files[:2] if result.undetermined else ()
+        deliver(lambda: show(drawn, again), delivered, as_json=as_json)
     if result.undetermined:
         if plot_posterior is not None:
             typer.echo(f"not written: {plot_posterior}", err=True)

@@ -23,12 +23,12 @@ ForceOption = Annotated[
 
 
 class Output(NamedTuple):
-    """A file to write: where (`None`: nowhere), how, what to say when it is there, and whether it takes so long that
-    Ctrl-C leaves it out instead of waiting for it."""
+    """A file to write: where (`None`: nowhere), how, what to say when it is there (`None`: its name), and whether it
+    takes so long that Ctrl-C leaves it out instead of waiting for it."""
 
     path: Path | None
     write: Callable[[Path], None]
-    done: str = ""
+    done: str | None = None
     long: bool = False
 
 
@@ -88,13 +88,15 @@ def unwritten(path: Path, error: Exception) -> int:
     return say(f"the output cannot be written: {path}: {reason}", NO_OUTPUT)
 
 
-def deliver(show: Callable[[], None], files: Sequence[Output] = (), notes_to_stderr: bool = False) -> None:
+def deliver(
+    show: Callable[[], None], files: Sequence[Output] = (), notes_to_stderr: bool = False, as_json: bool = False
+) -> None:
     """Show the results, then write the files. What goes wrong with one costs neither the results nor the other files,
     and is said in one sentence each. Ctrl-C does not stop what is under way, but for a `long` file, and leaves out the
     files that come after it.
 
     **Arguments:** `show`: prints the results; `files`: the long ones last; `notes_to_stderr`: whether stdout is for
-    the results alone.
+    the results alone; `as_json`: whether files without words of their own are written in silence.
 
     **Raises:** `typer.Exit` with the code for a file that is not there; what `show` raises, with the files written.
     """
@@ -119,8 +121,9 @@ def deliver(show: Callable[[], None], files: Sequence[Output] = (), notes_to_std
     else:
         if_interrupted(ALL)
     for file in written:
-        if file.done:
-            typer.echo(file.done, err=notes_to_stderr)
+        text = file.done if file.done is not None or as_json else f"wrote {file.path}"
+        if text:
+            typer.echo(text, err=notes_to_stderr)
     if code:
         raise typer.Exit(code)
 

@@ -140,7 +140,7 @@ def simulate(
             Output(plot, lambda path: _write_plot(history, label, path), long=True),
             Output(animation, lambda path: _animate(history, model, label, path, as_json), long=True),
         )
-        deliver(lambda: _print(history, label, as_json), outputs)
+        deliver(lambda: _print(history, label, as_json), outputs, as_json=as_json)
     if not history.completed:
         if history.interrupted:
             tell(elsewhere=True)

@@ -111,7 +111,7 @@ def solve(
             Output(contact, bridge, taken),
             Output(plot, lambda path: _write_plot(solution, label, path, model), long=True),
         )
-        deliver(show, () if failure else outputs)
+        deliver(show, () if failure else outputs, as_json=as_json)
     if failure:
         left_out = [str(path) for path in (plot, out, contact) if path is not None]
         if left_out:

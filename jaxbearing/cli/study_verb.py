@@ -74,7 +74,7 @@ def study(
             Output(out, lambda path: _write_data(result, path)),
             Output(plot, lambda path: _write_plot(result, label, path), long=True),
         )
-        deliver(lambda: _print(result, claims, label, seconds, as_json), () if failed else outputs)
+        deliver(lambda: _print(result, claims, label, seconds, as_json), () if failed else outputs, as_json=as_json)
     if failed:
         left_out = [str(path) for path in (plot, out) if path is not None]
         if left_out:

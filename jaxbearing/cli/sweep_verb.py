@@ -153,7 +153,9 @@ def sweep(
         rows = Output(table, lambda path: write_table(path, target), f"wrote {table}: one case a row")
         picture = Output(plot, lambda path: write_plot(path, target, label, point), long=True)
         files = (rows, picture) if outcome.converged > 0 else (rows,)
-        deliver(lambda: _print(outcome, label, target, seconds, as_json), files, notes_to_stderr=as_json)
+        deliver(
+            lambda: _print(outcome, label, target, seconds, as_json), files, notes_to_stderr=as_json, as_json=as_json
+        )
     if outcome.converged == 0:
         if plot is not None:
             typer.echo(f"not written: {plot}", err=True)

@@ -137,7 +137,7 @@ def tolerances(
             Output(out, lambda path: _write_data(result, label, path)),
             Output(plot, lambda path: _write_plot(result, label, path), long=True),
         )
-        deliver(lambda: _print(result, label, seconds, as_json), outputs)
+        deliver(lambda: _print(result, label, seconds, as_json), outputs, as_json=as_json)
     if samples and not as_json:
         typer.echo(f"wrote {target}: the samples; open it with xarray.open_dataset")
 

@@ -78,6 +78,7 @@ def test_screen_files_and_pictures(jaxbearing_command, folder, monkeypatch):
         "Predictions with",
         "Next operating point",
         "wrote new.toml",
+        "wrote a.png\nwrote b.png\n",
         "wrote joint.nc: the fields with what they share; jaxbearing tolerances --posterior joint.nc",
     ):
         assert said in result.out
