@@ -3,7 +3,6 @@
 One list: name of the picture, heading, the lines of code, which end with `figure = ...` and are shown as they run.
 """
 
-import textwrap
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,9 +13,9 @@ RESOLUTION = 130
 """Dots per inch of a picture."""
 START = """# Gallery
 
-Every figure is one function that returns a matplotlib `Figure`; with `axes=` it draws into axes that are there. The
-captions say what agrees with the source and what cannot be compared. This page and its pictures are written by
-`python docs/make_gallery.py`; the code under each heading, after `import jaxbearing as jb`, made the picture.
+Every figure is one function that returns a matplotlib `Figure` with a caption; `axes=` draws into axes that are there.
+Captions say what agrees with the source and what cannot be compared. The code under each heading, after
+`import jaxbearing as jb`, made the picture; `python docs/make_gallery.py` writes this page.
 """
 
 
@@ -29,7 +28,7 @@ class Entry(NamedTuple):
 
 
 def _property(name: str, heading: str, call: str) -> Entry:
-    return Entry(name, heading, f"from jaxbearing.plots import properties\n\nfigure = properties.{call}")
+    return Entry(name, heading, f"figure = jb.plots.properties.{call}")
 
 
 _PRESSURE = "viscosity_pressure("
@@ -144,17 +143,10 @@ def drawn(entry: Entry) -> Any:
     return names["figure"]
 
 
-def caption_of(figure: Any) -> str:
-    """The caption under a figure, as one paragraph."""
-    return " ".join(figure.texts[0].get_text().split())
-
-
-def section(entry: Entry, caption: str) -> str:
-    """What the page says of one figure."""
-    escaped = caption.replace("*", "\\*").replace("_", "\\_")
-    shown = textwrap.fill(escaped, 120, break_long_words=False, break_on_hyphens=False)
-    picture = f"![{entry.heading}](pictures/{entry.name}.png)"
-    return f"\n## {entry.heading}\n\n{picture}\n\n{shown}\n\n```python\n{entry.code}\n```\n"
+def section(entry: Entry) -> str:
+    """What the page says of one figure; its caption is in the picture."""
+    picture = f"![{entry.name}](pictures/{entry.name}.png)"
+    return f"\n## {entry.heading}\n\n{picture}\n\n```python\n{entry.code}\n```\n"
 
 
 def write(folder: Path, entries: list[Entry]) -> None:
@@ -164,7 +156,7 @@ def write(folder: Path, entries: list[Entry]) -> None:
     for entry in entries:
         figure = drawn(entry)
         figure.savefig(folder / "pictures" / f"{entry.name}.png", dpi=RESOLUTION)
-        page += section(entry, caption_of(figure))
+        page += section(entry)
     (folder / "gallery.md").write_text(page, encoding="utf-8")
 
 

@@ -5,7 +5,7 @@ python docs/examples/oval_race.py
 
 import jaxbearing as jb
 
-HEIGHTS = (0, 10, 20, 30)
+HEIGHTS = (0, 20, 30)
 """Heights of the lobes, micrometres: the radius is larger by this along the load and smaller across it."""
 LIGHT = {
     "operation.radial_load": "500 N",
