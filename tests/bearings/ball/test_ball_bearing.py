@@ -6,6 +6,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from ball_losses import check_losses
 
 import jaxbearing as jb
 from jaxbearing.bearings.ball.build import build_core
@@ -41,22 +42,14 @@ ENERGY = {
     "resolved": {"kinematics.gyroscopic": ResolvedCouple(), "cage": None, "drag": None},
     "resolved with cage": {"kinematics.gyroscopic": ResolvedCouple()},
 }
-QUICK = ("no cage",)
 
 
-@pytest.mark.parametrize("name", [pytest.param(n, marks=() if n in QUICK else pytest.mark.slow) for n in ENERGY])
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ENERGY)
 def test_energy_closes(name):
-    """In equilibrium: the torques that drive the rings take the power that all interactions dissipate; asked: 1e-8."""
+    """In equilibrium; `test_ball_options` has a bearing with all parts among the fast tests."""
     solution = jb.solve(turbine(**ENERGY[name]))
-    loss = solution.power_loss
-    parts = [value for field, value in vars(loss).items() if field != "total" and value is not None]
-    np.testing.assert_allclose(sum(parts), loss.total, rtol=1e-14)
-    np.testing.assert_allclose(solution.drive_power, loss.total, rtol=1e-10)
-    assert all(float(part) >= 0.0 for part in parts)
-    pieces = solution.raceway_power
-    for side in ("inner", "outer"):
-        own = [getattr(pieces, f"{side}_{kind}") for kind in ("spin", "rolling", "transverse")]
-        np.testing.assert_allclose(sum(own), getattr(loss, f"{side}_raceway"), rtol=1e-10)
+    check_losses(solution.power_loss, solution.drive_power, solution.raceway_power)
     if name == "turbine":
         assert solution.unknowns == 7
         assert float(solution.cage.eccentricity_ratio) == 0.0
