@@ -161,6 +161,17 @@ def test_combined_load():
 ISO = BallGeometry(7, 43.5e-3, 11.5e-3, 0.52, 0.53, diametral_clearance=0.0)
 
 
+def test_the_couple_carries_a_part_of_the_thrust():
+    """At the inner race it pushes the balls in the direction of the thrust, as Euler's equation says, so that the
+    normal loads carry less of it."""
+    _, _, balls, _ = solved(bearing(T15, 12500, 40e3, couple=SharedCouple()))
+    motion, load, angle = balls.motion, balls.load[0], balls.angle[0]
+    couple = T15.inertia(7850.0) * motion.spin_speed * motion.orbital_speed * np.sin(motion.attitude)
+    friction = 20 * couple / T15.ball_diameter * np.cos(angle)
+    assert friction > 0.01 * 40e3
+    np.testing.assert_allclose(20 * load * np.sin(angle), 40e3 - friction, rtol=1e-9)
+
+
 @jax.jit
 @functools.partial(jax.value_and_grad, has_aux=True)
 def equations_and_slopes(scene):
@@ -342,3 +353,60 @@ def test_stiffness_is_symmetric_at_speed_where_the_load_is_conservative():
     np.testing.assert_allclose(both.elements.orbital_speed, 10000.0 * RPM, rtol=1e-12)
     assert asymmetry(both) < 1e-8
     assert asymmetry(jb.solve(bearing(T15, 10000.0, 20e3, 8e3))) > 1e-4
+
+
+# -- one orbital speed for all
+
+COMMON = {"kinematics.orbit": "common"}
+
+
+def rolling(films, axial, radial):
+    if not films:
+        return bearing(T15, 12500, axial, radial)
+    parts = {"contact.traction": None, "cage": None, "drag": None, "kinematics.attitude": "outer"}
+    loads = {"operation.axial_load": axial, "operation.radial_load": radial}
+    return jb.load_scene("turbine_ball").replace(parts | loads)
+
+
+@pytest.mark.parametrize("films", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["dry", "films"])
+def test_common_orbit_under_axial_load_changes_nothing(films):
+    scene = rolling(films, 40e3, 0.0)
+    own, common = jb.solve(scene), jb.solve(scene.replace(COMMON))
+    assert common.unknowns == own.unknowns + 1
+    for name in ("load_inner", "load_outer", "contact_angle_outer", "orbital_speed", "spin_speed"):
+        np.testing.assert_allclose(getattr(common.elements, name), getattr(own.elements, name), rtol=1e-10)
+    np.testing.assert_allclose(common.ring.axial, own.ring.axial, rtol=1e-10)
+    np.testing.assert_allclose(common.stiffness[0, 0], own.stiffness[0, 0], rtol=1e-9)
+    if films:  # rolling resistance: by virtual work, and by the forces on each ball
+        np.testing.assert_allclose(common.inner_torque, own.inner_torque, rtol=1e-9)
+        np.testing.assert_allclose(common.outer_torque, own.outer_torque, rtol=1e-9)
+
+
+@jax.jit
+def own_orbits(scene, inner, outer):
+    kinematics = build_core(scene).kinematics
+    return kinematics.rolling(inner, outer, kinematics.outer_control(outer)).orbital_speed
+
+
+@pytest.mark.parametrize("films", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["dry", "films"])
+def test_common_orbit_under_combined_load(films):
+    scene = rolling(films, 20e3, 8e3)
+    own, common = jb.solve(scene), jb.solve(scene.replace(COMMON))
+    e = common.elements
+    assert np.ptp(e.orbital_speed) == 0.0
+    assert np.ptp(own.elements.orbital_speed) > 1.0
+    # the weighted mean of the balls' own speeds, from the loads and angles of the result
+    inner, outer = e.contact_angle_inner, e.contact_angle_outer
+    speeds = own_orbits(scene, inner, outer)
+    weights = e.load_inner + 1e-3
+    np.testing.assert_allclose(jnp.sum(weights * speeds) / jnp.sum(weights), e.orbital_speed[0], rtol=1e-9)
+    change = np.abs(np.asarray(e.load_outer / own.elements.load_outer - 1.0))
+    assert 5e-3 < np.max(change) < 0.08  # centrifugal forces move by a few per cent
+    np.testing.assert_allclose(jnp.sum(e.load_inner * jnp.sin(inner)), 20e3, rtol=1e-9)
+    np.testing.assert_allclose(jnp.sum(e.load_inner * jnp.cos(inner) * jnp.cos(e.azimuth)), 8e3, rtol=1e-9)
+    assert any("kinematics.orbit" in note for note in common.notes)
+    if films:
+        for found in (own, common):
+            np.testing.assert_allclose(found.drive_power, found.power_loss.total, rtol=1e-9)
+            assert found.power_loss.total == found.power_loss.rolling_resistance
+        np.testing.assert_allclose(common.power_loss.total, own.power_loss.total, rtol=0.01)

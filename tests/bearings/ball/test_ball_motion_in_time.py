@@ -134,7 +134,7 @@ def test_sliding_ball_ends_rolling():
     free = eqx.tree_at(lambda law: law.stiffness, of.races, of.races.stiffness.at[0].set(0.0))
     # nothing moves the ring
     ring = dataclasses.replace(of.ring, load=jnp.zeros(5))
-    of = dataclasses.replace(of, races=free, ring=ring, reference_speed=jnp.zeros(()), on_pitch_circle=True)
+    of = dataclasses.replace(of, races=free, ring=ring, reference_speed=jnp.asarray(0.0), on_pitch_circle=True)
     load, grooves = MASS * speed**2 / PITCH, of.levers.grooves
     one = jnp.zeros(9).at[1].set(speed).at[2].set(0.5 * BALL * speed / PITCH).at[5].set(-of.free_offset)
     one = one.at[6].set(grooves.offset[1] + (load / grooves.stiffness[1]) ** (2.0 / 3.0) - of.free_radius)

@@ -21,6 +21,7 @@ from jaxbearing.bearings.ball.groove_motion import half_planes, inner_arm, lengt
 from jaxbearing.bearings.ball.kinematics import BallKinematics
 from jaxbearing.bearings.ball.linear_slip import linear_slip, slip_weights
 from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
+from jaxbearing.bearings.bearing_life import bearing_life
 from jaxbearing.bearings.flanks import by_flank, on_heavier_flanks
 from jaxbearing.materials import Material
 from jaxbearing.numerics.newton import NewtonOptions, newton_solve
@@ -314,9 +315,11 @@ def test_reversed_thrust_has_the_same_life_and_report():
     # rated as an angular contact bearing of its contact angle
     two = dataclasses.replace(scene.geometry, contact_angle=scene.geometry.nominal_angle, diametral_clearance=None)
     two = dataclasses.replace(two, shim_inner=None, shim_outer=None)
-    alone = jb.solve(dataclasses.replace(scene, geometry=two))
+    gone = {name: None for name in vars(forth.elements) if name.endswith("_second") or name == "loaded_contacts"}
+    alone = dataclasses.replace(forth, elements=dataclasses.replace(forth.elements, **gone))
+    life = eqx.filter_jit(bearing_life)(dataclasses.replace(scene, geometry=two), alone)
     for name in ("L10r", "L10", "dynamic_capacity", "static_capacity"):
-        np.testing.assert_allclose(getattr(alone.life, name), getattr(forth.life, name), rtol=1e-8)
+        np.testing.assert_allclose(getattr(life, name), getattr(forth.life, name), rtol=1e-8)
     one, other = by_flank(back.elements)
     np.testing.assert_array_equal(on_heavier_flanks(back.elements).load_inner, other.load_inner)
     assert np.all(other.load_inner > one.load_inner)

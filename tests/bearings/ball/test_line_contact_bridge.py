@@ -16,7 +16,7 @@ from jaxbearing.materials import reduced_modulus
 from jaxbearing.numerics.status import Status
 
 PARTS = ("contact.thermal", "contact.rolling_resistance", "contact.traction", "cage", "drag", "kinematics")
-ROLLING = dict.fromkeys(PARTS, "none")
+ROLLING = dict.fromkeys(PARTS, "none") | {"contact.film": "hamrock_dowson"}
 """Without friction: balls roll without sliding."""
 
 
