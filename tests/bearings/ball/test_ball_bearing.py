@@ -47,7 +47,7 @@ ENERGY = {
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ENERGY)
 def test_energy_closes(name):
-    """In equilibrium; `test_ball_options` has a bearing with all parts among the fast tests."""
+    """In equilibrium; among the fast tests, `test_ball_options` has all interactions with the simplest laws."""
     solution = jb.solve(turbine(**ENERGY[name]))
     check_losses(solution.power_loss, solution.drive_power, solution.raceway_power)
     if name == "turbine":

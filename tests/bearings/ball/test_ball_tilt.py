@@ -28,7 +28,6 @@ SCENE = BallBearing(
     materials=STEEL,
     operation=BallOperation(0.0, axial_load=0.0, radial_load=0.0, moment=10.0),
     kinematics=BallAttitude("outer"),
-    rating=Rating(grooves="scene"),
 )
 """Of the sheet; compiled once for the module."""
 
