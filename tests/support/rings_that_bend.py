@@ -31,11 +31,16 @@ def pressing(scene: AbstractBearing, solution: jb.Solution, side: str) -> np.nda
 
 
 def unbalance(scene: AbstractBearing, solution: jb.Solution, side: str = "outer") -> float:
+    """See `unbalance_of`. **Arguments:** `side`: "outer" or "inner"."""
+    force, azimuth = pressing(scene, solution, side), np.asarray(solution.elements.azimuth)
+    return unbalance_of(scene, getattr(solution, f"{side}_ring"), azimuth, force, side)
+
+
+def unbalance_of(scene: AbstractBearing, found, azimuth: np.ndarray, force: np.ndarray, side: str = "outer") -> float:
     """Largest force on an amplitude of the ring that is not balanced, over the load of all elements: written again from
-    the results. **Arguments:** `side`: "outer" or "inner"."""
+    the results. **Arguments:** `found`: deflected shape of the ring; `force`: see `pressing`, N."""
     sense = {"outer": 1.0, "inner": -1.0}[side]
-    part, found = getattr(scene, f"{side}_ring"), getattr(solution, f"{side}_ring")
-    order, azimuth = np.asarray(found.order)[:, None], np.asarray(solution.elements.azimuth)
+    part, order = getattr(scene, f"{side}_ring"), np.asarray(found.order)[:, None]
     raceway = scene.raceway_diameters[("inner", "outer").index(side)]
     radius = 0.5 * float(raceway) + sense * 0.5 * part.thickness
     modulus = float(scene.materials.rings.youngs_modulus)
@@ -44,7 +49,6 @@ def unbalance(scene: AbstractBearing, solution: jb.Solution, side: str = "outer"
     bed = part.housing_stiffness if side == "outer" else part.shaft_stiffness
     each = np.where(order == 0, axial / radius**2, each) + bed
     stiffness = (np.pi * radius * each * np.where(order == 0, 2.0, 1.0))[:, 0]
-    force = pressing(scene, solution, side)
     rows = [
         stiffness * np.asarray(amplitude) - sense * shape(order * azimuth) @ force
         for amplitude, shape in ((found.cosines, np.cos), (found.sines, np.sin))

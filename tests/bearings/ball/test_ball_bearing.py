@@ -6,6 +6,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from ball_losses import check_losses
 
 import jaxbearing as jb
 from jaxbearing.bearings.ball.build import build_core
@@ -41,22 +42,14 @@ ENERGY = {
     "resolved": {"kinematics.gyroscopic": ResolvedCouple(), "cage": None, "drag": None},
     "resolved with cage": {"kinematics.gyroscopic": ResolvedCouple()},
 }
-QUICK = ("no cage",)
 
 
-@pytest.mark.parametrize("name", [pytest.param(n, marks=() if n in QUICK else pytest.mark.slow) for n in ENERGY])
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ENERGY)
 def test_energy_closes(name):
-    """In equilibrium: the torques that drive the rings take the power that all interactions dissipate; asked: 1e-8."""
+    """In equilibrium; among the fast tests, `test_ball_options` has all interactions with the simplest laws."""
     solution = jb.solve(turbine(**ENERGY[name]))
-    loss = solution.power_loss
-    parts = [value for field, value in vars(loss).items() if field != "total" and value is not None]
-    np.testing.assert_allclose(sum(parts), loss.total, rtol=1e-14)
-    np.testing.assert_allclose(solution.drive_power, loss.total, rtol=1e-10)
-    assert all(float(part) >= 0.0 for part in parts)
-    pieces = solution.raceway_power
-    for side in ("inner", "outer"):
-        own = [getattr(pieces, f"{side}_{kind}") for kind in ("spin", "rolling", "transverse")]
-        np.testing.assert_allclose(sum(own), getattr(loss, f"{side}_raceway"), rtol=1e-10)
+    check_losses(solution.power_loss, solution.drive_power, solution.raceway_power)
     if name == "turbine":
         assert solution.unknowns == 7
         assert float(solution.cage.eccentricity_ratio) == 0.0
@@ -223,12 +216,13 @@ def test_kinematics_check_values():
 def test_pocket():
     """Kapitza's load, and the closed form of the balance."""
     pocket = BallPocket(clearance=3e-4, ball_radius=10.319e-3)
+    balance = jax.jit(lambda net: pocket.balance(net, 4800.0, 2800.0, 5e-3))
     for net in (-50.0, -1e-3, 0.0, 1e-3, 50.0, 5e3):
-        film = pocket.balance(net, 4800.0, 2800.0, 5e-3)
+        film = balance(net)
         np.testing.assert_allclose(film.load_front - film.load_rear, net, rtol=1e-12, atol=1e-12)
         np.testing.assert_allclose(film.film_front + film.film_rear, 3e-4, rtol=1e-14)
         assert min(film.film_front, film.film_rear) > 0.0
-    slope = jax.grad(lambda p: pocket.balance(p, 4800.0, 2800.0, 5e-3).film_front)
+    slope = jax.jit(jax.grad(lambda net: balance(net).film_front))
     assert float(slope(0.0)) < 0.0
     # along the pocket only, against W = 2.5752365 N at h = 20 um, u = 47 m/s, R1 = 10.3 mm, R2 = 0.3 m
     radius, across = 0.0103, 0.3

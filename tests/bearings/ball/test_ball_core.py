@@ -1,15 +1,20 @@
 """Ball bearing without friction: check values, static load sharing, convergence, hard cases, stiffness, gradients."""
 
+import functools
+from types import SimpleNamespace
+
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 
 import jaxbearing as jb
+from jaxbearing.bearings.ball.build import build_core
 from jaxbearing.bearings.ball.geometry import BallGeometry
 from jaxbearing.bearings.ball.gyroscopic import CappedCouple, SharedCouple
 from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
 from jaxbearing.materials import Material
+from jaxbearing.numerics.newton import newton_solve
 from jaxbearing.solve import jit_solver
 
 RPM = 2.0 * np.pi / 60.0
@@ -82,25 +87,62 @@ CHECKS = {
 }
 
 
+def equations(scene):
+    """The solved equations alone: whether they converged, the displacement of the ring, the balls, and the attitudes of
+    inner and outer race control."""
+    system, found = newton_solve(build_core(scene).started()[0])
+    balls, motion = system.at(found.point), system.kinematics
+    controls = motion.inner_control(balls.angle[0]), motion.outer_control(balls.angle[1])
+    return found.converged, system.ring.displacement(found.point.globals), balls, controls
+
+
+solved = jax.jit(equations)
+
+
+def results(scene):
+    """The same of a whole solve, which has them for every ball."""
+    solution = jb.solve(scene)
+    e = solution.elements
+    assert e.load_inner.shape == e.load_outer.shape == (scene.geometry.n_balls,)
+    motion = SimpleNamespace(orbital_speed=e.orbital_speed, spin_speed=e.spin_speed, attitude=e.attitude_angle)
+    load, angle = (e.load_inner, e.load_outer), np.stack([e.contact_angle_inner, e.contact_angle_outer])
+    balls = SimpleNamespace(load=load, angle=angle, motion=motion)
+    return solution.converged, solution.ring, balls, (e.control_angle_inner, e.control_angle_outer)
+
+
+WHOLE = ("T15", "light", "fast")
+"""Of one structure, that of the tests below."""
+
+
 @pytest.mark.parametrize("name", CHECKS)
 def test_check_values(name):
     arguments, options, (q_i, q_o, a_i, a_o, b_i, b_o, orbit, spin, force, shift) = CHECKS[name]
     scene = bearing(*arguments, **options)
-    solution = jb.solve(scene)
-    elements, geometry = solution.elements, scene.geometry
-    close = lambda found, printed: np.testing.assert_allclose(found, printed, rtol=1.5e-6, atol=1e-9)
-    close(elements.load_inner, q_i)
-    close(elements.load_outer, q_o)
-    close(elements.contact_angle_inner, a_i)
-    close(elements.contact_angle_outer, a_o)
-    close(elements.orbital_speed, orbit)
-    close(elements.spin_speed, spin)
-    close(solution.ring.axial, shift)
+    converged, ring, balls, controls = (results if name in WHOLE else solved)(scene)
+    geometry, motion = scene.geometry, balls.motion
+    assert bool(converged)
+
+    def close(found, *printed, rtol=1.5e-6):
+        for one, expected in zip(found, printed, strict=True):
+            np.testing.assert_allclose(one, expected, rtol=rtol, atol=1e-9)
+
+    close(balls.load, q_i, q_o)
+    close(balls.angle, a_i, a_o)
+    close((motion.orbital_speed, motion.spin_speed, ring.axial), orbit, spin, shift)
     if b_i is not None:
-        close(elements.attitude_angle, b_i if options.get("attitude") == "inner" else b_o)
-    found = 0.5 * geometry.mass(7850.0) * geometry.pitch_diameter * elements.orbital_speed**2
+        close(controls, b_i, b_o, rtol=1e-6)
+        close([motion.attitude], b_i if options.get("attitude") == "inner" else b_o, rtol=1e-6)
+    found = 0.5 * geometry.mass(7850.0) * geometry.pitch_diameter * motion.orbital_speed**2
     np.testing.assert_allclose(found, force, rtol=2e-6, atol=1.1e-3)  # the printed ones hold 1 mN more
-    assert elements.load_inner.shape == (geometry.n_balls,)
+
+
+def test_sign_and_friction_of_the_capped_couple():
+    """The couple of the printed sign turns the outer contact the other way; without friction there is none."""
+    angle = lambda couple: float(solved(bearing(T15, 12500, 40e3, couple=couple))[2].angle[1, 0])
+    without = float(results(bearing(T15, 12500, 40e3))[2].angle[1, 0])
+    with_, printed = angle(CappedCouple()), angle(CappedCouple(sign=-1.0))
+    assert with_ < without < printed
+    np.testing.assert_allclose(angle(CappedCouple(1e-9)), without, rtol=1e-8)
 
 
 def test_combined_load():
@@ -118,13 +160,30 @@ def test_combined_load():
 ISO = BallGeometry(7, 43.5e-3, 11.5e-3, 0.52, 0.53, diametral_clearance=0.0)
 
 
+def test_the_couple_carries_a_part_of_the_thrust():
+    """At the inner race it pushes the balls in the direction of the thrust, as Euler's equation says, so that the
+    normal loads carry less of it."""
+    _, _, balls, _ = solved(bearing(T15, 12500, 40e3, couple=SharedCouple()))
+    motion, load, angle = balls.motion, balls.load[0], balls.angle[0]
+    couple = T15.inertia(7850.0) * motion.spin_speed * motion.orbital_speed * np.sin(motion.attitude)
+    friction = 20 * couple / T15.ball_diameter * np.cos(angle)
+    assert friction > 0.01 * 40e3
+    np.testing.assert_allclose(20 * load * np.sin(angle), 40e3 - friction, rtol=1e-9)
+
+
+@jax.jit
+@functools.partial(jax.value_and_grad, has_aux=True)
+def equations_and_slopes(scene):
+    converged, ring, balls, _ = equations(scene)
+    return balls.load[1].sum() + balls.angle[0].sum() + ring.axial, (converged, ring)
+
+
 def test_iso_16281_load_sharing():
     """Without inertia, 7 balls: radial 1000 N and axial 1000 N; asked: 0.1 %."""
     steel = Material(np.float64(2.10e11), np.float64(0.3), np.float64(7850.0))
-    radial = jb.solve(bearing(ISO, 0.0, radial=1000.0, material=steel))
-    np.testing.assert_allclose(radial.ring.radial, 15.110e-6, rtol=1e-3)
-    axial = jb.solve(bearing(ISO, 0.0, axial=1000.0, material=steel))
-    np.testing.assert_allclose(axial.ring.axial, 133.54e-6, rtol=1e-3)
+    ring = lambda **loads: equations_and_slopes(bearing(ISO, 0.0, material=steel, **loads))[0][1][1]
+    np.testing.assert_allclose(ring(axial=0.0, radial=1000.0).radial, 15.110e-6, rtol=1e-3)
+    np.testing.assert_allclose(ring(axial=1000.0, radial=0.0).axial, 133.54e-6, rtol=1e-3)
 
 
 def test_one_ball_for_all_is_all():
@@ -159,35 +218,44 @@ HARD = {
     "radial with clearance": bearing(
         BallGeometry(9, 38.5e-3, 7.938e-3, 0.515, 0.525, diametral_clearance=2e-5), 6000, radial=1500.0
     ),
-    "overspeed": bearing(T15, 40000, 100.0),
-    "contact angle 0": bearing(ISO, 3000, radial=1000.0),
+    "overspeed": bearing(T15, 40000, 100.0, 0.0),
     "one ball loaded": bearing(
         BallGeometry(9, 38.5e-3, 7.938e-3, 0.515, 0.525, diametral_clearance=1e-4), 0.0, radial=20.0
     ),
     "three balls": bearing(BallGeometry(3, 153e-3, 20.638e-3, 0.5225, 0.51125, contact_angle=0.5), 5000, 2e3, 300.0),
     "hundred balls": bearing(BallGeometry(100, 700e-3, 20.638e-3, 0.5225, 0.51125, contact_angle=0.5), 2000, 2e4, 5e3),
-    "backwards": bearing(T15, -12500, -40e3),
-    "both rings": bearing(T15, 12500, 40e3, outer_speed=-3000 * RPM),
+    "backwards": bearing(T15, -12500, -40e3, 0.0),
+    "both rings": bearing(T15, 12500, 40e3, 0.0, outer_speed=-3000 * RPM),
     "steep, radial": bearing(B218, 5000, 0.0, 5000.0),
     "steep, radial, nearly no thrust": bearing(B218, 5000, 1.0, -20000.0),
     "light and fast": bearing(
-        BallGeometry(20, 167.54e-3, 22.225e-3, 0.52, 0.515, contact_angle=np.radians(27.0)), 20000, 200.0
+        BallGeometry(20, 167.54e-3, 22.225e-3, 0.52, 0.515, contact_angle=np.radians(27.0)), 20000, 200.0, 0.0
     ),
 }
 LONG = ("steep, radial", "steep, radial, nearly no thrust", "radial with clearance", "one ball loaded")
 LONG += ("three balls", "hundred balls")
 
 
+@jax.jit
+@functools.partial(jax.value_and_grad, has_aux=True)
+def results_and_slopes(scene):
+    solution = jb.solve(scene, throw=False)
+    found = solution.elements.load_outer.sum() + solution.elements.contact_angle_inner.sum() + solution.ring.axial
+    return found, solution.converged
+
+
 @pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow if name in LONG else ()) for name in HARD])
 def test_hard_cases_have_finite_results_and_derivatives(name):
-    scene = HARD[name]
-    assert bool(jb.solve(scene).converged)
+    (value, converged), slopes = results_and_slopes(HARD[name])
+    assert bool(converged)
+    assert np.isfinite(value)
+    for leaf in jax.tree.leaves(slopes):
+        assert np.all(np.isfinite(leaf))
 
-    def results(numbers):
-        solution = jb.solve(numbers, throw=False)
-        return solution.elements.load_outer.sum() + solution.elements.contact_angle_inner.sum() + solution.ring.axial
 
-    value, slopes = jax.jit(jax.value_and_grad(results))(scene)
+def test_contact_angle_0_has_finite_results_and_derivatives():
+    (value, (converged, _)), slopes = equations_and_slopes(bearing(ISO, 3000.0, 0.0, 1000.0))
+    assert bool(converged)
     assert np.isfinite(value)
     for leaf in jax.tree.leaves(slopes):
         assert np.all(np.isfinite(leaf))
@@ -258,7 +326,7 @@ def test_bad_bearings_are_refused():
 def test_forces_of_motion_are_results():
     """The printed centrifugal force closes a ball's balance; the couple is that of spin and orbit; beta lies between
     the attitudes of both races' control."""
-    scene = jb.load_scene("angular_contact_218")
+    scene = bearing(T15, 10000, 20e3, 8e3)
     elements = jb.solve(scene).elements
     inner, outer = elements.load_inner, elements.load_outer
     open_ = inner * jnp.cos(elements.contact_angle_inner) - outer * jnp.cos(elements.contact_angle_outer)
@@ -269,3 +337,75 @@ def test_forces_of_motion_are_results():
     np.testing.assert_allclose(elements.gyroscopic_couple, geometry.inertia(density) * spin, rtol=1e-12)
     np.testing.assert_allclose(elements.attitude_angle, elements.control_angle_outer, rtol=1e-12)
     assert np.all(elements.control_angle_inner > elements.control_angle_outer)
+
+
+def asymmetry(solution):
+    stiffness = np.asarray(solution.stiffness)
+    size = np.sqrt(np.outer(np.diag(stiffness), np.diag(stiffness)))
+    return np.max(np.abs(stiffness - stiffness.T) / size)
+
+
+def test_stiffness_is_symmetric_at_speed_where_the_load_is_conservative():
+    """Rings that turn alike carry the balls round with them at any contact angle: the centrifugal force is constant.
+    Where only one turns, the force follows the contact angles by the rolling of the balls, and has no potential."""
+    both = jb.solve(bearing(T15, 10000.0, 20e3, 8e3, outer_speed=10000.0 * RPM))
+    np.testing.assert_allclose(both.elements.orbital_speed, 10000.0 * RPM, rtol=1e-12)
+    assert asymmetry(both) < 1e-8
+    assert asymmetry(jb.solve(bearing(T15, 10000.0, 20e3, 8e3))) > 1e-4
+
+
+# -- one orbital speed for all
+
+COMMON = {"kinematics.orbit": "common"}
+
+
+def rolling(films, axial, radial):
+    if not films:
+        return bearing(T15, 12500, axial, radial)
+    parts = {"contact.traction": None, "cage": None, "drag": None, "kinematics.attitude": "outer"}
+    loads = {"operation.axial_load": axial, "operation.radial_load": radial}
+    return jb.load_scene("turbine_ball").replace(parts | loads)
+
+
+@pytest.mark.parametrize("films", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["dry", "films"])
+def test_common_orbit_under_axial_load_changes_nothing(films):
+    scene = rolling(films, 40e3, 0.0)
+    own, common = jb.solve(scene), jb.solve(scene.replace(COMMON))
+    assert common.unknowns == own.unknowns + 1
+    for name in ("load_inner", "load_outer", "contact_angle_outer", "orbital_speed", "spin_speed"):
+        np.testing.assert_allclose(getattr(common.elements, name), getattr(own.elements, name), rtol=1e-10)
+    np.testing.assert_allclose(common.ring.axial, own.ring.axial, rtol=1e-10)
+    np.testing.assert_allclose(common.stiffness[0, 0], own.stiffness[0, 0], rtol=1e-9)
+    if films:  # rolling resistance: by virtual work, and by the forces on each ball
+        np.testing.assert_allclose(common.inner_torque, own.inner_torque, rtol=1e-9)
+        np.testing.assert_allclose(common.outer_torque, own.outer_torque, rtol=1e-9)
+
+
+@jax.jit
+def own_orbits(scene, inner, outer):
+    kinematics = build_core(scene).kinematics
+    return kinematics.rolling(inner, outer, kinematics.outer_control(outer)).orbital_speed
+
+
+@pytest.mark.parametrize("films", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["dry", "films"])
+def test_common_orbit_under_combined_load(films):
+    scene = rolling(films, 20e3, 8e3)
+    own, common = jb.solve(scene), jb.solve(scene.replace(COMMON))
+    e = common.elements
+    assert np.ptp(e.orbital_speed) == 0.0
+    assert np.ptp(own.elements.orbital_speed) > 1.0
+    # the weighted mean of the balls' own speeds, from the loads and angles of the result
+    inner, outer = e.contact_angle_inner, e.contact_angle_outer
+    speeds = own_orbits(scene, inner, outer)
+    weights = e.load_inner + 1e-3
+    np.testing.assert_allclose(jnp.sum(weights * speeds) / jnp.sum(weights), e.orbital_speed[0], rtol=1e-9)
+    change = np.abs(np.asarray(e.load_outer / own.elements.load_outer - 1.0))
+    assert 5e-3 < np.max(change) < 0.08  # centrifugal forces move by a few per cent
+    np.testing.assert_allclose(jnp.sum(e.load_inner * jnp.sin(inner)), 20e3, rtol=1e-9)
+    np.testing.assert_allclose(jnp.sum(e.load_inner * jnp.cos(inner) * jnp.cos(e.azimuth)), 8e3, rtol=1e-9)
+    assert any("kinematics.orbit" in note for note in common.notes)
+    if films:
+        for found in (own, common):
+            np.testing.assert_allclose(found.drive_power, found.power_loss.total, rtol=1e-9)
+            assert found.power_loss.total == found.power_loss.rolling_resistance
+        np.testing.assert_allclose(common.power_loss.total, own.power_loss.total, rtol=0.01)

@@ -28,7 +28,6 @@ SCENE = BallBearing(
     materials=STEEL,
     operation=BallOperation(0.0, axial_load=0.0, radial_load=0.0, moment=10.0),
     kinematics=BallAttitude("outer"),
-    rating=Rating(grooves="scene"),
 )
 """Of the sheet; compiled once for the module."""
 
@@ -98,32 +97,37 @@ def test_closed_form_in_the_plane_of_the_moment(tilt):
     np.testing.assert_allclose(found, [expected], rtol=1e-11, atol=1e-17)
 
 
-@pytest.mark.parametrize("tilt", [(0.0, 0.0), (1e-9, -2e-9), (3e-5, 1e-5), (6e-3, -2e-3), (-0.2, 0.3)])
-@pytest.mark.parametrize("moment", [None, -0.7])
-def test_loads_do_the_work_of_the_forces_on_the_grooves(tilt, moment):
-    """The formulas against a reverse pass through the arms of two circles, and so their derivatives."""
+@jax.jit
+def works_and_loads(displaced, moment):
+    """Derivatives of the work of given forces by the displacements of the ring, the loads of the formulas, and how both
+    change along a direction. **Arguments:** `moment`: turning moments on the grooves, or `None`."""
     lever, offsets = 0.0194, (2.3e-4, -2.3e-4)
     centre = jnp.asarray([[1e-5, -2e-5, 4e-5], [-3.1e-4, -3.4e-4, -2.8e-4]])
-    shift = jnp.asarray([[2e-5, 1e-5, -3e-5], [3e-5, -1e-5, 2e-5], [-1e-5, 4e-5, 1e-5]])
     forces = [jnp.asarray([[300.0, -200.0, 10.0], [500.0, 900.0, -40.0], [0.2, -0.1, 3.0]]), jnp.full((3, 3), -80.0)]
-    turning = None if moment is None else jnp.full(3, moment)
-    displaced = jnp.concatenate([shift, jnp.asarray(tilt)[:, None] * jnp.ones((2, 3))])
 
     def work(displaced):
         frame = ring_frame(displaced)
         arms = [inner_arm(frame, centre, lever, offset) for offset in offsets]
         done = sum(jnp.sum(arm.vector * force) for arm, force in zip(arms, forces, strict=True))
-        return done if turning is None else done + jnp.sum(frame.turned * turning)
+        return done if moment is None else done + jnp.sum(frame.turned * moment)
 
     def loads(displaced):
         frame = ring_frame(displaced)
-        return conjugate_loads(frame, [inner_arm(frame, centre, lever, offset) for offset in offsets], forces, turning)
-
-    def along(function):
-        return jax.jit(lambda x: jax.jvp(function, (x,), (way,)))(displaced)
+        return conjugate_loads(frame, [inner_arm(frame, centre, lever, offset) for offset in offsets], forces, moment)
 
     way = jnp.asarray([[1.0], [-0.5], [0.3], [20.0], [-35.0]]) * jnp.ones((1, 3))
-    (expected, expected_slope), (found, slope) = along(jax.grad(work)), along(loads)
+    return [jax.jvp(function, (displaced,), (way,)) for function in (jax.grad(work), loads)]
+
+
+@pytest.mark.parametrize("tilt", [(0.0, 0.0), (1e-9, -2e-9), (3e-5, 1e-5), (6e-3, -2e-3), (-0.2, 0.3)])
+@pytest.mark.parametrize("moment", [None, -0.7])
+def test_loads_do_the_work_of_the_forces_on_the_grooves(tilt, moment):
+    """The formulas against a reverse pass through the arms of two circles, and so their derivatives."""
+    shift = np.asarray([[2e-5, 1e-5, -3e-5], [3e-5, -1e-5, 2e-5], [-1e-5, 4e-5, 1e-5]])
+    displaced = np.concatenate([shift, np.asarray(tilt)[:, None] * np.ones((2, 3))])
+    (expected, expected_slope), (found, slope) = works_and_loads(
+        displaced, None if moment is None else np.full(3, moment)
+    )
     unit = np.array([1.0, 1.0, 1.0, 0.02, 0.02])[:, None]
     np.testing.assert_allclose(found / unit, expected / unit, rtol=1e-13, atol=1e-10)
     # of a slope 1e6 N/m of the displacements; where the tilt is near its floor, both ways lose digits of 1e-7 of it
