@@ -216,13 +216,14 @@ def test_results_that_cannot_be_written(more, jaxbearing_command, monkeypatch):
     assert result.err == "error: the output cannot be written: No space left on device\n"
 
 
-def test_terminal_without_unicode(jaxbearing_command, monkeypatch):
+def test_terminal_without_unicode(jaxbearing_command, folder, monkeypatch):
+    assert jaxbearing_command("scenes", "--copy", "reference_roller", "--to", "Wälzlager.toml").code == 0
     shown = io.BytesIO()
     monkeypatch.setattr("sys.stdout", io.TextIOWrapper(shown, encoding="ascii"))
-    result = jaxbearing_command("solve", *DRY)
+    result = jaxbearing_command("solve", "Wälzlager.toml", *DRY[1:])
     assert (result.code, result.err) == (0, "")
+    assert b"W?lzlager.toml" in shown.getvalue()
     assert b"CONVERGED" in shown.getvalue()
-    assert shown.getvalue().isascii()
 
 
 def test_cache_that_cannot_be_written_is_no_failure(monkeypatch, tmp_path):
