@@ -51,7 +51,8 @@ def test_what_the_check_sees():
         program(lambda x: jax.pure_callback(np.sin, x, x), (jnp.ones(3),))
 
 
-QUICK = ("turbine_roller", "satellite_contact_1", "two_disk_etm")
+QUICK = ("reference_roller", "satellite_contact_1", "two_disk_etm")
+"""Of each kind of equations the smallest program."""
 
 
 @pytest.mark.parametrize(

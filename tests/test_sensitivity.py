@@ -7,6 +7,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from filled_results import solution_of
 from roller_cases import dry_roller, reference_roller
 from warm_cases import warm
 
@@ -44,6 +45,13 @@ def test_largest():
     assert largest(values, 9, ("oil.",)) == ["d", "g", "a.b"]
 
 
+@pytest.fixture
+def made_up(monkeypatch):
+    """Solutions without a solve: what is refused is refused before derivatives are computed."""
+    monkeypatch.setattr("jaxbearing.sensitivity.solve_with_roots", lambda scene, options: (solution_of(scene), ()))
+
+
+@pytest.mark.usefixtures("made_up")
 def test_scenes_without_any_of_the_results_are_refused():
     with pytest.raises(ValueError, match=r"neither power loss nor cage slip nor life.*contact\.traction.*rating"):
         jb.sensitivities(dry_roller())
@@ -87,6 +95,11 @@ RESULTS = {
     "film": lambda solution: solution.film.central,
     "traction": lambda solution: solution.traction_coefficient.reshape(()),
 }
+DRY_ROLLER = (
+    "reference_roller",
+    dict.fromkeys(("contact", "oil", "cage", "flange", "drag"), "none")
+    | {"rating.viscosity_ratio": 1.5, "rating.cleanliness": "grease_normal"},
+)
 DRY_BALL = (
     "deep_groove_6205",
     {"operation.moment": "none", "rating.viscosity_ratio": 1.5, "rating.cleanliness": "grease_normal"},
@@ -100,10 +113,17 @@ FILM = ("satellite_contact_1", {"contact.accuracy": 1e-2})
 FAMILIES = [
     # scene, results that it has, inputs with the relative step of their difference
     pytest.param(
+        DRY_ROLLER,
+        {"life", "modified_life"},
+        {"operation.radial_load": 1e-3, "geometry.roller_diameter": 1e-5, "rating.viscosity_ratio": 1e-3},
+        id="roller-dry",
+    ),
+    pytest.param(
         DRY_BALL,
         {"life", "modified_life"},
         {"operation.radial_load": 1e-3, "geometry.ball_diameter": 1e-5, "rating.viscosity_ratio": 1e-3},
         id="ball-dry",
+        marks=pytest.mark.slow,
     ),
     pytest.param(POINT, {"traction"}, {"operation.slide_to_roll": 1e-3, "oil.rheology.stress": 1e-3}, id="two-disk"),
     pytest.param(
@@ -137,26 +157,30 @@ FAMILIES = [
 ]
 
 
+def differences(scene, path, step, results):
+    """Slopes of results by the logarithm of an input, of fourth order, by the program of `solve`."""
+    start = input_value(scene, path)
+    solved = {k: jb.solve(scene.replace({path: start * (1.0 + k * step)})) for k in (-2, -1, 1, 2)}
+    for name, value in results.items():
+        at = {k: value(one) for k, one in solved.items()}
+        yield name, (8.0 * (at[1] - at[-1]) - (at[2] - at[-2])) / (12.0 * step)
+
+
 @pytest.mark.parametrize(("scene", "results", "inputs"), FAMILIES)
 def test_of_every_family(scene, results, inputs):
     scene = jb.load_scene(*scene)
-    fast = jb.jit_solver(scene)
     solution, slopes = jb.sensitivities(scene)
     assert set(slopes.modelled()) == results
-    value = lambda name, found: float(RESULTS[name](found))
-    plain = fast()
+    plain = jb.solve(scene)
     for name, found in slopes.modelled().items():
-        # two programs of the same equations: round-off of a converged solve
-        np.testing.assert_allclose(value(name, solution), value(name, plain), rtol=1e-9)
+        np.testing.assert_allclose(RESULTS[name](solution), RESULTS[name](plain), rtol=1e-9)
         assert all(np.isfinite(slope) for slope in found.values())
+    logs = {name: lambda one, name=name: np.log(float(RESULTS[name](one))) for name in results}
     for path, step in inputs.items():
-        start = input_value(scene, path)
-        solved = {k: fast(scene.replace({path: start * (1.0 + k * step)})) for k in (-2, -1, 1, 2)}
-        for name, found in slopes.modelled().items():
-            at = {k: np.log(value(name, one)) for k, one in solved.items()}
-            difference = (8.0 * (at[1] - at[-1]) - (at[2] - at[-2])) / (12.0 * step)
+        for name, difference in differences(scene, path, step, logs):
+            found = getattr(slopes, name)[path]
             # as below; what does not depend on the input at all is 0 here and round-off over the step there
-            np.testing.assert_allclose(found[path], difference, rtol=1e-5, atol=1e-7, err_msg=f"{name}, {path}")
+            np.testing.assert_allclose(found, difference, rtol=1e-5, atol=1e-7, err_msg=f"{name}, {path}")
 
 
 def hottest(solution):
@@ -165,7 +189,7 @@ def hottest(solution):
 
 ON_DEMAND = [
     pytest.param(
-        lambda: jb.load_scene("reference_roller", {"contact": "none"}),
+        lambda: jb.load_scene(*DRY_ROLLER),
         {"stiffness": lambda solution: np.log(float(solution.stiffness[1, 1]))},
         {"geometry.roller_length": 1e-3, "operation.radial_load": 1e-3, "materials.rings.youngs_modulus": 1e-3},
         id="stiffness-roller",
@@ -194,19 +218,15 @@ ON_DEMAND = [
 def test_results_on_demand(scene, results, inputs):
     """Stiffness and temperature, which are not among the usual results, against differences of `solve`."""
     scene = scene()
-    fast = jb.jit_solver(scene)
     _, slopes = jb.sensitivities(scene, of=results)
     assert set(slopes.modelled()) == set(results)
     for path, step in inputs.items():
-        start = input_value(scene, path)
-        solved = {k: fast(scene.replace({path: start * (1.0 + k * step)})) for k in (-2, -1, 1, 2)}
-        for name, value in results.items():
-            at = {k: value(one) for k, one in solved.items()}
-            difference = (8.0 * (at[1] - at[-1]) - (at[2] - at[-2])) / (12.0 * step)
+        for name, difference in differences(scene, path, step, results):
             found = getattr(slopes, name)[path]
             np.testing.assert_allclose(found, difference, rtol=1e-5, atol=1e-7, err_msg=f"{name}, {path}")
 
 
+@pytest.mark.usefixtures("made_up")
 def test_results_that_are_not_there_are_named():
     with pytest.raises(ValueError, match=r"does not model temperature; expected one of stiffness"):
         jb.sensitivities(dry_roller(), of="temperature")

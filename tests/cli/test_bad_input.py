@@ -1,11 +1,13 @@
 """Every kind of broken scene: exit code 2, one message with file and field, no traceback, nothing written."""
 
+import json
 import os
 import subprocess
 import sys
 import tomllib
 
 import pytest
+from command_process import environment
 
 from jaxbearing.scenes.data_files import builtin_text
 
@@ -301,30 +303,44 @@ def test_name_of_a_file_that_is_too_long(jaxbearing_command, folder):
     assert os.listdir(folder) == []
 
 
-def process(*arguments, cwd):
-    environment = {**os.environ, "JAXBEARING_CACHE": "off", "PYTHONPATH": os.pathsep.join(sys.path)}
-    command = [sys.executable, "-m", "jaxbearing", *arguments]
-    return subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True, check=False)
+UNCHECKED = """
+import contextlib, io, json, sys
+sys.orig_argv = ["python", "-m", "jaxbearing"]
+from jaxbearing.cli import main
+found = []
+main.leave = found.append
+for words in {commands!r}:
+    sys.argv = ["jaxbearing", *words]
+    with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(io.StringIO()) as err:
+        main.main()
+    found[-1] = found[-1], out.getvalue(), err.getvalue()
+print(json.dumps(found))
+"""
+"""Commands in one process. The checks of annotations that tests switch on would find some things first."""
 
 
-@pytest.mark.parametrize("name", ["bare_number", "lubricated_without_cage"])
-def test_as_a_process(name, folder):
-    text, path, words = BROKEN[name]
-    (folder / "scene.toml").write_text(text, encoding="utf-8")
-    done = process("solve", "scene.toml", "--json", cwd=folder)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith(f"error: scene.toml: {path}: found")
-    assert done.stderr.count("\n") == 1
-    assert all(word in done.stderr for word in words)
-    assert os.listdir(folder) == ["scene.toml"]
-
-
-def test_a_tolerance_beside_an_interference_is_one_problem(folder):
-    """The checks of annotations that tests switch on would pass over the second one."""
-    done = process("solve", "deep_groove_6205_mounted", "--set", "fits.shaft_interference=10 um", cwd=folder)
-    assert done.returncode == 2
-    assert done.stderr.count("\n") == 1
-    assert "fits.shaft_tolerance: found the text 'k5'; expected none beside" in done.stderr
+def test_without_checks_of_annotations(folder):
+    names = "bare_number", "lubricated_without_cage"
+    for name in names:
+        (folder / f"{name}.toml").write_text(BROKEN[name][0], encoding="utf-8")
+    commands = [["solve", f"{name}.toml", "--json"] for name in names]
+    commands.append(["solve", "deep_groove_6205_mounted", "--set", "fits.shaft_interference=10 um"])
+    program = UNCHECKED.format(commands=commands)
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=folder, env=environment(), capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    *broken, tolerance = json.loads(done.stdout)
+    for name, (code, out, err) in zip(names, broken, strict=True):
+        _, path, words = BROKEN[name]
+        assert (code, out) == (2, "")
+        assert err.startswith(f"error: {name}.toml: {path}: found")
+        assert err.count("\n") == 1
+        assert all(word in err for word in words)
+    code, _, err = tolerance
+    assert (code, err.count("\n")) == (2, 1)
+    assert "fits.shaft_tolerance: found the text 'k5'; expected none beside" in err
+    assert sorted(os.listdir(folder)) == sorted(f"{name}.toml" for name in names)
 
 
 def test_the_scenes_are_broken_in_one_place_only():

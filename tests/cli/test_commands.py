@@ -1,5 +1,7 @@
 """`scenes`, `solve`, exit codes, the cache."""
 
+import contextlib
+import io
 import json
 import os
 import re
@@ -198,17 +200,30 @@ def shell(redirection, folder, *arguments, **variables):
 @pytest.mark.parametrize(
     ("redirection", "words"), [(">&-", "standard output is closed"), (">/dev/full", "No space left on device")]
 )
-@pytest.mark.parametrize("arguments", [("scenes",), ("solve", *DRY), ("solve", *DRY, "--json")], ids=len)
-def test_output_that_cannot_be_written(redirection, words, arguments, folder):
-    done = shell(redirection, folder, *arguments)
+def test_output_that_cannot_be_written(redirection, words, folder):
+    done = shell(redirection, folder, "scenes")
     assert (done.returncode, done.stdout) == (1, "")
     assert done.stderr == f"error: the output cannot be written: {words}\n"
 
 
-def test_terminal_without_unicode(folder):
-    done = shell("", folder, "solve", *DRY, PYTHONIOENCODING="ascii")
-    assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.isascii()
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="a device of Linux")
+@pytest.mark.parametrize("more", [(), ("--json",)], ids=["screen", "json"])
+def test_results_that_cannot_be_written(more, jaxbearing_command, monkeypatch):
+    with contextlib.suppress(OSError), open("/dev/full", "w") as full:  # nor can it be closed
+        monkeypatch.setattr("sys.stdout", full)
+        result = jaxbearing_command("solve", *DRY, *more)
+    assert (result.code, result.out) == (1, "")
+    assert result.err == "error: the output cannot be written: No space left on device\n"
+
+
+def test_terminal_without_unicode(jaxbearing_command, folder, monkeypatch):
+    assert jaxbearing_command("scenes", "--copy", "reference_roller", "--to", "Wälzlager.toml").code == 0
+    shown = io.BytesIO()
+    monkeypatch.setattr("sys.stdout", io.TextIOWrapper(shown, encoding="ascii"))
+    result = jaxbearing_command("solve", "Wälzlager.toml", *DRY[1:])
+    assert (result.code, result.err) == (0, "")
+    assert b"W?lzlager.toml" in shown.getvalue()
+    assert b"CONVERGED" in shown.getvalue()
 
 
 def test_cache_that_cannot_be_written_is_no_failure(monkeypatch, tmp_path):

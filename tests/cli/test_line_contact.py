@@ -68,8 +68,8 @@ def test_run(jaxbearing_command, folder):
 
 
 def test_restart_and_animation(jaxbearing_command, folder, monkeypatch):
-    """2 ms and 1 ms more; 10 of 120 pictures."""
-    monkeypatch.setattr("jaxbearing.report.backends.matplotlib.animations.PICTURES", 10)
+    """2 ms and 1 ms more; 4 of 120 pictures."""
+    monkeypatch.setattr("jaxbearing.report.backends.matplotlib.animations.PICTURES", 4)
     first = jaxbearing_command(*SIMULATE, "--json", "--out", "a.nc")
     assert (first.code, first.err) == (0, "")
     more = ("--duration", "1 ms", "--restart", "a.nc", "--json", "--animation", "b.gif", "--out", "b.nc")

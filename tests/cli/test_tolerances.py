@@ -53,6 +53,7 @@ def test_screen_and_files(jaxbearing_command, folder):
         ]
         assert samples["fits_shaft_interference"].dims == ("case",)
     # the samples are there; others are not mixed in
+    command = (*command, "--results", "fit.clearance,elements.contact_angle_inner[0]")
     again = jaxbearing_command(*command)
     assert again.code == 0
     assert "nothing is computed" in again.err

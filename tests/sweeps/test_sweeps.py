@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from filled_results import MadeUpProgram
 from rich.console import Console
 from roller_cases import dry_roller
 
@@ -32,6 +33,14 @@ OVER = {
 
 class StoppedError(Exception):
     pass
+
+
+@pytest.fixture(scope="module", autouse=True)
+def kept_programs(tmp_path_factory):
+    """Sweeps of one structure share their program, as those of a user."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("JAXBEARING_CACHE", str(tmp_path_factory.mktemp("programs")))
+        yield
 
 
 @pytest.fixture(scope="module")
@@ -346,7 +355,8 @@ def test_damage_is_seen_by_the_checksum_of_what_is_read(scene, tmp_path):
 
 
 def test_samples_have_the_dimension_case(scene):
-    cases = latin_hypercube({"operation.radial_load": (1e3, 4e4, "log")}, 6, seed=1)
+    load, clearance = OVER
+    cases = latin_hypercube({load: (1e3, 4e4, "log"), clearance: (3e-5, 3.001e-5)}, 6, seed=1)
     found = jb.sweep(scene, cases, chunk=4)
     assert found["ring_radial"].dims == ("case",)
     assert found["operation_radial_load"].values.tobytes() == cases.values[0].tobytes()
@@ -354,7 +364,9 @@ def test_samples_have_the_dimension_case(scene):
     assert np.all(np.diff(found["ring_radial"].values[order]) > 0)
 
 
-def test_the_page_of_the_docs_runs(capsys):
+def test_the_page_of_the_docs_runs(capsys, monkeypatch):
+    """With made up results."""
+    monkeypatch.setattr("jaxbearing.sweeps.plan.LaneProgram", MadeUpProgram)
     page = (Path(__file__).parents[2] / "docs" / "sweeps.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
     exec(compile(block, "sweeps.md", "exec"), {})
@@ -391,9 +403,8 @@ def test_no_equilibrium_is_said_of_its_case_only(tmp_path):
     assert np.isnan(found["ring_axial"].values).tolist() == [True, False]
 
 
-def test_the_place_of_the_first_element_can_be_swept(tmp_path):
+def test_the_place_of_the_first_element_can_be_swept(scene, tmp_path):
     """Azimuths differ from case to case then; loads that a given displacement needs are shown."""
-    scene = jb.load_scene("reference_roller", {"contact": "none", "cage": "none"})
     held = {"operation.radial_load": None, "operation.displacement.radial": 30e-6}
     scene = scene.replace({"geometry.first_element_angle": 0.0, **held})
     found = jb.sweep(scene, {"geometry.first_element_angle": [0.0, 0.1]})
