@@ -300,7 +300,7 @@ def test_fields_that_no_value_tells_have_the_right_reason(bearing, noisy):
     assert found[MODULUS].lower < found[MODULUS].value < found[MODULUS].upper
     assert not any("No intervals" in note for note in found.notes)
     assert "The errors of ring.radial are not in the data; as known ones 2 % of the value are taken." in found.notes
-    found = jb.calibrate(bearing, one, FREE)
+    found = jb.calibrate(bearing, one, FREE, options=Options(known_errors=True))
     assert "a combination of" in found[MODULUS].reason
     with pytest.raises(ValueError, match="held_back: found every measured value"):
         jb.calibrate(bearing, measured(noisy, held_back=np.ones(len(LOADS), dtype=bool)), FREE)
