@@ -79,6 +79,9 @@ def test_rolling_factors_as_tabulated(gap_over_minimum, fitted, published):
     np.testing.assert_allclose(supply.biboulet_houpert_rolling_factor(s), published, atol=5e-4)
 
 
+MENISCUS = jax.jit(jax.value_and_grad(lambda log_gap: supply.log_gap_at_meniscus(log_gap).value))
+
+
 @pytest.mark.parametrize("log_hertz_gap", [-25.0, -3.0, 0.0, 2.0, 30.0])
 def test_gap_at_a_meniscus(log_hertz_gap):
     """The root of S = phi(S) + G, by another solver; its derivative by the implicit function."""
@@ -86,9 +89,8 @@ def test_gap_at_a_meniscus(log_hertz_gap):
     # 1 - phi/S as expm1, for S - phi cancels at a narrow gap
     missing = lambda s: s - np.log(hertz) + np.log(-np.expm1(-np.log1p(np.exp(G * s)) / G))
     expected = brentq(missing, -60, 60, xtol=1e-13)
-    found = supply.log_gap_at_meniscus(log_hertz_gap)
-    np.testing.assert_allclose(found.value, expected, rtol=1e-10, atol=1e-10)
-    slope = jax.grad(lambda g: supply.log_gap_at_meniscus(g).value)(log_hertz_gap)
+    found, slope = MENISCUS(log_hertz_gap)
+    np.testing.assert_allclose(found, expected, rtol=1e-10, atol=1e-10)
     step = 1e-4
     difference = (missing(expected + step) - missing(expected - step)) / (2 * step)
     np.testing.assert_allclose(slope, 1 / difference, rtol=1e-6)
@@ -150,7 +152,7 @@ WAYS = {
     "flow": ({"from_flow": [0.1]}, {}),
     "over_central": ({"gap_over_central": [3.45]}, {"rolling_law": "biboulet_houpert"}),
 }
-"""Numbers of a supply, each a way to give it, and its words: one program each."""
+"""Numbers of a supply, each a way to give it, and its words."""
 CASES = np.asarray(
     [[0.0, 30.0], [1e-12, 30.0], [2000.0, 0.0], [2000.0, 1e-9], [2000.0, -30.0], [2e5, 80.0], [-1e-3, 1.0]]
 )
@@ -173,31 +175,62 @@ def point(given, load, speed, flow=1e-5):
     return film, laws.rolling_moment(POINT, load, film, speed, speed / 0.005, inlet(flow))
 
 
-@pytest.mark.parametrize("way", WAYS)
-def test_contacts_at_hard_cases(way):
-    """Values and gradients are finite; film and resistance are the flooded ones times the factors."""
+CONTACTS = {"layer": LINE, "distance": POINT, "hamrock_dowson": LINE, "flow": POINT, "over_central": LINE}
+"""Kind of contact in which each way but the first, which is followed through both, has its hard cases."""
+
+
+def at_hard_cases(numbers, way, *columns):
+    """Of each supply, at each row of the columns."""
     lists, words = WAYS[way]
     given = {name: jnp.asarray(values) for name, values in lists.items()}
 
-    def numbers(given, load, speed):
-        part = Supply(**given, **words)
+    def run(given, *row):
+        of_numbers = lambda given, *row: numbers(Supply(**given, **words), *row)
+        places = tuple(range(1 + len(row)))
+        return of_numbers(given, *row), jax.jacfwd(of_numbers, places)(given, *row)
+
+    rows = (None, *(0 for _ in columns))
+    of_all = jax.vmap(jax.vmap(run, rows), (0, *(None for _ in columns)))
+    values, slopes = jax.jit(of_all)(given, *columns)
+    assert np.all(np.isfinite(values))
+    assert all(np.all(np.isfinite(leaf)) for leaf in jax.tree.leaves(slopes))
+    return values
+
+
+def test_contacts_at_hard_cases():
+    """Values and gradients are finite; film and resistance are the flooded ones times the factors."""
+
+    def numbers(part, load, speed):
         state = line(part, load, speed)
         film, moment = point(part, load, speed)
         found = [state.film, state.separation, state.rolling_force, film.film, film.separation, moment]
         factors = [state.supply.film_factor, state.supply.rolling_factor, film.flooded]
         return jnp.stack([*found, state.supply.gap_over_central, film.supply.rolling_factor, *factors])
 
-    run = lambda *at: (numbers(*at), jax.jacfwd(numbers, (0, 1, 2))(*at))
-    every_case = jax.vmap(run, (None, 0, 0))
     usual = [2000.0, 30.0]
-    values, slopes = jax.jit(jax.vmap(every_case, (0, None, None)))(given, *np.asarray([*CASES, usual]).T)
-    assert np.all(np.isfinite(values))
-    assert all(np.all(np.isfinite(leaf)) for leaf in jax.tree.leaves(slopes))
+    values = at_hard_cases(numbers, "gap", *np.asarray([*CASES, usual]).T)
     flooded, (film, _) = line(None, *usual), point(None, *usual)
     for row in values[:, -1]:
         np.testing.assert_allclose(row[0], row[8] * flooded.film, rtol=1e-13)
         np.testing.assert_allclose(row[2], row[9] * flooded.rolling_force, rtol=1e-13)
         np.testing.assert_allclose(row[10], film.film, rtol=1e-13)
+
+
+@pytest.mark.parametrize("way", CONTACTS)
+def test_starved_films_at_hard_cases(way):
+    """Values and gradients are finite, for flooded films of any thickness."""
+
+    def numbers(part, load, speed, log_flooded):
+        end = part.starvation(CONTACTS[way], load, log_flooded, speed, inlet(1e-5))
+        return jnp.stack([value for value in end if value is not None])
+
+    thickness = np.log([1e-15, 1e-9, 5e-7, 1e-3])
+    load, speed = np.repeat(CASES, len(thickness), axis=0).T
+    # a contact asks with the size of its speed, and with one that is not 0
+    values = at_hard_cases(numbers, way, load, np.hypot(speed, 1e-12), np.tile(thickness, len(CASES)))
+    flooded, film, _, factor = np.moveaxis(values, -1, 0)[:4]
+    np.testing.assert_allclose(film, factor * flooded, rtol=1e-13)
+    assert np.all((factor > 0.0) & (factor <= 1.0 + 1e-12))
 
 
 def test_a_level_is_its_number():
@@ -209,9 +242,14 @@ def test_a_level_is_its_number():
 
 def test_no_oil_leaves_the_layer():
     """h -> h_l with slope 1 as the layer goes to 0, and no resistance."""
-    film = lambda layer: line(Supply(layer=layer), 2000.0, 30.0).film
-    np.testing.assert_allclose(jax.grad(film)(0.0), 1.0, rtol=1e-12)
-    np.testing.assert_allclose(film(1e-9), 1e-9, rtol=2e-6)  # the floor, 1e-15 m
+
+    @jax.jit
+    @jax.value_and_grad
+    def film(layer):
+        return line(Supply(layer=layer), 2000.0, 30.0).film
+
+    np.testing.assert_allclose(film(0.0)[1], 1.0, rtol=1e-12)
+    np.testing.assert_allclose(film(1e-9)[0], 1e-9, rtol=2e-6)  # the floor, 1e-15 m
     assert line(Supply(layer=1e-12), 2000.0, 30.0).rolling_force < 1e-6
 
 

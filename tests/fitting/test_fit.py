@@ -3,9 +3,12 @@
 import dataclasses
 
 import equinox as eqx
+import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
-from traction_curves import mobil_curves, mobil_scene, wrong_start
+from traction_curves import mobil_curves, wrong_start
+from traction_curves import mobil_scene as plain_scene
 
 import fitting
 import fitting.comparison
@@ -19,6 +22,19 @@ ERRORS = fitting.Errors(relative=0.02, floor=2e-5)
 SLOPES = [name for name in NAMES if "_" in name.removeprefix("shear_")]
 
 
+def with_arrays(scene):
+    """Every number an array: one structure of all scenes."""
+    return jax.tree.map(lambda number: jnp.asarray(number, dtype=float), scene)
+
+
+def mobil_scene():
+    return with_arrays(plain_scene())
+
+
+def wrong_scene():
+    return with_arrays(wrong_start(plain_scene()))
+
+
 def noisy(table, seed=0, noise=0.02):
     rng = np.random.default_rng(seed)
     factor = 1.0 + noise * rng.normal(size=len(table.slide_to_roll))
@@ -29,6 +45,14 @@ def fitted(table, scene, **options):
     return fitting.fit(fitting.Measurements.of(table, scene), scene, fitting.FitOptions(errors=ERRORS, **options))
 
 
+@pytest.fixture(scope="module", autouse=True)
+def one_size():
+    """Parts of the curves are padded to the size of all of them: the same programs."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("fitting.search.SMALLEST_BATCH", 64)
+        yield
+
+
 @pytest.fixture(scope="module")
 def curves():
     return mobil_curves()
@@ -37,7 +61,7 @@ def curves():
 def test_noise_free_curves_give_all_parameters_back(curves):
     """From a start that is 3 times wrong; asked: 1e-6."""
     true = mobil_scene().oil.rheology
-    result = fitted(curves, wrong_start(mobil_scene()))
+    result = fitted(curves, wrong_scene())
     assert result.converged
     assert result.unidentifiable == ()
     for name in NAMES:
@@ -49,7 +73,7 @@ def test_noise_free_curves_give_all_parameters_back(curves):
 
 @pytest.fixture(scope="module")
 def noisy_fit(curves):
-    return fitted(noisy(curves), wrong_start(mobil_scene()))
+    return fitted(noisy(curves), wrong_scene())
 
 
 def test_intervals_are_those_of_linear_theory(noisy_fit):
@@ -117,7 +141,7 @@ def test_gradient_is_zero_at_the_fit(noisy_fit):
 @pytest.mark.slow
 def test_methods_reach_the_same_loss(curves, noisy_fit, method):
     """Asked: to 1e-6."""
-    other = fitted(noisy(curves), wrong_start(mobil_scene()), method=method, starts=1)
+    other = fitted(noisy(curves), wrong_scene(), method=method, starts=1)
     assert other.converged
     np.testing.assert_allclose(other.loss, noisy_fit.loss, rtol=1e-6)
 
@@ -165,7 +189,7 @@ def test_insisting_fits_but_gives_no_interval(curves):
 
 
 def test_fixed_and_bounded_parameters(curves):
-    scene = wrong_start(mobil_scene())
+    scene = wrong_scene()
     held = fitted(noisy(curves), scene, fixed=("stress_pressure",))
     assert held.parameters["stress_pressure"].value == pytest.approx(
         float(scene.oil.rheology.stress_pressure), rel=1e-12

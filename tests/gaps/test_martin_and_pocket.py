@@ -35,11 +35,23 @@ FACE = CompliantPocketFace(R, LENGTH, MODULUS, 10.4e-9)
 FACE_MU = 0.004867548502744159
 POCKET = Pocket(300e-6, LENGTH, R)
 BALANCE = jax.jit(POCKET.balance)
-FACES = jax.jit(FACE.face)
+FACE_PROGRAM = jax.jit(FACE.face)
+
+
+def faces(gap, rate, speed):
+    """Faces of up to 500 cases, by one program."""
+    cases = np.broadcast_arrays(*map(np.atleast_1d, (gap, rate, speed)))
+    padded = (jnp.asarray(np.pad(case, (0, 500 - len(case)), mode="edge")) for case in cases)
+    return jax.tree.map(lambda leaf: leaf[: len(cases[0])], FACE_PROGRAM(*padded, FACE_MU))
 
 
 def all_finite(tree):
     return all(bool(np.all(np.isfinite(leaf))) for leaf in jax.tree.leaves(tree))
+
+
+def with_slopes(f):
+    """A program for rows of numbers: values of `f`, and their derivatives in both modes."""
+    return jax.jit(jax.vmap(lambda row: (f(row), jax.jacfwd(f)(row), jax.jacrev(f)(row))))
 
 
 @pytest.mark.parametrize("row", PUBLISHED["martin"]["rows"])
@@ -106,13 +118,12 @@ def test_martin_is_monotone():
 def test_martin_gradients():
     s = np.asarray([-250.0, -3.0, -1e-3, 0.0, 0.7, 2.0, 40.0, 250.0])
     h = 1e-5 * np.maximum(1.0, np.abs(s))
-    f = lambda s: jnp.stack([martin_exit(s), *martin_factors(s)])
-    forward, reverse = (jax.jit(jax.vmap(mode(f)))(s) for mode in (jax.jacfwd, jax.jacrev))
+    run = with_slopes(lambda s: jnp.stack([martin_exit(s), *martin_factors(s)]))
+    value, forward, reverse = run(s)
     np.testing.assert_allclose(reverse, forward, rtol=1e-12)
-    values = jax.jit(f)
-    fd = np.subtract(values(s + h), values(s - h)).T / (2 * h[:, None])
+    fd = np.subtract(run(s + h)[0], run(s - h)[0]) / (2 * h[:, None])
     # h^2 truncation and round-off of T (1e-14 of it) over h
-    noise = 1e-14 * np.abs(np.asarray(values(s))).T / h[:, None]
+    noise = 1e-14 * np.abs(np.asarray(value)) / h[:, None]
     assert np.all(np.abs(forward - fd) <= 1e-6 * np.abs(fd) + noise)
 
 
@@ -127,16 +138,14 @@ def test_wall_rows(row):
 
 
 def test_wall_hard_cases():
-    cases = jnp.asarray([(0.0, 0.0), (0.0, -0.1), (0.0, 0.1), (1e-12, -1.0), (50.0, -1e3), (50.0, 1e3)]).T
-    f = lambda u, rate, film: (
-        martin_load(MU, u, R, LENGTH, film, rate),
-        martin_shear(MU, u, u, R, LENGTH, film, rate),
-        martin_rolling(MU, u, R, LENGTH, film, rate),
-    )
-    film = jnp.full(6, 1e-6)
-    assert all_finite(jax.jit(f)(*cases, film))
-    for mode in (jax.jacfwd, jax.jacrev):
-        assert all_finite(jax.jit(jax.vmap(mode(f, argnums=(0, 1, 2))))(*cases, film))
+    cases = [(0.0, 0.0), (0.0, -0.1), (0.0, 0.1), (1e-12, -1.0), (50.0, -1e3), (50.0, 1e3)]
+
+    def walls(row):
+        u, rate, film = row
+        load, rolling = (law(MU, u, R, LENGTH, film, rate) for law in (martin_load, martin_rolling))
+        return jnp.stack([load, martin_shear(MU, u, u, R, LENGTH, film, rate), rolling])
+
+    assert all_finite(with_slopes(walls)(np.array([(*case, 1e-6) for case in cases])))
 
 
 def test_pure_squeeze_of_a_line_contact():
@@ -200,13 +209,13 @@ def test_pocket_balance(load, spin):
 
 def test_pocket_meets_martin():
     spin = 38.8 / R
-    film = POCKET.balance(4.0, spin, MU)
+    film = BALANCE(4.0, spin, MU)
     u = 0.5 * spin * R
     args = (R, LENGTH, film.film_front, 0.0)
     # the load speed is 1.2e-8 too high by design
     np.testing.assert_allclose(film.load_front, martin_load(MU, u, *args), rtol=2e-8)
     np.testing.assert_allclose(film.friction_front, martin_shear(MU, 2 * u, u, *args), rtol=1e-12)
-    with_rolling = Pocket(300e-6, LENGTH, R, rolling=True).balance(4.0, spin, MU)
+    with_rolling = jax.jit(Pocket(300e-6, LENGTH, R, rolling=True).balance)(4.0, spin, MU)
     extra = with_rolling.friction_front - film.friction_front
     np.testing.assert_allclose(extra, 0.5 * martin_rolling(MU, u, *args), rtol=1e-12)
     assert film.film_front < film.film_rear  # P > 0 presses on the front wall
@@ -214,24 +223,24 @@ def test_pocket_meets_martin():
 
 def test_pocket_finite_and_gradient():
     loads, spins = [0.0, 1e-9, -1e-9, 5.0, -5.0, 1e6], [0.0, 6467.0, -10.0]
-    cases = np.asarray([(p, w) for p in loads for w in spins]).T
-    f = lambda p, w, mu: jnp.stack(POCKET.balance(p, w, mu))
-    for mode in (jax.jacfwd, jax.jacrev):
-        slope = jax.jit(jax.vmap(mode(f, argnums=(0, 1, 2)), (0, 0, None)))(*cases, MU)
-        assert all_finite(slope)
-    values = jax.jit(jax.vmap(f, (0, 0, None)))
+    cases = np.array([(p, w, MU) for p in loads for w in spins])
+    run = with_slopes(lambda row: jnp.stack(POCKET.balance(*row)))
+    value, forward, reverse = run(cases)
+    assert all_finite((value, forward, reverse))
     # a step small against the load at which the films become unequal, 2 k/Jp
-    k = 0.5 * MARTIN_LOAD * MU * np.sqrt(cases[1] ** 2 + 1) * R**2 * LENGTH
-    h = 1e-4 * (k / POCKET.clearance + np.abs(cases[0]))
-    fd = np.subtract(values(cases[0] + h, cases[1], MU), values(cases[0] - h, cases[1], MU)) / (2 * h[:, None])
+    k = 0.5 * MARTIN_LOAD * MU * np.sqrt(cases[:, 1] ** 2 + 1) * R**2 * LENGTH
+    h = 1e-4 * (k / POCKET.clearance + np.abs(cases[:, 0]))[:, None]
+    step = h * [1.0, 0.0, 0.0]
+    fd = np.subtract(run(cases + step)[0], run(cases - step)[0]) / (2 * h)
     # truncation (1e-4)^2; the wide film moves by round-off only when the other one is tight
-    noise = 1e-14 * np.abs(np.asarray(values(*cases, MU))) / h[:, None]
-    assert np.all(np.abs(slope[0] - fd) <= 1e-6 * np.abs(fd) + noise)
+    noise = 1e-14 * np.abs(np.asarray(value)) / h
+    for slope in (forward, reverse):
+        assert np.all(np.abs(slope[..., 0] - fd) <= 1e-6 * np.abs(fd) + noise)
 
 
 def test_compliant_rows():
     rows = np.array(PUBLISHED["compliant_face"]["rows"]).T
-    got = FACES(jnp.asarray(rows[0]), jnp.asarray(rows[1]), jnp.asarray(rows[2]), FACE_MU)
+    got = faces(*rows[:3])
     np.testing.assert_allclose(jnp.stack(got[:3]), rows[3:], rtol=PUBLISHED["compliant_face"]["rtol"])
     # film - flattening = gap, to round-off; the reported residual is that before the last step, whose cube is left
     np.testing.assert_allclose(got.film - FACE.compliance * got.load**0.9, rows[0], atol=1e-14 * np.max(got.film))
@@ -240,14 +249,14 @@ def test_compliant_rows():
 
 def test_compliant_face_is_monotone_and_meets_its_limits():
     gap = jnp.concatenate([jnp.linspace(-1e-5, 1e-5, 400), jnp.geomspace(1.1e-5, 1e-3, 100)])
-    face = FACES(gap, 0.0, 51.0, FACE_MU)
+    face = faces(gap, 0.0, 51.0)
     assert np.all(np.diff(face.load) < 0)
     # wide gap: Martin with the speed sqrt(U^2 + 0.25)/2; flattening shortens the gap by < 1e-6 of it
     martin = martin_load(FACE_MU, 0.5 * np.sqrt(51.0**2 + 0.25), R, LENGTH, 1e-3, 0.0)
     np.testing.assert_allclose(face.load[-1], martin, rtol=1e-5)
     np.testing.assert_allclose(face.film - FACE.compliance * face.load**0.9, gap, atol=1e-14 * 1e-3)
     # deep overlap: Palmgren's flattening is the overlap plus the elastic film
-    deep = FACE.face(-1e-5, 0.0, 51.0, FACE_MU)
+    deep = faces(-1e-5, 0.0, 51.0)
     delta = 0.39 * (8 / MODULUS) ** 0.9 / LENGTH**0.8 * deep.load**0.9
     np.testing.assert_allclose(deep.film - delta, -1e-5, rtol=1e-10)
 
@@ -256,8 +265,10 @@ def test_value_slope_and_curvature_of_the_face_are_those_of_its_balance():
     z = jnp.linspace(-12.0, 12.0, 25)
     args = tuple(jnp.full(z.shape, value) for value in (5e-6, -12.0, -14.5, -18.0))
     one = lambda x, a: jnp.squeeze(_face_balance(x[None], tuple(v[None] for v in a)))
-    exact = [jax.jit(jax.vmap(f))(z, args) for f in (one, jax.grad(one), jax.grad(jax.grad(one)))]
-    for found, wanted in zip(jax.jit(_face_expansion)(z, args), exact, strict=True):
+    slope = jax.grad(one)
+    exact = jax.vmap(lambda x, a: (one(x, a), slope(x, a), jax.grad(slope)(x, a)))
+    all_found, all_wanted = jax.jit(lambda z, args: (_face_expansion(z, args), exact(z, args)))(z, args)
+    for found, wanted in zip(all_found, all_wanted, strict=True):
         np.testing.assert_allclose(found, wanted, rtol=1e-12, atol=1e-20)
 
 
@@ -272,29 +283,27 @@ HARD_FACES = [
 ]
 
 
-def test_compliant_hard_cases():
-    cases = jnp.asarray(HARD_FACES).T
-    out = FACES(*cases, FACE_MU)
+POINTS = [(1e-6, -0.2, 51.0), (-2e-6, 0.1, 40.0), (5e-5, 0.05, -30.0)]
+
+
+def test_compliant_hard_cases_and_gradient():
+    """Values and derivatives are finite; of a usual case they are those of differences."""
+    out = faces(*np.transpose(HARD_FACES))
     assert all_finite(out)
     assert np.all(np.asarray(out.load) > 0)
     assert np.all(np.asarray(out.residual) < 1e-9)
-    f = lambda *a: FACE.face(*a, FACE_MU)[:3]
-    for mode in (jax.jacfwd, jax.jacrev):
-        assert all_finite(jax.jit(jax.vmap(mode(f, argnums=(0, 1, 2))))(*cases))
-
-
-def test_compliant_gradient():
-    points = np.array([[*c, FACE_MU] for c in [(1e-6, -0.2, 51.0), (-2e-6, 0.1, 40.0), (5e-5, 0.05, -30.0)]])
-    f = lambda p: jnp.stack(FACE.face(*p)[:3])
-    values = jax.jit(jax.vmap(f))
-    forward = np.asarray(jax.jit(jax.vmap(jax.jacfwd(f)))(points))
-    np.testing.assert_allclose(jax.jit(jax.vmap(jax.jacrev(f)))(points), forward, rtol=1e-9)
+    run = with_slopes(lambda row: jnp.stack(FACE.face(*row)[:3]))
+    points = np.array([[*case, FACE_MU] for case in (*POINTS, *HARD_FACES)])
+    value, forward, reverse = (np.asarray(found) for found in run(points))
+    assert all_finite((value, forward, reverse))
+    usual = slice(0, len(POINTS))
+    np.testing.assert_allclose(reverse[usual], forward[usual], rtol=1e-9)
     for i, h in enumerate([1e-10, 1e-5, 1e-2, 1e-7]):
         step = h * np.eye(4)[i]
-        fd = np.asarray(values(points + step[None]) - values(points - step[None])) / (2 * h)
+        fd = np.asarray(run(points + step)[0] - run(points - step)[0])[usual] / (2 * h)
         # h^2 truncation; roots are found to 1e-14 of ln Q
-        noise = 1e-13 * np.abs(values(points)) / h
-        assert np.all(np.abs(forward[:, :, i] - fd) <= 1e-6 * np.abs(fd) + noise)
+        noise = 1e-13 * np.abs(value[usual]) / h
+        assert np.all(np.abs(forward[usual, :, i] - fd) <= 1e-6 * np.abs(fd) + noise)
 
 
 def test_side_leakage():

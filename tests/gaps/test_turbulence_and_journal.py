@@ -46,6 +46,11 @@ def all_finite(tree):
     return all(bool(np.all(np.isfinite(leaf))) for leaf in jax.tree.leaves(tree))
 
 
+def with_slopes(f):
+    """A program for rows of numbers: values of `f`, and their derivatives in both modes."""
+    return jax.jit(jax.vmap(lambda row: (f(row), jax.jacfwd(f)(row), jax.jacrev(f)(row))))
+
+
 @pytest.mark.parametrize("row", PUBLISHED["short_journal"]["rows"])
 def test_force_rows(row):
     ex, ey, vx, vy, wj, wb, fx, fy = row
@@ -95,12 +100,9 @@ def test_turbulence_modes():
 
 @pytest.mark.parametrize("law", TURBULENCE, ids=lambda law: type(law).__name__)
 def test_turbulence_finite(law):
-    speed = jnp.asarray([0.0, 1e-300, 213.0, -597.0, 1e6])
     land = ShortJournal(0.0675, 3.98e-3, 2.4e-4, law)
-    assert all_finite(land.film_factors(938.2, MU, speed))
-    for mode in (jax.jacfwd, jax.jacrev):
-        slope = jax.jit(jax.vmap(mode(land.film_factors, argnums=(0, 1, 2)), (None, None, 0)))
-        assert all_finite(slope(938.2, MU, speed))
+    run = with_slopes(lambda row: jnp.stack(jnp.broadcast_arrays(*land.film_factors(*row))))
+    assert all_finite(run(np.array([(938.2, MU, speed) for speed in (0.0, 1e-300, 213.0, -597.0, 1e6)])))
 
 
 @pytest.mark.parametrize("eps", [0.0, 1e-9, 0.3, 0.9, 0.97])
@@ -158,25 +160,18 @@ HARD = [
 ]
 
 
-def test_force_hard_cases():
-    f = lambda *a: jnp.stack(LAND.force_on_journal(*a, MU, 12.0))
-    cases = jnp.asarray(HARD).T
-    assert all_finite(jax.jit(jax.vmap(f))(*cases))
-    for mode in (jax.jacfwd, jax.jacrev):
-        assert all_finite(jax.jit(jax.vmap(mode(f, argnums=tuple(range(6)))))(*cases))
-
-
-def test_force_gradient():
-    args = [5e-5, 3e-5, -0.05, 0.03, 1100.0, 500.0]
-    f = jax.jit(lambda *a: jnp.stack(LAND.force_on_journal(*a, MU, 12.0)))
-    steps = [1e-10, 1e-10, 1e-6, 1e-6, 1e-2, 1e-2]
-    jac = jax.jit(jax.jacfwd(f, argnums=tuple(range(6))))(*args)
-    for i, h in enumerate(steps):
-        up, down = list(args), list(args)
-        up[i] += h
-        down[i] -= h
+def test_force_hard_cases_and_gradient():
+    """Values and derivatives are finite; of a usual case they are those of differences."""
+    run = with_slopes(lambda row: jnp.stack(LAND.force_on_journal(*row, MU, 12.0)))
+    cases = np.array([(5e-5, 3e-5, -0.05, 0.03, 1100.0, 500.0), *HARD])
+    found = run(cases)
+    assert all_finite(found)
+    for i, h in enumerate([1e-10, 1e-10, 1e-6, 1e-6, 1e-2, 1e-2]):
+        step = h * np.eye(6)[i]
         # central differences: truncation about h^2, round-off about 1e-16/h, both below 1e-6
-        np.testing.assert_allclose(jac[i], (f(*up) - f(*down)) / (2 * h), rtol=1e-6)
+        fd = (run(cases + step)[0][0] - run(cases - step)[0][0]) / (2 * h)
+        for slopes in found[1:]:
+            np.testing.assert_allclose(slopes[0][:, i], fd, rtol=1e-6)
 
 
 def test_force_pushes_back_beyond_the_clearance():
@@ -224,44 +219,36 @@ def test_static_torque_power_is_force_times_velocity():
     assert shear > 0
 
 
-def test_static_equilibrium_finite():
-    loads, speeds = [0.0, 1e-12, 0.1, 30.0, 1e6], SPEEDS
-    cases = jnp.asarray([(w, *s) for w in loads for s in speeds])
-    f = lambda w, wj, wb: LAND.static_equilibrium(w, wj, wb, MU, 12.0)
-    film = jax.jit(jax.vmap(f))(*cases.T)
-    assert all_finite(film)
-    unloaded = np.asarray(cases[:, 0] == 0)
-    assert np.all(np.asarray(film.eccentricity_ratio)[unloaded] == 0.0)
-    np.testing.assert_allclose(np.asarray(film.attitude_angle)[unloaded], np.pi / 2, rtol=1e-15)
-    for mode in (jax.jacfwd, jax.jacrev):
-        assert all_finite(jax.jit(jax.vmap(mode(f, argnums=(0, 1, 2))))(*cases.T))
+def test_static_equilibrium_hard_cases_and_gradients():
+    """Values and derivatives are finite; of usual cases they are those of differences; at no load there is a closed
+    form."""
 
-
-def test_static_equilibrium_gradients():
-    def f(p):
-        load, wj, wb, mu, k_z, radius, width, clearance = p
+    def f(row):
+        load, wj, wb, mu, k_z, radius, width, clearance = row
         film = ShortJournal(radius, width, clearance).static_equilibrium(load, wj, wb, mu, k_z)
-        return jnp.stack([film.eccentricity_ratio, film.attitude_angle, film.tangential_force])
+        return jnp.stack([film.eccentricity_ratio, film.attitude_angle, film.tangential_force, film.residual])
 
-    base = np.array([1466.0, 670.0, MU, 14.0, 0.0675, 3.98e-3, 1.2e-4])
-    points = np.array([[load, *base] for load in (0.01, 0.5, 30.0, 500.0)])
-    values = jax.jit(jax.vmap(f))
-    forward = np.asarray(jax.jit(jax.vmap(jax.jacfwd(f)))(points))
-    np.testing.assert_allclose(jax.jit(jax.vmap(jax.jacrev(f)))(points), forward, rtol=1e-9)
-    for i in range(points.shape[1]):
-        h = 1e-5 * points[:, i]
-        step = np.zeros_like(points)
-        step[:, i] = h
-        fd = np.asarray(values(points + step) - values(points - step)) / (2 * h[:, None])
-        # truncation h^2 times third derivatives; round-off 1e-13 of the value over h
-        noise = 1e-13 * np.abs(values(points)) / h[:, None]
-        assert np.all(np.abs(forward[:, :, i] - fd) <= 1e-6 * np.abs(fd) + noise)
-
-
-def test_initial_slope_is_closed_form():
-    slope = jax.jit(jax.grad(lambda w: LAND.static_equilibrium(w, 1000.0, 400.0, MU, 12.0).eccentricity_ratio))(0.0)
+    run, base = with_slopes(f), np.array([MU, 12.0, 0.0675, 3.98e-3, 1.2e-4])
+    hard = [(w, *speeds, *base) for w in (0.0, 1e-12, 0.1, 30.0, 1e6) for speeds in SPEEDS]
+    first = (0.0, 1000.0, 400.0, *base)
+    points = np.array([(load, 1466.0, 670.0, MU, 14.0, *base[2:]) for load in (0.01, 0.5, 30.0, 500.0)])
+    cases = np.array([*points, first, *hard])
+    value, forward, reverse = (np.asarray(found) for found in run(cases))
+    assert all_finite((value, forward, reverse))
+    unloaded = cases[:, 0] == 0
+    assert np.all(value[unloaded, 0] == 0.0)
+    np.testing.assert_allclose(value[unloaded, 1], np.pi / 2, rtol=1e-15)
     exact = 1.0 / (LAND.film_constant(MU, 12.0) * LAND.clearance * 700.0 * np.pi / 2)
-    np.testing.assert_allclose(slope, exact, rtol=1e-12)
+    np.testing.assert_allclose(reverse[4, 0, 0], exact, rtol=1e-12)
+    value, forward, reverse = value[:4, :3], forward[:4, :3], reverse[:4, :3]
+    np.testing.assert_allclose(reverse, forward, rtol=1e-9)
+    for i in range(points.shape[1]):
+        step = np.zeros_like(cases)
+        step[:4, i] = h = 1e-5 * points[:, i]
+        fd = np.asarray(run(cases + step)[0] - run(cases - step)[0])[:4, :3] / (2 * h[:, None])
+        # truncation h^2 times third derivatives; round-off 1e-13 of the value over h
+        noise = 1e-13 * np.abs(value) / h[:, None]
+        assert np.all(np.abs(forward[:, :, i] - fd) <= 1e-6 * np.abs(fd) + noise)
 
 
 def test_eager_jit_vmap_agree():
@@ -305,11 +292,11 @@ def test_long_journal_wedge_against_reynolds():
 
 
 def test_long_journal_finite():
-    eps = jnp.asarray([0.0, 0.5, 0.999, 1.5, 1e3])
-    f = lambda e, v, w: (*BALL.force_on_journal(e, v, w, 0.0, 0.0, MU), *BALL.torques(e, 3.0, w, 0.0, MU))
-    assert all_finite(jax.jit(f)(eps, 0.1, 500.0))
-    for mode in (jax.jacfwd, jax.jacrev):
-        assert all_finite(jax.jit(jax.vmap(mode(f, argnums=(0, 1, 2)), (0, None, None)))(eps, 0.1, 500.0))
+    def f(row):
+        eps, _, speed = row
+        return jnp.stack([*BALL.force_on_journal(*row, 0.0, 0.0, MU), *BALL.torques(eps, 3.0, speed, 0.0, MU)])
+
+    assert all_finite(with_slopes(f)(np.array([(eps, 0.1, 500.0) for eps in (0.0, 0.5, 0.999, 1.5, 1e3)])))
 
 
 def test_petroff_limit():

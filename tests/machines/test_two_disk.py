@@ -24,6 +24,7 @@ from jaxbearing.contacts import (
 from jaxbearing.lubricants import ConstantViscosity, Lubricant, NoPressureViscosity
 from jaxbearing.machines import DiskGeometry, DiskOperation, two_disk
 from jaxbearing.numerics.status import SolveError, Status
+from jaxbearing.programs import differentiated
 
 # (Hertz pressure, slide over the sum of speeds) -> traction coefficient at 373 K, U1 + U2 = 42.35 m/s:
 # model description, table of check values, rows "MJ2 point isothermal"
@@ -92,8 +93,11 @@ def test_hertz_pressure_of_the_measured_curve():
     np.testing.assert_allclose(scene.hertz.hertz_pressure(scene.operation.load), [3.60e9], rtol=1.5e-3)
 
 
-def test_gradient_against_differences():
-    """With respect to numbers of the oil, the bodies, the geometry and the operation, through `solve`."""
+def test_gradient_against_differences(monkeypatch):
+    """With respect to numbers of the oil, the bodies, the geometry and the operation, through `solve`: by its program
+    of derivatives, although traction curves are no roots of a system."""
+    asked, rows = [], differentiated._kept_rows
+    monkeypatch.setattr(differentiated, "_kept_rows", lambda *given: (asked.append(given), rows(*given))[1])
     scene = small()
     start = dict.fromkeys(DIFFERENTIATED, 1.0)
 
@@ -102,6 +106,7 @@ def test_gradient_against_differences():
         return jnp.sum(jb.solve(scene.replace(values)).traction_coefficient[..., 2:])
 
     slopes = jax.grad(friction)(start)
+    assert len(asked) == 1
     step = 1e-5
     for path in start:
         up, down = (float(friction(start | {path: 1.0 + side * step})) for side in (1, -1))
@@ -129,12 +134,12 @@ def part_at(part, path):
 
 def test_vmap_and_the_compiled_solver():
     scene = small()
-    friction = np.asarray(jb.solve(scene).traction_coefficient)
-    batch = jax.vmap(lambda p: jb.solve(scene.at_operation(pressure=p), throw=False))(jnp.asarray([1.2e9, 1.4e9]))
+    fast, pressures = jb.jit_solver(scene), jnp.asarray([1.2e9, 1.4e9])
+    batch = jax.vmap(lambda pressure: fast(pressure=pressure))(pressures)
     assert batch.traction_coefficient.shape == (2, 1, 1, 1, 5)
-    np.testing.assert_allclose(batch.traction_coefficient[0], friction, rtol=1e-12)
-    fast = jb.jit_solver(scene)
-    np.testing.assert_allclose(fast(pressure=1.4e9).traction_coefficient, batch.traction_coefficient[1], rtol=1e-12)
+    for one, pressure in zip(batch.traction_coefficient, pressures, strict=True):
+        alone = jb.solve(scene.at_operation(pressure=pressure)).traction_coefficient
+        np.testing.assert_allclose(one, alone, rtol=1e-12)
 
 
 def test_batches_are_the_same_points(monkeypatch):
@@ -197,7 +202,7 @@ def test_line_contact_with_everything():
     ("scene", "words"),
     [
         (small(pressure=3.0e9), "mean contact pressure beyond 1.8 GPa"),
-        (small(slide_to_roll=[5.0]), "slide_to_roll beyond 2"),
+        (small(slide_to_roll=[-0.05, 0.0, 0.002, 0.01, 5.0]), "slide_to_roll beyond 2"),
         (small(temperature=240.0), "inlet oil below -20 degC"),
         (small(temperature=500.0), "inlet oil beyond 200 degC"),
     ],
