@@ -263,7 +263,8 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
         if self.options.known_errors:
             return 1.0
         degrees = max(len(residual) - self._determined(slopes / scale, free), 1.0)
-        return float(np.sum(np.square(residual)) / degrees)
+        # values that are met exactly have an error of round-off, not of 0
+        return max(float(np.sum(np.square(residual)) / degrees), np.finfo(float).eps ** 2)
 
     def spread(self, problem: Problem, u: np.ndarray, free: np.ndarray) -> Spread:
         """Uncertainty of the free fields: the priors count as measurements of the fields themselves."""

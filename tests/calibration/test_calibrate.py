@@ -77,6 +77,15 @@ def test_exact_measurements_give_the_fields_back(bearing, displacements):
         np.testing.assert_allclose(float(at), value, rtol=1e-7)
 
 
+def test_values_that_are_met_exactly_leave_an_interval_of_round_off(bearing):
+    """By the first values of the search already: the variance was 0, and was divided by."""
+    exact = [displacement(bearing.at_operation(radial_load=load)) for load in LOADS[:2]]
+    data = {"conditions": {"operation.radial_load": LOADS[:2]}, "measured": {"ring.radial": exact}}
+    found = jb.calibrate(bearing, data, [MODULUS])[MODULUS]
+    ends = [found.value, found.lower, found.upper]
+    np.testing.assert_allclose(ends, bearing.materials.rings.youngs_modulus, rtol=1e-9)
+
+
 def of_coordinates(coordinates):
     """A clearance of either sign is searched as it is, over its start; a modulus as its logarithm."""
     return {CLEARANCE: 12e-6 * coordinates[0], MODULUS: np.exp(coordinates[1])}
