@@ -257,14 +257,15 @@ class Search(AbstractSearch[Problem, Estimates, np.ndarray]):
 
     def variance_of(self, residual: np.ndarray, slopes: np.ndarray, scale: float, free: np.ndarray) -> float:
         """Variance of the errors as in `variance`, from differences over the deviations and their derivatives."""
+        # values that are met exactly have an error of round-off, not of 0
+        least = np.finfo(float).eps ** 2
         if self.loss != "linear":
             size = scale * self.bend
-            return variance_factor(residual / size, self.loss, int(np.sum(free))) * size**2
+            return max(variance_factor(residual / size, self.loss, int(np.sum(free))) * size**2, least)
         if self.options.known_errors:
             return 1.0
         degrees = max(len(residual) - self._determined(slopes / scale, free), 1.0)
-        # values that are met exactly have an error of round-off, not of 0
-        return max(float(np.sum(np.square(residual)) / degrees), np.finfo(float).eps ** 2)
+        return max(float(np.sum(np.square(residual)) / degrees), least)
 
     def spread(self, problem: Problem, u: np.ndarray, free: np.ndarray) -> Spread:
         """Uncertainty of the free fields: the priors count as measurements of the fields themselves."""
