@@ -24,6 +24,7 @@ CUP = G1["contact_angle"]
 TIGHT = jb.NewtonOptions(residual_tolerance=1e-13, step_tolerance=1e-11)
 built = eqx.filter_jit(build_tapered)
 
+
 @pytest.fixture(scope="module")
 def solutions():
     """Whether they converged is for the tests to say."""
