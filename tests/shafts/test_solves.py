@@ -110,7 +110,8 @@ def test_bearings_at_one_place(place):
 
 
 def test_derivatives_on_linear_bearings():
-    """By stiffness, position, load and diameter, in both modes, against differences."""
+    """By stiffness, position, load and diameter, in reverse mode, against differences; forward mode has the same rules
+    (`test_derivatives_of_a_preloaded_pair`)."""
 
     def results(x):
         sections = (Section(0.1, x[3]), STEPPED[1])
@@ -119,12 +120,10 @@ def test_derivatives_on_linear_bearings():
         return jnp.concatenate([solved.bearings["A"].on_shaft[:2], solved.shaft.displacement[-1, :2] * 1e8])
 
     x = jnp.asarray([1e8, 0.02, 20.0, 0.03])
-    forward, backward = jax.jit(lambda x: (jax.jacfwd(results)(x), jax.jacrev(results)(x)))(x)
-    np.testing.assert_allclose(backward, forward, rtol=1e-9, atol=1e-9)
-    step = 1e-4 * np.asarray(x)
+    backward, step = jax.jit(jax.jacrev(results))(x), 1e-4 * np.asarray(x)
     for place, one in enumerate(np.diag(step)):
         difference = (results(x + one) - results(x - one)) / (2.0 * step[place])
-        np.testing.assert_allclose(forward[:, place], difference, rtol=1e-5, atol=1e-6 * np.max(np.abs(difference)))
+        np.testing.assert_allclose(backward[:, place], difference, rtol=1e-5, atol=1e-6 * np.max(np.abs(difference)))
 
 
 @pytest.mark.slow
