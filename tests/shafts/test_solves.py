@@ -27,22 +27,34 @@ from jaxbearing.shafts import (
     scene,
 )
 from jaxbearing.shafts.batches import batches_of
+from jaxbearing.shafts.beam import element_stiffness
 from jaxbearing.shafts.scene import Place
 
 PRELOAD = Preload(force=180.0)
 
 
-def linear_shaft(stiffness=1e8, axial=20.0):
-    """A shaft that is cheap to solve: its bearings are linear."""
-    matrix = jnp.diag(jnp.asarray([1e8, 1e8, 1e8, 1e4, 1e4])) * (stiffness / 1e8)
+def on_springs(sections, stiffness=1e8, places=(0.02, 0.18), shares=(1.0, 1.0), held=1.0, gravity=9.81, strain=0.0):
+    """A shaft that is cheap to solve: its bearings are linear. One program for all of two sections.
+
+    **Arguments:** `shares`: of the stiffness, for each bearing; `held`: share of the stiffness along the axis.
+    """
+    matrix = jnp.diag(jnp.asarray([1e8, 1e8, 1e8, 1e4, 1e4])).at[0, 0].multiply(held) * (stiffness / 1e8)
     return ShaftSystem(
-        Shaft(100.0, [Section(0.1, 0.03), Section(0.1, 0.04, 0.01)], steel(206e9), Gravity(9.81)),
+        Shaft(100.0, sections, steel(206e9), Gravity(gravity), thermal_strain=strain),
         bearings=[
-            MountedBearing("A", LinearBearing(matrix), 0.02),
-            MountedBearing("B", LinearBearing(matrix), 0.18, "-x"),
+            MountedBearing("A", LinearBearing(shares[0] * matrix), places[0]),
+            MountedBearing("B", LinearBearing(shares[1] * matrix), places[1], "-x"),
         ],
-        forces=[PointLoad("load", 0.1, axial=axial, radial=300.0, azimuth=0.4, radius=0.05)],
+        forces=[PointLoad("load", 0.1, axial=0.0, radial=300.0, azimuth=0.4, radius=0.05)],
     )
+
+
+STEPPED = (Section(0.1, 0.03), Section(0.1, 0.04, 0.01))
+PLAIN = (Section(0.1, 0.03), Section(0.1, 0.03))
+
+
+def linear_shaft(axial=20.0, **changes):
+    return on_springs(STEPPED, **changes).replace({"force.load.axial": axial})
 
 
 def totals(solved):
@@ -64,16 +76,10 @@ def test_forces_balance_with_the_weight():
 
 
 def test_a_linear_shaft_agrees_with_the_finite_element():
-    """One section between two linear bearings, by the stiffness matrix of the element."""
-    from jaxbearing.shafts.beam import element_stiffness
-
-    matrix = np.diag([1e8, 1e8, 1e8, 1e4, 1e4])
-    system = ShaftSystem(
-        Shaft(0.0, [Section(0.2, 0.03)], steel(206e9)),
-        bearings=[MountedBearing("A", LinearBearing(matrix), 0.0), MountedBearing("B", LinearBearing(matrix), 0.2)],
-        forces=[PointLoad("load", 0.2, radial=300.0)],
-    )
-    solved = jb.solve(system)
+    """Sections of one diameter between two linear bearings, by the stiffness matrix of one element."""
+    system = on_springs(PLAIN, places=(0.0, 0.2), gravity=0.0)
+    at_end = {"position": 0.2, "azimuth": 0.0, "radius": 0.0}
+    solved = jb.solve(system.replace({f"force.load.{name}": value for name, value in at_end.items()}))
     beam = np.asarray(element_stiffness(0.2, 0.03, 0.0, steel(206e9))[0])
     total = beam + np.diag([1e8, 1e4, 1e8, 1e4])
     moved = np.linalg.solve(total, [0.0, 0.0, 300.0, 0.0])
@@ -85,7 +91,7 @@ def test_a_linear_shaft_agrees_with_the_finite_element():
 def test_a_load_that_bends_the_clamped_shaft_far():
     """The search knows the shaft as clamped at x = 0, where 200 kN bend it by 18 mm at the second bearing, beyond the
     bound of displacements. Between its bearings the shaft bends by 1 mm. Linear bearings answer in proportion."""
-    solve = jax.jit(lambda load: jb.solve(linear_shaft().replace({"force.load.radial": load}), throw=False))
+    solve = lambda load: jb.solve(linear_shaft().replace({"force.load.radial": load}), throw=False)
     none, light, heavy = (solve(load) for load in (0.0, 300.0, 2e5))
     assert int(heavy.status) == jb.Status.CONVERGED
     moved = np.asarray(heavy.shaft.displacement - none.shaft.displacement)
@@ -93,37 +99,31 @@ def test_a_load_that_bends_the_clamped_shaft_far():
     np.testing.assert_allclose(moved, expected, rtol=1e-7, atol=1e-12)
 
 
-def test_bearings_at_one_place():
-    """Two bearings at one place and one at x = 0 are no special cases."""
-    system = linear_shaft()
-    half = np.diag([5e7, 5e7, 5e7, 5e3, 5e3])
-    twice = [MountedBearing(name, LinearBearing(half), 0.02) for name in ("A1", "A2")]
-    split = jb.solve(dataclasses.replace(system, bearings=[*twice, system.bearings[1]]))
-    whole = jb.solve(system)
+@pytest.mark.parametrize("place", [0.02, 0.0])
+def test_bearings_at_one_place(place):
+    """Two bearings at one place, also at x = 0, are no special cases: they are one of twice the stiffness."""
+    split = jb.solve(linear_shaft(places=(place, place), shares=(0.5, 0.5)))
+    whole = jb.solve(linear_shaft(places=(place, 0.18), shares=(1.0, 0.0)))
     np.testing.assert_allclose(split.shaft.displacement[-1], whole.shaft.displacement[-1], rtol=1e-9, atol=1e-18)
-    np.testing.assert_allclose(2.0 * split.bearings["A1"].on_shaft, whole.bearings["A"].on_shaft, rtol=1e-8, atol=1e-8)
+    for one in split.bearings.values():
+        np.testing.assert_allclose(2.0 * one.on_shaft, whole.bearings["A"].on_shaft, rtol=1e-8, atol=1e-8)
 
 
 def test_derivatives_on_linear_bearings():
-    """By stiffness, position, load and diameter, in both modes, against differences."""
+    """By stiffness, position, load and diameter, in reverse mode, against differences; forward mode has the same rules
+    (`test_derivatives_of_a_preloaded_pair`)."""
 
     def results(x):
-        system = linear_shaft(x[0], x[2])
-        bearings = (dataclasses.replace(system.bearings[0], position=x[1]), system.bearings[1])
-        sections = (Section(0.1, x[3]), system.shaft.sections[1])
-        system = dataclasses.replace(
-            system, bearings=bearings, shaft=dataclasses.replace(system.shaft, sections=sections)
-        )
+        sections = (Section(0.1, x[3]), STEPPED[1])
+        system = on_springs(sections, stiffness=x[0], places=(x[1], 0.18)).replace({"force.load.axial": x[2]})
         solved = jb.solve(system, throw=False)
         return jnp.concatenate([solved.bearings["A"].on_shaft[:2], solved.shaft.displacement[-1, :2] * 1e8])
 
     x = jnp.asarray([1e8, 0.02, 20.0, 0.03])
-    forward, backward = (jax.jit(mode(results))(x) for mode in (jax.jacfwd, jax.jacrev))
-    np.testing.assert_allclose(backward, forward, rtol=1e-9, atol=1e-9)
-    compiled, step = jax.jit(results), 1e-4 * np.asarray(x)
+    backward, step = jax.jit(jax.jacrev(results))(x), 1e-4 * np.asarray(x)
     for place, one in enumerate(np.diag(step)):
-        difference = (compiled(x + one) - compiled(x - one)) / (2.0 * step[place])
-        np.testing.assert_allclose(forward[:, place], difference, rtol=1e-5, atol=1e-6 * np.max(np.abs(difference)))
+        difference = (results(x + one) - results(x - one)) / (2.0 * step[place])
+        np.testing.assert_allclose(backward[:, place], difference, rtol=1e-5, atol=1e-6 * np.max(np.abs(difference)))
 
 
 @pytest.mark.slow
@@ -152,21 +152,37 @@ def test_derivatives_of_a_preloaded_pair():
     assert np.all(without[:2, 2] != 0.0)
 
 
-def test_a_lane_without_equilibrium_says_so():
+LANES = {
+    "floating": {"held": 0.0, "axial": 0.0},
+    "floating, pushed": {"held": 0.0, "axial": 50.0},
+    "as it is": {},
+    "bearing beyond": {"bearing.B.position": 0.25},
+    "load beyond": {"force.load.position": -0.01},
+}
+
+
+@pytest.fixture(scope="module")
+def lanes():
+    """Solutions of a batch by their names."""
+
+    def solved(lane):
+        system = linear_shaft(axial=lane["axial"], held=lane["held"])
+        return jb.solve(system.replace({path: lane[path] for path in lane if "." in path}), throw=False)
+
+    usual = {"held": 1.0, "axial": 20.0, "bearing.B.position": 0.18, "force.load.position": 0.1}
+    values = {name: jnp.asarray([(usual | lane)[name] for lane in LANES.values()]) for name in usual}
+    found = jax.jit(jax.vmap(solved))(values)
+    return {name: jax.tree.map(lambda leaf, number=number: leaf[number], found) for number, name in enumerate(LANES)}
+
+
+def test_a_lane_without_equilibrium_says_so(lanes):
     """Nothing holds this shaft along X; the lane beside it is not touched by that."""
-    matrix = np.diag([0.0, 1e8, 1e8, 1e4, 1e4])
-    floating = [MountedBearing(name, LinearBearing(matrix), at) for name, at in (("A", 0.02), ("B", 0.18))]
-
-    def solved(axial):
-        system = dataclasses.replace(linear_shaft(axial=axial), bearings=tuple(floating))
-        return jb.solve(system, throw=False)
-
-    found = jax.jit(jax.vmap(solved))(jnp.asarray([0.0, 50.0]))
-    assert found.status.tolist() == [jb.Status.CONVERGED, jb.Status.NO_EQUILIBRIUM]
-    assert np.all(np.isnan(found.shaft.displacement[1]))
-    assert np.all(np.isfinite(found.shaft.displacement[0]))
+    still, pushed = lanes["floating"], lanes["floating, pushed"]
+    assert [still.status, pushed.status] == [jb.Status.CONVERGED, jb.Status.NO_EQUILIBRIUM]
+    assert np.all(np.isnan(pushed.shaft.displacement))
+    assert np.all(np.isfinite(still.shaft.displacement))
     with pytest.raises(jb.SolveError, match="no_equilibrium: nothing holds the shaft along X at"):
-        jb.solve(dataclasses.replace(linear_shaft(axial=50.0), bearings=tuple(floating)))
+        jb.solve(linear_shaft(axial=50.0, held=0.0))
 
 
 @pytest.mark.slow
@@ -350,19 +366,17 @@ def test_random_shafts():
     assert np.max(residual) < 1e-8
 
 
-def test_traced_positions_beyond_the_shaft_are_invalid():
+def test_traced_positions_beyond_the_shaft_are_invalid(lanes):
     """The rules between two parts of a scene, which eager copies raise, are flagged in the lanes that break them."""
-    lanes = {"bearing.B.position": [0.18, 0.25, 0.18], "force.load.position": [0.1, 0.1, -0.01]}
-    solve = jax.jit(lambda lane: jb.solve(linear_shaft().replace(lane), throw=False))
-    found = jax.vmap(solve)({path: jnp.asarray(places) for path, places in lanes.items()})
-    assert found.status.tolist() == [Status.CONVERGED] + 2 * [Status.INVALID_INPUT]
-    assert np.isfinite(found.shaft.displacement[0]).all()
-    assert np.isnan(found.shaft.displacement[1:]).all()
-    for lane, path in enumerate(lanes, 1):
-        failed = jax.tree.map(lambda leaf, lane=lane: leaf[lane], found)
-        assert failed.failure() == f"invalid_input: {path} must lie within the length of the shaft"
+    assert int(lanes["as it is"].status) == Status.CONVERGED
+    assert np.isfinite(lanes["as it is"].shaft.displacement).all()
+    for name in ("bearing beyond", "load beyond"):
+        ((path, place),) = LANES[name].items()
+        assert int(lanes[name].status) == Status.INVALID_INPUT
+        assert np.isnan(lanes[name].shaft.displacement).all()
+        assert lanes[name].failure() == f"invalid_input: {path} must lie within the length of the shaft"
         with pytest.raises(ValueError, match=rf"{path}: .* mm lies beyond the shaft \(200 mm\)"):
-            linear_shaft().replace({path: lanes[path][lane]})
+            linear_shaft().replace({path: place})
 
 
 def test_states_are_judged_as_the_scenes_that_they_make():
@@ -402,15 +416,7 @@ def test_growth_between_two_fixed_bearings():
     r"""A shaft that grows by $\epsilon L$ between bearings of axial stiffness k is pressed by
     $F = \epsilon L/(2/k + L/(EA))$, with equal and opposite forces on both ends."""
     stiffness, strain, distance, area = 1e8, 2e-4, 0.16, np.pi / 4.0 * 0.03**2
-    matrix = np.diag([stiffness, 1e8, 1e8, 1e4, 1e4])
-    system = ShaftSystem(
-        Shaft(0.0, [Section(0.2, 0.03)], steel(206e9), thermal_strain=strain),
-        bearings=[
-            MountedBearing("A", LinearBearing(matrix), 0.02),
-            MountedBearing("B", LinearBearing(matrix), 0.02 + distance, "-x"),
-        ],
-    )
-    solved = jb.solve(system)
+    solved = jb.solve(on_springs(PLAIN, stiffness, strain=strain))
     expected = strain * distance / (2.0 / stiffness + distance / (206e9 * area))
     found = [float(one.on_shaft[0]) for one in solved.bearings.values()]
     np.testing.assert_allclose(found, [expected, -expected], rtol=1e-9)
