@@ -166,13 +166,18 @@ def contacts_of(scene):
     )
 
 
-def warned(scene, contacts, **facts):
+@eqx.filter_jit
+def excess_of(scene, contacts, facts, ring, cage):
     inlet = scene.oil.at(scene.operation.oil_temperature)
+    return result_excess(scene, Facts((contacts._replace(inlet=inlet),), **facts), ring, cage)
+
+
+def warned(scene, contacts, **facts):
     zero = jnp.zeros(())
     ring = RingDisplacement(zero, zero, zero, facts.pop("tilt", zero), zero)
     cage = CageState(zero, zero, facts.pop("eccentricity", zero), zero)
-    found = result_excess(scene, Facts((contacts._replace(inlet=inlet),), **facts), ring, cage)
-    return {kind_and_place(text) for text, excess in found.items() if float(excess) > 0}
+    found = jax.device_get(excess_of(scene, contacts, facts, ring, cage))
+    return {kind_and_place(text) for text, excess in found.items() if excess > 0}
 
 
 @pytest.mark.parametrize("side", [0, 1])
