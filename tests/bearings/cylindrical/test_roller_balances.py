@@ -1,6 +1,7 @@
 """Balances that must close, whatever the numbers: forces, powers, symmetry, and parts that are left out."""
 
 import dataclasses
+import functools
 
 import equinox as eqx
 import jax
@@ -138,11 +139,16 @@ def test_dry_has_no_power_and_carries_the_load():
     np.testing.assert_allclose(across, 0.0, atol=1e-9)
 
 
+@jax.jit
+@functools.partial(jax.grad, argnums=(0, 1))
+def slopes_of_the_dry_ring(speed, load):
+    return jb.solve(dry_roller().at_operation(inner_speed=speed, radial_load=load)).ring.radial
+
+
 def test_dry_at_rest():
     solution = jb.solve(dry_roller().at_operation(inner_speed=0.0))
     np.testing.assert_allclose(solution.elements.load_inner, solution.elements.load_outer, rtol=1e-14)
-    gradient = jax.grad(lambda n: jb.solve(dry_roller().at_operation(inner_speed=n)).ring.radial)(0.0)
-    assert np.isfinite(gradient)
+    assert np.isfinite(slopes_of_the_dry_ring(0.0, 25e3)[0])
 
 
 def test_mirror_symmetry():
@@ -161,11 +167,17 @@ def test_lateral_freedom_is_not_used_by_a_symmetric_bearing():
     np.testing.assert_allclose(two.stiffness[1, 1], one.stiffness[1, 1], rtol=1e-9)
 
 
-@pytest.mark.parametrize("scene", [dry_roller, pytest.param(reference_roller, marks=pytest.mark.slow)])
-def test_stiffness_is_the_derivative_of_the_load(scene):
-    ring = lambda load: jb.solve(scene().at_operation(radial_load=load)).ring.radial
+def test_stiffness_is_the_derivative_of_the_load():
+    scene = dry_roller()
+    flexibility = slopes_of_the_dry_ring(float(scene.operation.inner_speed), 25e3)[1]
+    np.testing.assert_allclose(jb.solve(scene).stiffness[1, 1], 1.0 / flexibility, rtol=1e-7)
+
+
+@pytest.mark.slow
+def test_stiffness_is_the_derivative_of_the_load_with_films():
+    ring = lambda load: jb.solve(reference_roller().at_operation(radial_load=load)).ring.radial
     flexibility = jax.grad(ring)(25e3)
-    np.testing.assert_allclose(jb.solve(scene()).stiffness[1, 1], 1.0 / flexibility, rtol=1e-7)
+    np.testing.assert_allclose(jb.solve(reference_roller()).stiffness[1, 1], 1.0 / flexibility, rtol=1e-7)
 
 
 def test_film_without_traction_rolls_without_slip():
