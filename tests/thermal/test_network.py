@@ -1,5 +1,7 @@
 """Steady temperatures of networks: check values, balances, folds, derivatives, batches, failures."""
 
+import functools
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -9,6 +11,7 @@ from thermal_cases import (
     AMBIENT,
     CAPACITY,
     FEEDBACK,
+    INLET,
     INNER,
     OUTER,
     four_nodes,
@@ -22,7 +25,6 @@ from thermal_cases import (
 
 from jaxbearing.numerics.status import Status
 from jaxbearing.thermal.network import (
-    NODES,
     NodeHeat,
     OilFlow,
     conductances_between,
@@ -32,49 +34,105 @@ from jaxbearing.thermal.network import (
     thermal_rate,
 )
 from jaxbearing.thermal.point import ThermalOptions
-from jaxbearing.thermal.solve import solve_network
+from jaxbearing.thermal.solve import LIMIT, solve_network
 
 DIGITS = 1e-9
 """Of printed temperatures: nine to ten digits."""
 
-# temperatures; total, to the oil, to the ambient
+# number of nodes, mixing of the oil, feedback; temperatures; total, to the oil, to the ambient
 CASES = {
-    "one": (one_node(), {}, [322.0698674], (236.2370825, 178.3973478, 57.83973478)),
-    "half mixed": (one_node(mixing=0.5), {}, [318.328619], (257.501997, 207.1447591, 50.35723795)),
+    "one": (1, 1.0, 0.0, [322.0698674], (236.2370825, 178.3973478, 57.83973478)),
+    "half mixed": (1, 0.5, 0.0, [318.328619], (257.501997, 207.1447591, 50.35723795)),
     "four": (
-        four_nodes(),
-        {},
+        4,
+        1.0,
+        0.0,
         [325.2701232, 321.9338786, 327.8017671, 320.9425938],
         (218.2997684, 155.8518766, 62.44789178),
     ),
     "six": (
-        six_nodes(),
-        {},
+        6,
+        1.0,
+        0.0,
         [324.2444677, 319.8919743, 326.9865224, 320.0799351, 320.586295, 314.174977],
         (223.6226694, 138.5987023, 85.02396707),
     ),
     "feedback": (
-        six_nodes(),
-        {"feedback": 0.02},
+        6,
+        1.0,
+        0.02,
         [324.4099277, 320.0226413, 327.1720056, 320.1764493, 320.7322892, 314.2752045],
         (225.970431, None, None),
     ),
 }
 
 
-def solved(speed, start=None, network=None, **options):
+@jax.jit
+def one_at(conductance, mixing):
+    return solve_network(one_node(conductance, mixing), losses_of(1))
+
+
+@jax.jit
+def four_at():
+    state = solve_network(four_nodes(), losses_of(4), capacity=CAPACITY[:4], options=ThermalOptions(stability=True))
+    return state, slopes_at(four_nodes(), losses_of(4), state.temperatures)
+
+
+@functools.partial(jax.jit, static_argnames="jacobian")
+def six_at(numbers, start, factor, above, jacobian):
+    def losses(temperatures):
+        failed = jnp.max(temperatures) > above
+        heat = jnp.where(failed, jnp.nan, losses_of(6, **numbers)(temperatures).heat)
+        return NodeHeat(heat, jnp.where(failed, int(Status.NO_EQUILIBRIUM), int(Status.CONVERGED)))
+
+    options = ThermalOptions(jacobian=jacobian)
+    return solve_network(six_nodes(factor), losses, start=start, capacity=CAPACITY, options=options)
+
+
+def six(
+    speed=6000.0,
+    f1=3e-4,
+    preload=2000.0,
+    feedback=0.0,
+    start=INLET,
+    factor=1.0,
+    above=np.inf,
+    jacobian="when_needed",
+):
+    """Six nodes. **Arguments:** `above`: temperature, K, above which the losses cannot be computed."""
+    numbers = {"speed": speed, "f1": f1, "preload": preload, "feedback": feedback}
+    return six_at(numbers, jnp.full(6, start), factor, above, jacobian)
+
+
+def solved(speed, stability=False):
     """The six nodes with preload that grows with temperature."""
-    network = six_nodes() if network is None else network
-    losses = losses_of(6, speed=speed, **FEEDBACK)
-    return solve_network(network, losses, start=start, capacity=CAPACITY, options=ThermalOptions(**options))
+    options = ThermalOptions(stability=stability)
+    return solve_network(six_nodes(), losses_of(6, speed=speed, **FEEDBACK), capacity=CAPACITY, options=options)
 
 
 with_stability = jax.jit(lambda speed: solved(speed, stability=True))
-plainly = jax.jit(lambda speed, start: solved(speed, start))
 
 
 def slopes_of(speed, temperatures):
     return slopes_at(six_nodes(), losses_of(6, speed=speed, **FEEDBACK), temperatures)
+
+
+@jax.jit
+def stability_at(speed, temperatures):
+    """Jacobian, margin and rate."""
+    slopes = slopes_of(speed, temperatures)
+    return slopes.jacobian, thermal_margin(slopes), thermal_rate(slopes, CAPACITY)
+
+
+@jax.jit
+def rings_at(size, start, limit, cooling):
+    """The least model of a fold. **Arguments:** `cooling`: conductance of the inner ring to the ambient, W/K."""
+    network = network_of((INNER, OUTER), {(INNER, OUTER): 5.0}, {OUTER: 10.0, INNER: cooling}, AMBIENT)
+    return solve_network(network, ring_losses(size), start=start, limit=limit, options=ThermalOptions(stability=True))
+
+
+def two_rings(size, start=None, limit=LIMIT, cooling=0.0):
+    return rings_at(size, jnp.full(2, AMBIENT) if start is None else start, limit, cooling)
 
 
 def test_viscosity_of_the_check_values():
@@ -84,8 +142,8 @@ def test_viscosity_of_the_check_values():
 
 @pytest.mark.parametrize("name", CASES)
 def test_check_values(name):
-    network, settings, temperatures, heats = CASES[name]
-    state = solve_network(network, losses_of(len(network.nodes), **settings))
+    nodes, mixing, feedback, temperatures, heats = CASES[name]
+    state = {1: lambda: one_at(2.0, mixing), 4: lambda: four_at()[0], 6: lambda: six(feedback=feedback)}[nodes]()
     assert Status(int(state.status)) == Status.CONVERGED
     np.testing.assert_allclose(state.temperatures, temperatures, rtol=DIGITS)
     for found, expected in zip((state.total, state.heat_to_oil, state.heat_to_ambient), heats, strict=True):
@@ -97,20 +155,19 @@ def test_check_values(name):
 
 
 def test_outlet_of_a_linear_rise():
-    state = solve_network(one_node(mixing=0.5), losses_of(1))
-    np.testing.assert_allclose(state.oil_out, 323.507238, rtol=DIGITS)
+    np.testing.assert_allclose(one_at(2.0, 0.5).oil_out, 323.507238, rtol=DIGITS)
 
 
 def test_large_conductances_make_one_node():
     """The flows inside, some 1e2 W, leave differences of 1e-8 K at 1e10 W/K, and round-off that hides the balances."""
-    alone = solve_network(one_node(3.8), losses_of(1))
+    alone = one_at(3.8, 1.0)
     np.testing.assert_allclose(alone.temperatures, 320.2896349, rtol=DIGITS)
-    state = solve_network(six_nodes(1e9), losses_of(6))
+    state = six(factor=1e9)
     assert int(state.status) == Status.CONVERGED
     np.testing.assert_allclose(state.temperatures, jnp.full(6, alone.temperatures[0]), rtol=DIGITS)
     assert abs(float(state.balance_error)) < 1e-10
     # the sheet's factor, to the digits that its differences inside leave
-    state = solve_network(six_nodes(1e7), losses_of(6))
+    state = six(factor=1e7)
     np.testing.assert_allclose(state.temperatures, jnp.full(6, 320.2896349), rtol=5e-9)
 
 
@@ -125,17 +182,15 @@ def test_feedback(speed, inner, margin, total):
     np.testing.assert_allclose(state.total, total, rtol=2e-9)
     assert float(state.rate) < 0
     # those that are differentiable are the same
-    slopes = slopes_of(speed, state.temperatures)
-    np.testing.assert_allclose(thermal_margin(slopes), state.margin, rtol=1e-10)
-    np.testing.assert_allclose(thermal_rate(slopes, CAPACITY), state.rate, rtol=1e-10)
+    _, margin_there, rate_there = stability_at(speed, state.temperatures)
+    np.testing.assert_allclose(margin_there, state.margin, rtol=1e-10)
+    np.testing.assert_allclose(rate_there, state.rate, rtol=1e-10)
 
 
 def test_rates_of_four_nodes():
-    network, losses, capacity = four_nodes(), losses_of(4), CAPACITY[:4]
-    state = solve_network(network, losses, capacity=capacity, options=ThermalOptions(stability=True))
-    jacobian = slopes_at(network, losses, state.temperatures).jacobian
+    state, slopes = four_at()
     expected = [-1.302180186, -0.2190733351, -0.07961110114, -0.04403188218]
-    found = np.sort(np.linalg.eigvals(np.asarray(jacobian / capacity[:, None])).real)
+    found = np.sort(np.linalg.eigvals(np.asarray(slopes.jacobian / CAPACITY[:4, None])).real)
     np.testing.assert_allclose(found, expected, rtol=DIGITS)
     np.testing.assert_allclose(state.rate, expected[-1], rtol=DIGITS)
 
@@ -146,7 +201,7 @@ def test_oscillation_begins_before_the_fold():
     state = with_stability(speed)
     np.testing.assert_allclose(state.temperature(INNER), 397.437122, rtol=2e-9)
     np.testing.assert_allclose(state.margin, 0.2414622, rtol=2e-7)
-    jacobian = slopes_of(speed, state.temperatures).jacobian
+    jacobian = stability_at(speed, state.temperatures)[0]
     rates = np.linalg.eigvals(np.asarray(jacobian / CAPACITY[:, None]))
     np.testing.assert_allclose(abs(rates[np.argmax(rates.real)].imag), 1.810718e-3, rtol=5e-7)
     beyond = with_stability(9000.0)
@@ -168,7 +223,7 @@ def test_fold():
         return jnp.concatenate([residual, along, jnp.atleast_1d(direction @ direction - 1.0)])
 
     near = with_stability(9236.0)
-    _, _, direction = np.linalg.svd(np.asarray(slopes_of(9236.0, near.temperatures).jacobian))
+    _, _, direction = np.linalg.svd(np.asarray(stability_at(9236.0, near.temperatures)[0]))
     unknowns = jnp.concatenate([near.temperatures, jnp.asarray(direction[-1]), jnp.asarray([9236.0])])
     step = jax.jit(lambda at: at - jnp.linalg.solve(jax.jacfwd(bordered)(at), bordered(at)))
     for _ in range(12):
@@ -177,11 +232,11 @@ def test_fold():
     expected = [473.734037, 437.669343, 494.363485, 407.175620, 452.488857, 404.522788]
     # printed to 5e-7 K; here the residual of the bordered system is 1e-12, and the housing 1.2e-6 K off
     np.testing.assert_allclose(unknowns[:6], expected, rtol=4e-9)
-    total = jnp.sum(losses_of(6, speed=unknowns[12], **FEEDBACK)(unknowns[:6]).heat)
+    total = jax.jit(lambda at: jnp.sum(losses_of(6, speed=at[12], **FEEDBACK)(at[:6]).heat))(unknowns)
     np.testing.assert_allclose(total, 2342.101847, rtol=DIGITS)
-    assert abs(float(thermal_margin(slopes_of(unknowns[12], unknowns[:6])))) < 1e-9
+    assert abs(float(stability_at(float(unknowns[12]), unknowns[:6])[1])) < 1e-9
     # towards the fold the margin falls to 0 as the root of the distance
-    below = [float(with_stability(unknowns[12] - away).margin) for away in (1e-1, 1e-3)]
+    below = [float(with_stability(float(unknowns[12]) - away).margin) for away in (1e-1, 1e-3)]
     np.testing.assert_allclose(below[0] / below[1], 10.0, rtol=0.01)
     for beyond in (9237.2, 9250.0, 10160.0):
         state = with_stability(beyond)
@@ -196,7 +251,7 @@ def test_fold():
 @pytest.mark.parametrize("jacobian", ["when_needed", "never"])
 def test_runaway_is_found_with_and_without_the_jacobian(jacobian):
     for speed, expected in ((9250.0, Status.THERMAL_RUNAWAY), (9000.0, Status.CONVERGED)):
-        state = solved(speed, jacobian=jacobian)
+        state = six(speed, **FEEDBACK, jacobian=jacobian)
         assert Status(int(state.status)) == expected
         assert int(state.derivatives) == 0 or jacobian == "when_needed"
 
@@ -207,34 +262,35 @@ def test_least_model_of_a_fold(size):
     b = 0.02 / 5.0
     root = np.sqrt(1.0 - 4.0 * b * size)
     cool, hot = ((1.0 - 2.0 * b * size + sign * root) / (2.0 * b * b * size) for sign in (-1.0, 1.0))
-    state = solve_network(rings(), ring_losses(size), options=ThermalOptions(stability=True))
+    state = two_rings(size)
     np.testing.assert_allclose(state.total, cool, rtol=DIGITS)
     np.testing.assert_allclose(state.margin, root, rtol=1e-8)
     start = AMBIENT + hot * jnp.asarray([1 / 5.0 + 1 / 10.0, 1 / 10.0]) + 1.0
-    above = solve_network(rings(), ring_losses(size), start=start, limit=jnp.inf)
+    above = two_rings(size, start, jnp.inf)
     np.testing.assert_allclose(above.total, hot, rtol=DIGITS)
     if size == 31.25:
         np.testing.assert_allclose((state.total, above.total), (42.89321881, 1457.106781), rtol=DIGITS)
+        capacity = jnp.asarray([100.0, 200.0])
+        rate_at = jax.jit(lambda there: thermal_rate(slopes_at(rings(), ring_losses(size), there), capacity))
         for there, rate in ((state, -0.01944521563), (above, 0.02666091101)):
-            slopes = slopes_at(rings(), ring_losses(size), there.temperatures)
-            np.testing.assert_allclose(thermal_rate(slopes, jnp.asarray([100.0, 200.0])), rate, rtol=DIGITS)
+            np.testing.assert_allclose(rate_at(there.temperatures), rate, rtol=DIGITS)
         # the hot state is no state below the limit
-        limited = solve_network(rings(), ring_losses(size), start=start)
+        limited = two_rings(size, start)
         assert Status(int(limited.status)) == Status.THERMAL_RUNAWAY
 
 
 def test_fold_of_the_least_model():
-    state = solve_network(rings(), ring_losses(62.5 * (1.0 - 1e-8)), options=ThermalOptions(stability=True))
+    state = two_rings(62.5 * (1.0 - 1e-8))
     np.testing.assert_allclose(state.total, 250.0, rtol=3e-4)
     np.testing.assert_allclose(state.temperature(INNER) - state.temperature(OUTER), 50.0, rtol=3e-4)
     np.testing.assert_allclose(state.margin, 1e-4, rtol=1e-2)
-    beyond = solve_network(rings(), ring_losses(63.0))
+    beyond = two_rings(63.0)
     assert Status(int(beyond.status)) == Status.THERMAL_RUNAWAY
 
 
 @pytest.mark.parametrize("speed", [4000.0, 7000.0, 8000.0, 9000.0, 9230.0])
 def test_evaluations_from_four_starts(speed):
-    states = [plainly(speed, jnp.full(6, start)) for start in (293.15, 313.15, 350.0, 400.0)]
+    states = [six(speed, **FEEDBACK, start=start) for start in (293.15, 313.15, 350.0, 400.0)]
     counts = [int(state.solves) for state in states]
     assert min(counts) >= 8
     assert max(counts) <= 15
@@ -252,7 +308,7 @@ def test_losses_are_traced_once():
         traces.append(1)
         return losses_of(6)(temperatures)
 
-    solve_network(six_nodes(), losses, options=ThermalOptions(stability=True))
+    jax.eval_shape(lambda: solve_network(six_nodes(), losses, options=ThermalOptions(stability=True)))
     assert len(traces) == 1
 
 
@@ -331,56 +387,52 @@ def test_a_lane_that_runs_away_changes_no_other():
 @pytest.mark.parametrize("jacobian", ["when_needed", "never"])
 def test_failure_of_the_losses_is_that_of_the_whole(jacobian):
     """Losses that cannot be computed above 320 K, where the root is; and nowhere."""
-
-    def failing(above):
-        def losses(temperatures):
-            heat = losses_of(6)(temperatures).heat
-            failed = jnp.max(temperatures) > above
-            return NodeHeat(
-                jnp.where(failed, jnp.nan, heat), jnp.where(failed, int(Status.NO_EQUILIBRIUM), int(Status.CONVERGED))
-            )
-
-        return losses
-
-    options = ThermalOptions(jacobian=jacobian)
     for above in (320.0, 300.0):
-        state = solve_network(six_nodes(), failing(above), options=options)
+        state = six(above=above, jacobian=jacobian)
         assert Status(int(state.status)) == Status.NO_EQUILIBRIUM
         assert np.all(np.isnan(np.asarray(state.temperatures)))
         assert np.all(np.isfinite(np.asarray(state.last)))
     # a trial that fails is shortened, where the root is below
-    state = solve_network(six_nodes(), failing(330.0), options=options)
+    state = six(above=330.0, jacobian=jacobian)
     assert Status(int(state.status)) == Status.CONVERGED
-    np.testing.assert_allclose(state.temperatures, CASES["six"][2], rtol=DIGITS)
+    np.testing.assert_allclose(state.temperatures, CASES["six"][3], rtol=DIGITS)
 
 
 def test_conductances_that_come_with_the_losses():
     """A conductance that the losses add is one that the network has; its derivative is in K."""
-    plain = losses_of(6)
-    pairs = {("shaft", "oil"): 2.0}
+    size, cooling = 30.0, 0.1
 
     def adding(temperatures):
-        more = conductances_between(NODES[6], pairs) * temperatures[4] / 320.0
-        return NodeHeat(plain(temperatures).heat, between=more, to_ambient=jnp.full(6, 0.1))
+        more = conductances_between((INNER, OUTER), {(INNER, OUTER): 2.0}) * temperatures[0] / 320.0
+        heat = ring_losses(size)(temperatures).heat
+        return NodeHeat(heat, between=more, to_ambient=jnp.full(2, cooling))
 
-    def inside(temperature):
-        return 0.1 * jnp.ones_like(temperature)
+    @jax.jit
+    def found():
+        state = solve_network(rings(), adding, options=ThermalOptions(jacobian="never"))
+        return state, slopes_at(rings(), adding, state.temperatures).conduction
 
-    state = solve_network(six_nodes(), adding, options=ThermalOptions(stability=True))
-    between = np.asarray(six_nodes().between) + 2.0 * np.asarray(
-        conductances_between(NODES[6], {("shaft", "oil"): 1.0})
+    state, conduction = found()
+    inner, outer = map(float, state.temperatures)
+    between = 5.0 + 2.0 * inner / 320.0
+    np.testing.assert_allclose(state.total, size * (1.0 + 0.02 * (inner - outer)) ** 2, rtol=1e-12)
+    np.testing.assert_allclose(state.total, between * (inner - outer) + cooling * (inner - AMBIENT), rtol=1e-10)
+    np.testing.assert_allclose(
+        state.total, cooling * (inner - AMBIENT) + (10.0 + cooling) * (outer - AMBIENT), rtol=1e-10
     )
-    slopes = slopes_at(six_nodes(), adding, state.temperatures)
-    # the conductance that grows with the shaft's temperature
-    grown = between[4].sum() - 2.0 + 2.0 * state.temperatures[4] / 320.0 + 0.8 + 0.1
-    grown = grown - 2.0 / 320.0 * (state.temperatures[3] - state.temperatures[4])
-    np.testing.assert_allclose(slopes.conduction[4, 4], grown, rtol=1e-12)
     assert abs(float(state.balance_error)) < 1e-10
-    # a function of the node's temperature in the network does the same as the losses' own
-    several = network_of((INNER, OUTER), {(INNER, OUTER): 5.0}, {OUTER: 10.0, INNER: inside}, AMBIENT)
-    same = network_of((INNER, OUTER), {(INNER, OUTER): 5.0}, {OUTER: 10.0, INNER: 0.1}, AMBIENT)
-    found = [solve_network(one, ring_losses(30.0)).temperatures for one in (several, same)]
-    np.testing.assert_allclose(found[0], found[1], rtol=1e-12)
+    # the conductance that grows with the inner ring's temperature
+    grown = 2.0 / 320.0 * (inner - outer)
+    expected = [[between + cooling + grown, -between], [-between - grown, between + 10.0 + cooling]]
+    np.testing.assert_allclose(conduction, expected, rtol=1e-12)
+
+
+def test_a_conductance_may_be_a_function_of_the_temperature():
+    inside = lambda temperature: 0.1 * jnp.ones_like(temperature)
+    network = network_of((INNER, OUTER), {(INNER, OUTER): 5.0}, {OUTER: 10.0, INNER: inside}, AMBIENT)
+    never = ThermalOptions(jacobian="never")
+    state = jax.jit(lambda: solve_network(network, ring_losses(30.0), options=never))()
+    np.testing.assert_allclose(state.temperatures, two_rings(30.0, cooling=0.1).temperatures, rtol=1e-12)
 
 
 @pytest.mark.slow
@@ -397,14 +449,23 @@ def test_functions_of_a_network_may_close_over_traced_numbers():
 
 @pytest.mark.parametrize("jacobian", ["when_needed", "never"])
 def test_no_loss_at_all(jacobian):
-    """Heat only flows from the oil to the ambient."""
-    options = ThermalOptions(jacobian=jacobian)
-    state = solve_network(one_node(), lambda _: NodeHeat(jnp.zeros(1)), options=options)
-    assert Status(int(state.status)) == Status.CONVERGED
-    np.testing.assert_allclose(state.temperatures, (20.0 * 313.15 + 2.0 * 293.15) / 22.0, rtol=1e-12)
-    same = network_of(1, {}, {"bearing": 2.0}, AMBIENT)
-    state = solve_network(same, lambda _: NodeHeat(jnp.zeros(1)), options=options)
-    np.testing.assert_allclose(state.temperatures, AMBIENT, rtol=1e-14)
+    """Heat only flows from the oil to the ambient; without a flow there is none, at rest and on the way there."""
+
+    @jax.jit
+    def state_of(rate, start):
+        network = network_of(1, {}, {"bearing": 2.0}, AMBIENT, OilFlow(rate, INLET))
+        nothing = lambda _: NodeHeat(jnp.zeros(1))
+        return solve_network(network, nothing, start=start[None], options=ThermalOptions(jacobian=jacobian))
+
+    with_oil = (20.0 * INLET + 2.0 * AMBIENT) / 22.0
+    for rate, start, expected, rtol in (
+        (20.0, INLET, with_oil, 1e-12),
+        (0.0, AMBIENT, AMBIENT, 1e-14),
+        (0.0, INLET, AMBIENT, 1e-12),
+    ):
+        state = state_of(jnp.asarray(rate), jnp.asarray(start))
+        assert Status(int(state.status)) == Status.CONVERGED
+        np.testing.assert_allclose(state.temperatures, expected, rtol=rtol)
 
 
 def test_wrong_networks_are_refused():

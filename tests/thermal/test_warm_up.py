@@ -1,5 +1,7 @@
 """Temperatures in time: check values, energies, overheating, limits of a start, tables of time."""
 
+import dataclasses
+
 import diffrax as dfx
 import jax
 import jax.numpy as jnp
@@ -11,7 +13,7 @@ from jaxbearing.numerics.integrator import IntegratorOptions
 from jaxbearing.numerics.status import Status
 from jaxbearing.thermal.network import NodeHeat, OilFlow, network_of
 from jaxbearing.thermal.solve import solve_network
-from jaxbearing.thermal.warming_up import warm_up
+from jaxbearing.thermal.warming_up import usual_options, warm_up
 
 DAY = 86400.0
 
@@ -23,9 +25,35 @@ def run(speed, times, tolerance=1e-5, settings=None, **options):
     return warm_up(six_nodes(), always, CAPACITY, jnp.asarray(times), options=given, **options)
 
 
+@jax.jit
+def run_at(numbers, times, tolerance, start, limit):
+    speed, settings = numbers["speed"], {name: value for name, value in numbers.items() if name != "speed"}
+    return run(speed, times, tolerance, settings, start=start, limit=limit, adjoint=dfx.ForwardMode())
+
+
+def six(speed, times, tolerance, start=AMBIENT, limit=523.15, f1=3e-4, preload=2000.0, feedback=0.0):
+    """One program for four instants, whatever the numbers."""
+    numbers = {"speed": speed, "f1": f1, "preload": preload, "feedback": feedback}
+    numbers, tolerance, limit = jax.tree.map(lambda one: jnp.asarray(one, dtype=float), (numbers, tolerance, limit))
+    return run_at(numbers, jnp.asarray(times), tolerance, jnp.full(6, start), limit)
+
+
+def with_feedback(speed, start, limit):
+    return six(speed, [1200.0, 2400.0, 3600.0, 3 * DAY], 1e-7, start, limit, **FEEDBACK)
+
+
+@jax.jit
+def steady_at(speed, f1, preload, feedback):
+    return solve_network(six_nodes(), losses_of(6, speed=speed, f1=f1, preload=preload, feedback=feedback))
+
+
+def steady(speed=6000.0, f1=3e-4, preload=2000.0, feedback=0.0):
+    return steady_at(speed, f1, preload, feedback)
+
+
 def test_warm_up_and_its_end():
     """Instants of the sheet, 1e-9; after six hours the steady state."""
-    found = jax.jit(lambda: run(6000.0, [10.0, 60.0, 600.0, 21600.0], 1e-11))()
+    found = six(6000.0, [10.0, 60.0, 600.0, 21600.0], 1e-11)
     expected = [
         [303.8217199, 300.7336504, 315.568946, 309.8607598, 293.5404936, 293.2815514],
         [312.4508008, 307.950065, 321.744131, 314.3870309, 298.1784092, 294.9830119],
@@ -34,14 +62,13 @@ def test_warm_up_and_its_end():
     assert int(found.status) == Status.CONVERGED
     np.testing.assert_allclose(found.temperatures[:3], expected, rtol=1e-9)
     np.testing.assert_allclose(found.total[:3], [329.5336485, 272.251754, 234.622106], rtol=1e-9)
-    steady = solve_network(six_nodes(), losses_of(6))
-    np.testing.assert_allclose(found.temperatures[3], steady.temperatures, rtol=1e-11)
+    np.testing.assert_allclose(found.temperatures[3], steady().temperatures, rtol=1e-11)
     assert abs(float(found.energy_error)) < 1e-9
 
 
 def test_tolerance_and_energy():
     """With the default tolerance a warm-up takes some fifty steps; its energies close to ten times it."""
-    found = jax.jit(lambda: run(6000.0, [60.0, 21600.0]))()
+    found = six(6000.0, [60.0, 120.0, 600.0, 21600.0], IntegratorOptions().tolerance)
     assert int(found.accepted) < 150
     assert abs(float(found.energy_error)) < 10 * 1e-5
     stored = jnp.sum(CAPACITY * (found.last - AMBIENT))
@@ -50,32 +77,27 @@ def test_tolerance_and_energy():
     np.testing.assert_allclose(found.temperatures[0, 0], 312.4508008, atol=2e-3)
 
 
-def test_one_node_with_a_constant_loss_is_an_exponential():
+@jax.jit
+def one_node(loss, fall, noise, time, tolerance):
+    """One node of 22 W/K, whose loss falls with its temperature and is noisy."""
     network = network_of(1, {}, {"bearing": 2.0}, AMBIENT, OilFlow(20.0, AMBIENT))
-    heat = lambda temperatures, time: NodeHeat(jnp.full(1, 100.0))
-    options = IntegratorOptions(solver="kvaerno5", tolerance=1e-11)
-    found = warm_up(network, heat, jnp.asarray([400.0]), jnp.asarray([30.0]), options=options)
+    noisy = lambda temperatures: 1.0 + noise * jnp.sin(1e12 * jax.lax.stop_gradient(temperatures))
+    heat = lambda temperatures, time: NodeHeat(loss * jnp.exp(-fall * (temperatures - AMBIENT)) * noisy(temperatures))
+    options = dataclasses.replace(usual_options(), tolerance=tolerance)
+    return warm_up(network, heat, jnp.asarray([400.0]), jnp.atleast_1d(time), options=options)
+
+
+def test_one_node_with_a_constant_loss_is_an_exponential():
+    found = one_node(100.0, 0.0, 0.0, 30.0, 1e-11)
     np.testing.assert_allclose(found.temperatures[0, 0], 296.8225004, rtol=1e-9)
     np.testing.assert_allclose(found.temperatures[0, 0], 293.15 + 100.0 / 22.0 * -np.expm1(-1.65), rtol=1e-12)
 
 
 def test_noise_of_the_losses_rejects_no_step():
     """Near the steady state all that changes between two iterates is noise, here of 1e-9 of the losses."""
-    network = network_of(1, {}, {"bearing": 2.0}, AMBIENT, OilFlow(20.0, AMBIENT))
-    noise = lambda temperatures: 1e-9 * jnp.sin(1e12 * jax.lax.stop_gradient(temperatures))
-    heat = lambda temperatures, time: NodeHeat(
-        1e4 * jnp.exp(-0.02 * (temperatures - AMBIENT)) * (1.0 + noise(temperatures))
-    )
-    found = jax.jit(lambda: warm_up(network, heat, jnp.asarray([400.0]), jnp.asarray([1e6])))()
+    found = one_node(1e4, 0.02, 1e-9, 1e6, float(usual_options().tolerance))
     assert int(found.status) == Status.CONVERGED
     assert int(found.rejected) <= 1
-
-
-with_feedback = jax.jit(
-    lambda speed, start, limit: run(
-        speed, [3600.0, 3 * DAY], 1e-7, FEEDBACK, start=jnp.full(6, start), limit=jnp.asarray(limit)
-    )
-)
 
 
 @pytest.mark.slow
@@ -99,8 +121,7 @@ def test_limit_of_a_start(start, speed):
     reached, beyond = (with_feedback(speed + more, start, 600.0) for more in (0.0, 1.0))
     assert Status(int(reached.status)) == Status.CONVERGED
     assert Status(int(beyond.status)) == Status.THERMAL_RUNAWAY
-    steady = solve_network(six_nodes(), losses_of(6, speed=speed + 1.0, **FEEDBACK))
-    assert int(steady.status) == Status.CONVERGED
+    assert int(steady(speed + 1.0, **FEEDBACK).status) == Status.CONVERGED
     if start == AMBIENT:
         cooler, hotter = (with_feedback(one, start, 523.15) for one in (7770.0, 7772.0))
         assert Status(int(cooler.status)) == Status.CONVERGED
@@ -109,8 +130,7 @@ def test_limit_of_a_start(start, speed):
 
 def test_ends_at_the_steady_state_with_feedback():
     found = with_feedback(7000.0, AMBIENT, 523.15)
-    steady = solve_network(six_nodes(), losses_of(6, speed=7000.0, **FEEDBACK))
-    np.testing.assert_allclose(found.last, steady.temperatures, rtol=1e-8)
+    np.testing.assert_allclose(found.last, steady(7000.0, **FEEDBACK).temperatures, rtol=1e-8)
 
 
 @pytest.mark.slow
@@ -126,8 +146,8 @@ def test_tables_of_time():
         jumps=jnp.asarray([100.0, 200.0]),
         options=IntegratorOptions(solver="kvaerno5", tolerance=1e-8, max_steps=20_000),
     )
-    steady = solve_network(six_nodes(inlet=INLET - 10.0), losses_of(6))
-    np.testing.assert_allclose(found.temperatures[2], steady.temperatures, rtol=1e-9)
+    end = solve_network(six_nodes(inlet=INLET - 10.0), losses_of(6))
+    np.testing.assert_allclose(found.temperatures[2], end.temperatures, rtol=1e-9)
     assert float(found.total[1]) > 1.5 * float(found.total[0])
     assert abs(float(found.energy_error)) < 1e-7
 
