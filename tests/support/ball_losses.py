@@ -2,6 +2,15 @@
 
 import numpy as np
 
+from jaxbearing.contacts import DistributedTraction, HamrockDowsonCentral, NoThermalReduction, ReeEyring, Resolution
+
+SIMPLE = {
+    "contact.traction": DistributedTraction(ReeEyring(), Resolution(12, 8), elastic=False),
+    "contact.film": HamrockDowsonCentral(),
+    "contact.thermal": NoThermalReduction(),
+}
+"""Changes of a scene: forces and powers balance with any laws of the contacts."""
+
 
 def check_losses(loss, drive_power, pieces):
     """The torques that drive the rings take the power that all interactions dissipate, whose parts add up; asked: 1e-8.

@@ -47,7 +47,8 @@ ENERGY = {
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ENERGY)
 def test_energy_closes(name):
-    """In equilibrium; among the fast tests, `test_ball_options` has all interactions with the simplest laws."""
+    """In equilibrium; among the fast tests, with the simplest laws of the contacts, `test_ball_options` has all
+    interactions and `test_line_contact_bridge` the solve of balls without a cage."""
     solution = jb.solve(turbine(**ENERGY[name]))
     check_losses(solution.power_loss, solution.drive_power, solution.raceway_power)
     if name == "turbine":

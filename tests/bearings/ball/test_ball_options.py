@@ -8,7 +8,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from ball_losses import check_losses
+from ball_losses import SIMPLE, check_losses
 
 import jaxbearing as jb
 from jaxbearing.bearings.ball.build import build_core, build_lubricated
@@ -20,9 +20,7 @@ from jaxbearing.contacts import (
     ContactPatch,
     DistributedTraction,
     FilmHeating,
-    HamrockDowsonCentral,
     NijenbanningVennerMoes,
-    NoThermalReduction,
     PointLaws,
     ReeEyring,
     Resolution,
@@ -36,12 +34,6 @@ from jaxbearing.scenes.errors import SceneError
 
 RPM = 2.0 * np.pi / 60.0
 COARSE = {"contact.traction.resolution": Resolution(12, 8, True)}
-SIMPLE = {
-    "contact.traction": DistributedTraction(ReeEyring(), Resolution(12, 8), elastic=False),
-    "contact.film": HamrockDowsonCentral(),
-    "contact.thermal": NoThermalReduction(),
-}
-"""Forces and powers balance with any laws of the contacts."""
 COMBINED = {"geometry.n_balls": 8, "operation.radial_load": 3e3, "operation.axial_load": 16e3}
 DRAGGED = {"drag.coefficient": 20.0}
 """Films in the pockets below a twentieth of the clearance: only there the friction of front and rear differs."""
@@ -55,10 +47,11 @@ def turbine(**changes):
 
 
 FORCES = {
-    "inner guidance": {},
-    "outer guidance": {"cage.guidance": "outer_ring"},
-    "capped couple": {"kinematics.gyroscopic": CappedCouple()},
-    "turning back": {"operation.inner_speed": -12500 * RPM},
+    "inner guidance": SIMPLE,
+    "outer guidance": SIMPLE | {"cage.guidance": "outer_ring"},
+    "capped couple": SIMPLE | {"kinematics.gyroscopic": CappedCouple()},
+    "turning back": SIMPLE | {"operation.inner_speed": -12500 * RPM},
+    "laws of the preset": COARSE,
 }
 
 
@@ -66,7 +59,7 @@ FORCES = {
 def test_forces_on_balls_cage_and_ring_balance(name):
     """Every body by itself and all together, to 1e-9 of the load, from the forces of the interactions; and the torques
     that drive the rings take the power that all interactions dissipate."""
-    scene = turbine(**SIMPLE, **COMBINED, **DRAGGED, **FORCES[name])
+    scene = turbine(**COMBINED, **DRAGGED, **FORCES[name])
     status, state, azimuth, centrifugal, totals, pieces = jax.tree.map(np.asarray, forces_of(scene))
     assert int(status) == 0
     check_losses(totals.power_loss, totals.drive_power, pieces)

@@ -222,6 +222,9 @@ def test_tilting_ring_between_races_that_are_not_round():
 
 @pytest.mark.slow
 def test_derivatives():
+    """By a number of the ring and one of its roundness; among the fast tests those of rollers are in
+    tests/bearings/test_inner_rings.py::test_derivatives."""
+
     def most(housing, height):
         oval = OuterRoundness(lobe_order=[2.0], lobe_height=jnp.stack([height]), lobe_angle=[0.3])
         scene = on_housing(flat(), housing_stiffness=housing, harmonics=4)
