@@ -110,8 +110,8 @@ def results(scene):
     return solution.converged, solution.ring, balls, (e.control_angle_inner, e.control_angle_outer)
 
 
-WHOLE = ("T15", "light", "fast")
-"""Of one structure, that of the tests below."""
+WHOLE = ("T15", "light", "fast", "shared", "capped")
+"""Three of one structure, that of the tests below, and one of each law of the couple."""
 
 
 @pytest.mark.parametrize("name", CHECKS)
@@ -231,6 +231,10 @@ HARD = {
     "light and fast": bearing(
         BallGeometry(20, 167.54e-3, 22.225e-3, 0.52, 0.515, contact_angle=np.radians(27.0)), 20000, 200.0, 0.0
     ),
+}
+HARD |= {
+    f"{name}, one ball for all": HARD[name].replace({"operation.radial_load": None})
+    for name in ("overspeed", "backwards", "both rings", "light and fast")
 }
 LONG = ("steep, radial", "steep, radial, nearly no thrust", "radial with clearance", "one ball loaded")
 LONG += ("three balls", "hundred balls")
@@ -367,9 +371,13 @@ def rolling(films, axial, radial):
     return jb.load_scene("turbine_ball").replace(parts | loads)
 
 
-@pytest.mark.parametrize("films", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["dry", "films"])
-def test_common_orbit_under_axial_load_changes_nothing(films):
-    scene = rolling(films, 40e3, 0.0)
+@pytest.mark.parametrize(
+    ("films", "radial"),
+    [(False, 0.0), (False, None), pytest.param(True, None, marks=pytest.mark.slow)],
+    ids=["dry", "dry, one ball for all", "films, one ball for all"],
+)
+def test_common_orbit_under_axial_load_changes_nothing(films, radial):
+    scene = rolling(films, 40e3, radial)
     own, common = jb.solve(scene), jb.solve(scene.replace(COMMON))
     assert common.unknowns == own.unknowns + 1
     for name in ("load_inner", "load_outer", "contact_angle_outer", "orbital_speed", "spin_speed"):
