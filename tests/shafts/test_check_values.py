@@ -227,12 +227,14 @@ def test_small_preloads_close_to_the_first_contact(mounted_angular):
 
 
 def test_small_preloads_of_balls_with_play():
-    """The first contact is at L sin(arccos(1 - Pd/(2 L))), with the distance L of the groove centres."""
+    """The first contact is at L sin(arccos(1 - Pd/(2 L))), with the distance L of the groove centres; the derivative of
+    the preload shown is 1."""
     distance = (0.515 + 0.525 - 1.0) * 7.938e-3
     play = distance * np.sin(np.arccos(1.0 - 12e-6 / (2.0 * distance)))
-    solve = jax.jit(lambda force: mounted(DEEP_GROOVE, force, 1e-4))
-    closures, shown, _ = np.transpose([solve(force) for force in FORCES])
+    solve = jax.jit(lambda force: jax.jvp(lambda force: mounted(DEEP_GROOVE, force, 1e-4), (force,), (1.0,)))
+    (closures, shown, _), (_, slopes, _) = np.transpose([solve(force) for force in FORCES], (1, 2, 0))
     close(shown, FORCES, 1e-7, 1e-11)
+    close(slopes[:-1], 1.0, 1e-6)
     check_first_contact(closures, play)
 
 

@@ -56,16 +56,6 @@ def unbalance_of(scene: AbstractBearing, found, azimuth: np.ndarray, force: np.n
     return float(np.max(np.abs(rows)) / np.sum(force))
 
 
-def check_no_harmonics(rigid, none, name):
-    """A ring without harmonics is the rigid one, in the same program.
-
-    **Arguments:** solutions without the ring and with it; `name`: of its result.
-    """
-    np.testing.assert_array_equal(rigid.elements.load_inner, none.elements.load_inner)
-    assert rigid.unknowns == none.unknowns
-    assert getattr(none, name) is None
-
-
 def check_derivatives(result: Callable[..., Array], at: tuple[float, ...], rtol: float = 1e-6, forward: bool = True):
     """Derivatives in reverse mode agree with central differences, and those in forward mode with these.
 
