@@ -78,12 +78,11 @@ def test_turned_loads_and_held_rings(name):
     """Loads turned forward act as elements turned back, and displacements turn with the loads; the ring held there
     needs them."""
     scene = bearing(name)
+    skewed = scene.replace({"geometry.first_element_angle": -TURN})
+    assert "lateral" in skewed.unknown_freedoms
+    assert "lateral" not in scene.unknown_freedoms
     # a lateral load of 0 beside it: the same program
-    back = jb.solve(
-        scene.replace({"geometry.first_element_angle": -TURN}).at_operation(
-            radial_load=scene.operation.radial_load, radial_load_lateral=0.0
-        )
-    )
+    back = jb.solve(skewed.at_operation(radial_load=scene.operation.radial_load, radial_load_lateral=0.0))
     across = turned(scene.replace({"geometry.first_element_angle": 0.0}))
     found = jb.solve(across)
     assert_alike(found, back)
@@ -208,6 +207,7 @@ def test_a_batch_of_displacements_of_which_one_is_no_number():
     assert converged.tolist() == [True, False, True]
     assert np.all(all_converged)
     np.testing.assert_array_equal(force[::2], good[::2])
+    np.testing.assert_allclose(force[2], jb.solve(scene).force, rtol=1e-9, atol=1e-6)
     assert np.all(np.isnan(force[1]))
 
 

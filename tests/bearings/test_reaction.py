@@ -256,13 +256,25 @@ def test_closure_is_an_axial_displacement(row):
 
 
 def test_flanges_over_displacements():
-    """One at -x, one at +x."""
-    scene, place = ROWS["A4"][0], np.zeros(5)
-    for axial in (-120e-6, -50e-6, 0.0, 50.01e-6, 90e-6):
-        place[0], pressed = axial, max(abs(axial) - 50e-6, 0.0)
-        found = jb.reaction(scene, place)
-        np.testing.assert_allclose(found.force[0], np.sign(axial) * 3e8 * pressed ** (10 / 9), rtol=1e-12)
-        np.testing.assert_allclose(found.stiffness[0, 0], 10 / 9 * 3e8 * pressed ** (1 / 9), rtol=1e-12)
+    """One at -x, one at +x; alone and in a batch, with the derivative, which is 0 at the touch."""
+    scene, (_, *held) = ROWS["A4"][0], ROWS["A4"][1] * MICRO
+    place = lambda axial: jnp.stack([axial, *held])
+
+    def force(axial):
+        found = jb.reaction(scene, place(axial), throw=False)
+        return found.force[0], (found.force, found.stiffness)
+
+    axials = np.array([-120e-6, -50e-6, 0.0, 50e-6, 50.01e-6, 90e-6])
+    pressed = np.maximum(np.abs(axials) - 50e-6, 0.0)
+    (along, batch), slopes = jax.jit(jax.vmap(jax.value_and_grad(force, has_aux=True)))(axials)
+    np.testing.assert_allclose(along, np.sign(axials) * 3e8 * pressed ** (10 / 9), rtol=1e-12)
+    np.testing.assert_allclose(slopes, 10 / 9 * 3e8 * pressed ** (1 / 9), rtol=1e-12)
+    for axial, *lane in zip(axials, *batch, strict=True):
+        found = jb.reaction(scene, place(axial))
+        for one, alone in zip(lane, (found.force, found.stiffness), strict=True):
+            np.testing.assert_allclose(one, alone, rtol=1e-9, atol=1e-9 * np.max(np.abs(alone)))
+        np.testing.assert_allclose(found.force[0], lane[0][0], rtol=1e-12)
+        np.testing.assert_allclose(found.stiffness[0, 0], lane[1][0, 0], rtol=1e-12)
 
 
 def test_ways_to_give_displacements():

@@ -220,6 +220,10 @@ def test_derivatives_of_a_solution():
             np.testing.assert_allclose(slopes[result][i], expected, rtol=1e-6, atol=1e-9 * scale)
     for load in (0.0, 300.0):
         assert np.all(np.isfinite(slopes_at(load, K, GAP)[0]))
+    # forward mode, all three numbers together; the slope of `reaction`: `test_reaction`
+    along = jax.jvp(place, point, point)[1]
+    parts = np.asarray(slopes) * np.asarray(point)
+    np.testing.assert_allclose(along, parts.sum(axis=1), rtol=1e-9, atol=1e-9 * np.max(np.abs(parts[2])))
 
 
 def test_a_failed_lane_spoils_no_derivative():
