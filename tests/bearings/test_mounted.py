@@ -165,7 +165,7 @@ DIRECT = jb.NewtonOptions(continuation=False)
 @pytest.fixture(scope="module")
 def mounted():
     scene = jb.load_scene("deep_groove_6205", SEATS | WARM)
-    return scene, jb.solve(scene, options=DIRECT)
+    return scene, jb.solve(scene)
 
 
 def test_parts_add_up(mounted):

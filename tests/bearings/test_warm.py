@@ -44,8 +44,7 @@ GIVEN = {"conductance__bearing_ambient": "20 W/K"}
     [
         ("roller", 1),
         ("roller", 4),
-        # two nodes more, of shaft and housing, outside of the same bearing
-        pytest.param("roller", 6, marks=SLOW),
+        ("roller", 6),
         pytest.param("ball", 4, marks=SLOW),
         pytest.param("ball", 1, marks=SLOW),
         pytest.param("ball", 6, marks=SLOW),
