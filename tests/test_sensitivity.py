@@ -123,7 +123,6 @@ FAMILIES = [
         {"life", "modified_life"},
         {"operation.radial_load": 1e-3, "geometry.ball_diameter": 1e-5, "rating.viscosity_ratio": 1e-3},
         id="ball-dry",
-        marks=pytest.mark.slow,
     ),
     pytest.param(POINT, {"traction"}, {"operation.slide_to_roll": 1e-3, "oil.rheology.stress": 1e-3}, id="two-disk"),
     pytest.param(

@@ -4,12 +4,14 @@ behind, and one sentence says so."""
 import contextlib
 import json
 import os
+import subprocess
 import sys
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
+from command_process import environment
 from filled_results import MadeUpProgram, history_of, solution_of
 from fit_results import MEDIAN, made_up
 from full_places import REASONS, left, no_room, small_folder
@@ -125,3 +127,10 @@ def test_files_are_written_although_nobody_reads_the_screen(jaxbearing_command, 
         result = jaxbearing_command("solve", *DRY, "--json", "--out", "a.nc")
     assert result == (1, "", "")
     assert left(folder) == ["a.nc"]
+
+
+def test_a_process_whose_reader_has_gone_ends_without_a_word(tmp_path):
+    """Neither the command nor the interpreter, which flushes at exit, says anything."""
+    line = f"'{sys.executable}' -m jaxbearing scenes | true; exit ${{PIPESTATUS[0]}}"
+    done = subprocess.run(["bash", "-c", line], cwd=tmp_path, env=environment(), capture_output=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (1, b"", b"")

@@ -28,9 +28,9 @@ def rates(time, state, args, found):
     return pull, found
 
 
-def run(name, tolerance, drive=1.0, end=0.5):
+def run(name, tolerance, drive=1.0, end=0.5, dense=False):
     if name in METHODS:
-        method = KeptJacobian(METHODS[name](), rates, lambda t, y, a: (), tolerance, idle=1)
+        method = KeptJacobian(METHODS[name](), rates, lambda t, y, a: (), tolerance, idle=1, dense=dense)
     else:
         method = {"dopri8": dfx.Dopri8, "tsit5": dfx.Tsit5}[name]()
     return dfx.diffeqsolve(
@@ -50,22 +50,22 @@ def run(name, tolerance, drive=1.0, end=0.5):
     )
 
 
-program = jax.jit(run, static_argnums=0)
+program = jax.jit(run, static_argnums=0, static_argnames="dense")
 """One for each method: tolerance, drive and end are numbers."""
 
 
-def motion(name, tolerance, drive=1.0, end=0.5):
-    return program(name, *(jnp.asarray(number) for number in (tolerance, drive, end)))
+def motion(name, tolerance, drive=1.0, end=0.5, dense=False):
+    return program(name, *(jnp.asarray(number) for number in (tolerance, drive, end)), dense=dense)
 
 
 def end_of(found):
     return np.concatenate([np.ravel(found.ys.elements[-1]), found.ys.globals[-1]])
 
 
-@pytest.mark.parametrize("name", METHODS)
-def test_motion_and_counts(name):
+@pytest.mark.parametrize(("name", "dense"), [*((name, False) for name in METHODS), ("kvaerno5", True)])
+def test_motion_and_counts(name, dense):
     """As exact as its tolerance, with a Jacobian for several steps and at most three evaluations in a stage."""
-    found, exact = motion(name, 1e-6), end_of(motion("dopri8", 1e-11))
+    found, exact = motion(name, 1e-6, dense=dense), end_of(motion("dopri8", 1e-11))
     np.testing.assert_allclose(end_of(found), exact, atol=2e-5)
     steps, counts = int(found.stats["num_accepted_steps"]), found.solver_state.counts
     assert int(counts.jacobians) < 0.5 * steps

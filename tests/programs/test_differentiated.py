@@ -49,7 +49,10 @@ inside_at = jax.jit(lambda load, speed: Inside(*jax.value_and_grad(shift, (0, 1)
 
 @pytest.fixture(scope="module")
 def inside():
-    return inside_at(2000.0, 900.0)
+    found = inside_at(2000.0, 900.0)
+    for leaf in jax.tree.leaves(found):
+        assert np.all(np.isfinite(leaf))
+    return found
 
 
 def curvatures():
