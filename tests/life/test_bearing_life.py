@@ -251,3 +251,9 @@ def test_built_in_balls_have_the_rating_of_catalogues(name, low, high):
     own = scene.replace({"rating": Rating(grooves="scene")})
     assert any("conformities of the scene" in note for note in own.assumptions())
     assert abs(catalogue_life(own).dynamic_capacity / capacity - 1.0) > 0.04
+
+
+def test_a_solution_has_the_rating_of_catalogues_and_says_how():
+    solution = jb.solve(jb.load_scene("angular_contact_218").replace({"rating": Rating()}))
+    assert 0.97 * 106e3 < solution.life.dynamic_capacity < 1.03 * 108e3
+    assert any("conformity 0.52" in note for note in solution.notes)

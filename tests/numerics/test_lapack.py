@@ -94,7 +94,7 @@ def test_many_lanes_of_two_solves_end():
         solves = (lapack.solve, lambda m, r: lapack.lowest_eigenvalue(m), lambda m, r: dense.solve_dense(m, r[:, 0]))
         for solve in solves:
             run = jax.jit(lambda all: [jax.vmap(solve)(one, one) for one in all])
-            for _ in range(4):
+            for _ in range(10):
                 jax.block_until_ready(run(list(drawn)))
     """
     done = subprocess.run([sys.executable, "-c", textwrap.dedent(program)], timeout=300, check=False)
