@@ -144,7 +144,7 @@ def drawn(entry: Entry) -> Any:
 
 
 def section(entry: Entry) -> str:
-    """What the page says of one figure; its caption is in the picture."""
+    """The part of the page about one figure, whose caption is in the picture."""
     picture = f"![{entry.name}](pictures/{entry.name}.png)"
     return f"\n## {entry.heading}\n\n{picture}\n\n```python\n{entry.code}\n```\n"
 

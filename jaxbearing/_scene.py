@@ -185,17 +185,27 @@ class AbstractSolution(Shown):
             raise SolveError(numbers.failure(), Status(int(np.max(np.asarray(self.status)))))
 
 
+def only_if(scene: Scene, valid: Bool[Array, ""]) -> Scene:
+    """The scene if `valid`. Otherwise its operating point is NaN, so that iterations end at their first step, and the
+    derivatives by all its numbers are 0, so that no NaN is carried back into numbers that lanes of a batch share."""
+    return _at_nan_unless(gate(scene, valid), valid)
+
+
+def _at_nan_unless(scene: Scene, valid: Bool[Array, ""]) -> Scene:
+    point = nan_unless(getattr(scene, scene.operating_point), valid)
+    return dataclasses.replace(scene, **{scene.operating_point: point})
+
+
 def with_checked_inputs(scene: Scene, compute: Callable[[Scene], Result]) -> Result:
     """Result of `compute` for a scene, with checks of its inputs. With an invalid input the operating point is NaN, so
     that iterations end at their first step. Rules that `compute` found broken itself stay beside them."""
     inputs = check_inputs(scene)
     gated = gate(scene, inputs.valid)
-    point = getattr(gated, scene.operating_point)
-    solution = compute(dataclasses.replace(gated, **{scene.operating_point: nan_unless(point, inputs.valid)}))
+    solution = compute(_at_nan_unless(gated, inputs.valid))
     return dataclasses.replace(
         solution,
         status=jnp.where(inputs.valid, solution.status, int(Status.INVALID_INPUT)),
-        operation=point,
+        operation=getattr(gated, scene.operating_point),
         checks=Checks(dict(solution.range_checks), *_with_rules(solution.checks, inputs)),
     )
 

@@ -5,6 +5,7 @@ solver is imported when it is first asked for. A new kind of scene has its lines
 """
 
 import functools
+from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
@@ -45,7 +46,7 @@ _FUNCTIONS = {
 
 
 @functools.cache
-def solver(kind: str, method: str) -> Any:
-    """The function behind a method of a scene; its first argument is the scene."""
+def solver(kind: str, method: str) -> Callable[..., Any]:
+    """The function or class behind a method of a scene; the scene is its first argument, if it has any."""
     module, _, name = _FUNCTIONS[kind][method].partition(":")
     return getattr(import_module(f"{__package__}.{module}"), name)

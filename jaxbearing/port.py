@@ -16,13 +16,12 @@ import numpy as np
 from jax.core import Tracer
 from jaxtyping import Array, Float
 
-from ._scene import with_checked_inputs
+from ._scene import only_if, with_checked_inputs
 from ._types import Scalar
 from .bearings.bearing import AbstractBearing
 from .bearings.ring import held_ring
 from .bearings.solution import RING_FREEDOMS, RingDisplacement, Solution
 from .numerics.arguments import require_choice, require_numbers
-from .numerics.checks import nan_unless
 from .numerics.compiling import inside_a_program, is_tracing
 from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
@@ -158,8 +157,7 @@ def _react_any(
 
     def react(lane: AbstractBearing) -> Solution:
         displacement, closure, expansion = (jnp.where(finite, number, 0.0) for number in numbers)
-        lane = dataclasses.replace(lane, operation=nan_unless(lane.operation, finite))
-        solution = at_displacement(lane, displacement, closure, expansion)
+        solution = at_displacement(only_if(lane, finite), displacement, closure, expansion)
         return dataclasses.replace(solution, status=jnp.where(finite, solution.status, int(Status.INVALID_INPUT)))
 
     def at_displacement(lane: AbstractBearing, displacement: Array, closure: Array, expansion: Array) -> Solution:

@@ -104,17 +104,23 @@ def layer(path):
     return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
 
 
+def imported_names(path, nodes=ast.walk):
+    """(module, name in it) of every import statement in a file; the name is None for a module as a whole.
+
+    **Arguments:** `nodes`: gives the nodes of a tree that count."""
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    for node in nodes(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name, None) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            package = "".join(f"{part}." for part in parts[: len(parts) - node.level]) if node.level else ""
+            for alias in node.names:
+                yield (f"{package}{node.module}", alias.name) if node.module else (f"{package}{alias.name}", None)
+
+
 def imported_modules(path):
     """Full name of the module of every import statement in a file."""
-    parts = path.relative_to(ROOT).with_suffix("").parts
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.level == 0:
-            yield node.module or ""
-        elif isinstance(node, ast.ImportFrom):
-            package = ".".join(parts[: len(parts) - node.level])
-            yield from [f"{package}.{node.module}"] if node.module else [f"{package}.{one.name}" for one in node.names]
+    return (module for module, _ in imported_names(path))
 
 
 def imports(path, package):
@@ -174,19 +180,14 @@ def _imports_of_the_package():
     """Module -> modules of the package that it imports when it runs, at its top or inside functions."""
     files = {".".join(path.relative_to(ROOT).with_suffix("").parts): path for path in modules(PACKAGE)}
     files = {name.removesuffix(".__init__"): path for name, path in files.items()}
-    graph = {}
-    for name, path in files.items():
-        package = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
-        graph[name] = set()
-        for node in _running(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Import):
-                graph[name] |= {alias.name for alias in node.names} & files.keys()
-            if isinstance(node, ast.ImportFrom):
-                above = package[: len(package) + 1 - node.level] if node.level else []
-                base = ".".join([*above, *([node.module] if node.module else [])])
-                for alias in node.names:
-                    graph[name] |= {f"{base}.{alias.name}" if f"{base}.{alias.name}" in files else base} & files.keys()
-    return graph
+
+    def imported(path):
+        for module, name in imported_names(path, _running):
+            whole = f"{module}.{name}" if name else module
+            # what is no module itself stands in one
+            yield whole if whole in files else whole.rpartition(".")[0]
+
+    return {name: set(imported(path)) & files.keys() for name, path in files.items()}
 
 
 def _running(node):
@@ -200,7 +201,7 @@ def _running(node):
 def test_imports_make_no_circle():
     """Modules that import each other, at the top or inside functions, cannot be understood alone. Scenes find their
     solvers by name (`_solvers`)."""
-    graph, leads_to = _imports_of_the_package(), {}
+    graph = _imports_of_the_package()
     assert len(graph) > 600
 
     def reached(name):

@@ -22,13 +22,12 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array
 
-from .._scene import SIMULATED, AbstractHistory, AbstractScene
+from .._scene import SIMULATED, AbstractHistory, AbstractScene, only_if
 from .._solvers import BEARING, solver
 from .._types import Values
 from ..contacts import LineContact, PointContact
 from ..materials import ROLLER_PRESSURE
 from ..mounting import Fits, PartTemperatures
-from ..numerics.checks import gate, nan_unless
 from ..numerics.newton import NewtonOptions
 from ..numerics.status import Status
 from ..thermal.settings import Thermal
@@ -115,8 +114,7 @@ class AbstractBearing(AbstractScene):
         running, fit, impossible = running_scene(self)
         assert fit is not None
         possible = ~functools.reduce(operator.or_, (cause.applies for cause in impossible.values()))
-        running = gate(running, possible)
-        solution = solve(dataclasses.replace(running, operation=nan_unless(running.operation, possible)))
+        solution = solve(only_if(running, possible))
         good = solution.converged
         checks = {text: good & (excess > 0) for text, excess in fit_excess(self, fit).items()}
         return dataclasses.replace(

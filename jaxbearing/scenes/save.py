@@ -10,6 +10,7 @@ import numpy as np
 from jax.core import Tracer
 
 from .._scene import AbstractScene
+from .._version import __version__
 from .errors import SceneError, one_of
 from .input_files import LARGEST_TEXT
 from .part_writer import SCENE, differences, shown, unwritable
@@ -73,8 +74,6 @@ def scene_text(scene: AbstractScene, label: str, header: Iterable[str]) -> str:
 
 
 def _header(lines: Iterable[str]) -> str:
-    from .._version import __version__
-
     note = f"Written by jaxbearing {__version__}. Parts that are not here are not modelled, or follow from the others."
     return comments([*lines, note]) + "\n"
 

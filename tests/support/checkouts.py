@@ -136,8 +136,10 @@ def compared_cases(old: dict[str, np.ndarray], new: dict[str, np.ndarray]) -> tu
         scale = np.nanmax(np.abs(before), axis=1, initial=NOTHING, keepdims=True)
         difference = np.abs(after - before) / scale
         difference[np.isnan(before) & np.isnan(after)] = 0.0
-        if not np.max(difference, initial=0.0) <= worst:
-            worst, where = float(np.max(np.nan_to_num(difference, nan=np.inf))), path
+        # a number that one of them has lost differs by infinity, as in `compared`
+        largest = float(np.max(np.where(np.isnan(difference), np.inf, difference), initial=0.0))
+        if largest > worst:
+            worst, where = largest, path
     return len(both), int(good[0].sum()), int(good[1].sum()), int(steps), worst, where
 
 

@@ -5,7 +5,8 @@ from typing import TypeVar
 
 import jax.numpy as jnp
 
-from ...numerics.checks import InputChecks, check_inputs, gate, nan_unless
+from ..._scene import only_if
+from ...numerics.checks import InputChecks, check_inputs
 from ...numerics.newton import NewtonOptions
 from ...numerics.status import Status
 from .family import AbstractMovingBearing, Start
@@ -43,5 +44,4 @@ def checked_lane(scene: Bearing, simulation: Simulation) -> tuple[Bearing, Input
     """Checks the inputs of a scene. Returns the scene, with an operating point of NaN if traced inputs are invalid, and
     the result of the checks."""
     inputs = check_inputs(dataclasses.replace(scene, simulation=simulation))
-    lane = gate(scene, inputs.valid)
-    return dataclasses.replace(lane, operation=nan_unless(lane.operation, inputs.valid)), inputs
+    return only_if(scene, inputs.valid), inputs
