@@ -13,7 +13,6 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax.core import Tracer
 from jaxtyping import Array, Float
 
 from ._scene import only_if, with_checked_inputs
@@ -57,8 +56,7 @@ def reaction(
     is not. As in the loads of `solve`, friction along the raceways is left out of the force (of `turbine_ball` 0.1 %
     of it, across the load), and of balls that slide the turning of the race under them is left out of the derivatives
     by the tilts (3e-6). A cylindrical roller bearing resists an axial displacement by its flanges alone
-    (`geometry.flange_stiffness`). Its rollers tilt with the ring where they are dry or roll without sliding; where they
-    slide they carry evenly along their length, and the ring must not tilt.
+    (`geometry.flange_stiffness`). Its rollers tilt with the ring.
 
     **Arguments:**
     - `scene`: a ball, cylindrical or tapered roller bearing.
@@ -78,8 +76,7 @@ def reaction(
     - `throw`, `options`: of `solve`.
 
     **Raises:** `SolveError` where the solve fails; `TypeError` for another kind of scene; `ValueError` for what are not
-    five displacements, or no number, and for a tilt of a cylindrical roller bearing whose rollers slide (a traced one
-    gives the status `invalid_input`).
+    five displacements, or no number.
     """
     require_x64()
     require_choice("at", at, _POINTS)
@@ -88,11 +85,6 @@ def reaction(
     if not isinstance(scene, AbstractBearing):
         raise TypeError(f"reaction takes a bearing, got a {type(scene).__name__}")
     five = _five(displacement)
-    if not scene.may_tilt and not isinstance(five, Tracer) and np.any(np.asarray(five)[3:] != 0.0):
-        raise ValueError(
-            "displacement: tilt and tilt_lateral of a cylindrical roller bearing with contact.traction must be 0, "
-            "since rollers that slide are not modelled with a tilt; leave out the tilts or the traction"
-        )
     lengths = [_number(name, value) for name, value in (("closure", closure), ("expansion", expansion))]
     numbers: Any = (jax.tree.map(as_float, scene), five, *lengths)
     inside = inside_a_program(numbers)
@@ -152,8 +144,6 @@ def _react_any(
         scene = scene.replace({"rating.tilt": "exact"})
     numbers = (displacement, closure, expansion)
     finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(number)) for number in numbers]))
-    if not scene.may_tilt:
-        finite &= jnp.all(displacement[3:] == 0.0)
 
     def react(lane: AbstractBearing) -> Solution:
         displacement, closure, expansion = (jnp.where(finite, number, 0.0) for number in numbers)

@@ -235,17 +235,6 @@ class AbstractBearing(AbstractScene):
         return self.element == "roller"
 
     @property
-    def may_tilt(self) -> bool:
-        """True if the model of this scene can tilt the inner ring."""
-        return True
-
-    def film_growth(self, load: Array) -> Array:
-        """Sum of the film thicknesses on both raceways, m, under a load on the bearing, N. Only families whose models
-        cannot always tilt need it; this base method returns 0.
-        """
-        return jnp.zeros(())
-
-    @property
     @abc.abstractmethod
     def ring_lever(self) -> Array:
         """Length by which the equations multiply the tilts of the ring, so that all its unknowns are lengths, m."""

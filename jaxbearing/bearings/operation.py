@@ -194,9 +194,8 @@ class AbstractOperation(Checked):
 class Operation(AbstractOperation):
     """Operating point of a cylindrical roller bearing: the part of a scene that a sweep varies.
 
-    It needs a radial load, along either azimuth, or a displacement of the ring perpendicular to the axis. Moments and
-    misalignments need rollers that may tilt: these are dry or roll without sliding. An axial load or displacement needs
-    flanges (`geometry.flange_stiffness`).
+    It needs a radial load, along either azimuth, or a displacement of the ring perpendicular to the axis. An
+    axial load or displacement needs flanges (`geometry.flange_stiffness`).
 
     **Arguments:** those of `AbstractOperation`; `radial_load` must be > 0.
     """

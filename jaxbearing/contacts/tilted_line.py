@@ -18,6 +18,7 @@ from .._types import Scalar, Values
 from ..numerics.arguments import require_numbers
 from ..numerics.checks import Checked, bounded
 from ..numerics.quadrature import gauss_legendre
+from ..numerics.roots import Root, monotone_root
 from ..numerics.safe import positive_power
 from ..numerics.structure import count as whole
 from .profile import AbstractProfile
@@ -29,6 +30,8 @@ EVEN = 0.3
 replaces the closed form, which loses digits as g -> 0."""
 LEAST_RISE = 1e-30
 """Change of the approach over the length, m, below which an uneven contact (see `EVEN`) is taken as unloaded."""
+MARGIN = 1e-3
+"""Margin of the bracket of `approach_under`, in units of ln(approach)."""
 POINTS = 2
 """Gauss-Legendre points in each lamina; with one point, 30 laminae have an error of 2e-4 in the moment."""
 
@@ -88,6 +91,36 @@ class AbstractTiltedLine(Checked):
     def drop(self, position: Values) -> Float[Array, "..."]:
         """Depth of the roller's profile, m. **Arguments:** `position`: s/l, from 0 to 1."""
 
+    @property
+    @abc.abstractmethod
+    def places(self) -> np.ndarray:
+        """Positions s/l among which the approach less the profile is largest where the contact carries most."""
+
+    def approach_under(self, load: Values, g: Values) -> Root:
+        """Approach f under which the contact carries a load: the inverse of `load_and_moment`. The value is f, m, the
+        residual that of the search, in units of ln(load).
+
+        The unknown is the logarithm of the largest approach along the roller. It lies between the approach of a contact
+        that touches evenly along its length and that of one whose lowest place has the even approach. Where along the
+        roller the approach is largest has no effect on f, and therefore none on its derivatives.
+
+        **Arguments:** `load`: Q, N, > 0; `g`: slope.
+        """
+        load, g = jnp.broadcast_arrays(jnp.asarray(load, dtype=float), jnp.asarray(g, dtype=float))
+        even = (load / (self._constant(load.ndim) * self.length)) ** (1.0 / EXPONENT)
+        place = jnp.asarray(self.places).reshape(-1, *(1,) * g.ndim)
+        along = jax.lax.stop_gradient(g[None] * (self.length * place) - self.drop(place))
+        highest = jnp.max(along, axis=0)
+        spread = highest - jnp.min(along, axis=0)
+
+        def excess(log_most: Array, args: tuple[Array, Array, Array, AbstractTiltedLine]) -> Array:
+            load_, g_, highest_, line = args
+            return jnp.log(line.load_and_moment(jnp.exp(log_most) - highest_, g_)[0]) - jnp.log(load_)
+
+        low, middle, high = (jnp.log(even + part * spread) for part in (0.0, 0.5, 1.0))
+        root = monotone_root(excess, (load, g, highest, self), low - MARGIN, high + MARGIN, middle)
+        return Root(jnp.exp(root.value) - highest, root.residual)
+
     def load_per_length(self, f: Values, g: Values, position: Values) -> Float[Array, "..."]:
         """Load per length q, N/m. **Arguments:** `position`: s/l, from 0 to 1."""
         approach = f + g * self.length * position - self.drop(position)
@@ -113,6 +146,10 @@ class StraightLine(AbstractTiltedLine):
     stiffness: Scalar = bounded("> 0")
     length: Scalar = bounded("> 0")
     ratio: Float[Array, "2 1"] | None = None
+
+    @property
+    def places(self) -> np.ndarray:
+        return np.asarray([0.0, 1.0])
 
     def drop(self, position: Values) -> Float[Array, "..."]:
         return jnp.zeros_like(jnp.asarray(position, dtype=float))
@@ -202,6 +239,10 @@ class SlicedLine(AbstractTiltedLine):
     profile: AbstractProfile | None = None
     count: int = whole("count", 30, least=1)
     ratio: Float[Array, "2 1"] | None = None
+
+    @property
+    def places(self) -> np.ndarray:
+        return lamina_points(self.count)[0]
 
     def drop(self, position: Values) -> Float[Array, "..."]:
         if self.profile is None:

@@ -8,6 +8,7 @@ from functools import partial
 
 import jax
 import jax.numpy as jnp
+from jaxtyping import Array, Float
 
 from .._types import Batch, Scalar, Values
 
@@ -120,6 +121,19 @@ def safe_norm(x: Values, y: Values, floor: float = NORM_FLOOR) -> Batch:
     **Arguments:** `x`, `y`: components; `floor`: f > 0, the length at the origin, in their unit.
     """
     return jnp.sqrt(jnp.square(x) + jnp.square(y) + floor**2)
+
+
+@partial(jax.jit, static_argnames=("axis",))
+def largest(x: Values, axis: int) -> Float[Array, "..."]:
+    """Largest value along an axis; its derivative is that of the entry which is largest, of the first one if several
+    are.
+
+    The derivative of `jnp.max` compares the entries with the result. A program may compute an entry twice, with other
+    last bits: then none is equal to the result, and the derivative is 0/0.
+    """
+    x = jnp.asarray(x)
+    place = jnp.argmax(jax.lax.stop_gradient(x), axis=axis, keepdims=True)
+    return jnp.squeeze(jnp.take_along_axis(x, place, axis=axis), axis=axis)
 
 
 @partial(jax.jit, static_argnames=("exponent",))

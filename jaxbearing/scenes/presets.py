@@ -174,8 +174,6 @@ _OF_SLIDING = {
 """Kind of scene -> tables that only a scene with traction has."""
 _SHAFT = "shaft"
 """The kind of scene whose bearings can have presets."""
-_TILTS = ("misalignment", "misalignment_lateral", "moment", "moment_lateral")
-"""Fields of the operating point that tilt cylindrical rollers, which then roll without sliding in the model."""
 
 
 def listing(kind: str) -> Iterator[tuple[str, str]]:
@@ -273,14 +271,9 @@ def _unfit_fields(
     """Fields of the preset that do not fit the rest of the scene; the reasons are added to `left_out`."""
     if kind != "cylindrical_roller_bearing" or table != "contact":
         return ()
-    operation = filled.get("operation")
-    tilts = isinstance(operation, Mapping) and any(operation.get(name) is not None for name in _TILTS)
-    if tilts or filled.get("profile") is not None:
-        left_out.append("contact.traction: tilting or profiled rollers roll without sliding")
-    elif "cage" in removed or filled.get("cage") == NONE:
-        left_out.append("contact.traction: sliding rollers need a cage")
-    else:
+    if "cage" not in removed and filled.get("cage") != NONE:
         return ()
+    left_out.append("contact.traction: sliding rollers need a cage")
     return ("contact.traction", "contact.traction_model")
 
 

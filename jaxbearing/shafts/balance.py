@@ -64,11 +64,6 @@ class Balance(eqx.Module):
         """Number of bearings."""
         return self.offset.shape[0] // 5
 
-    @property
-    def typical_load(self) -> Array:
-        """Given loads per bearing, N."""
-        return self.force_scale / self.count
-
     def displacements(self, unknowns: Float[Array, " unknown"]) -> Float[Array, "bearing 5"]:
         """Displacement of each inner ring relative to its outer ring at the port, closure included, m and rad."""
         return (self.attach @ unknowns + self.offset).reshape(self.count, 5)

@@ -8,32 +8,28 @@ inner rings turn with the shaft, and the shaft prescribes their displacements.
 import abc
 import dataclasses
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Array, Float
 
 from ..bearings.bearing import AbstractBearing
 from ..bearings.flanks import on_heavier_flanks
 from ..bearings.mounted import running_scene
 from ..bearings.operation import HeldDisplacement
-from ..bearings.ring import ANCHOR, held_ring
+from ..bearings.ring import held_ring
 from ..bearings.row import AbstractRow, HeldRow, RowState
-from ..bearings.solution import RING_FREEDOMS, LaminaLoads, Solution
+from ..bearings.solution import RING_FREEDOMS, Solution
 from ..numerics.newton import NewtonOptions
 from ..numerics.once import once
-from ..numerics.small_linear import solve_dense
 from .mounting import LinearBearing
 from .scene import Place
 
 _LOADS = ("axial_load", "radial_load", "radial_load_lateral", "moment", "moment_lateral")
 _TILTS = ("misalignment", "misalignment_lateral")
-LOAD_STEPS, LOAD_STEP = 4, 1e-5
-"""Number of Newton steps of `evenly_loaded` and the longest one, m: the force of line contacts is nearly linear in the
-approach."""
 
 
 def on_shaft(scene: AbstractBearing, speed: Array) -> AbstractBearing:
@@ -94,23 +90,13 @@ def spread(batches: tuple[AbstractBatch, ...], parts: list[Array], count: int) -
 
 
 class RollingBatch(AbstractBatch):
-    """Bearings with rolling elements: `scene` is a stack of scenes.
-
-    The model of rollers that slide has no tilt. `dry` is a stack of the same bearings with dry rollers, whose model has
-    one; it gives the effect of the tilt (`acting`). It is `None` if the scenes of the batch have a tilt themselves.
-    """
+    """Bearings with rolling elements: `scene` is a stack of scenes."""
 
     scene: AbstractBearing
-    dry: AbstractBearing | None
     places: tuple[int, ...] = eqx.field(static=True)
 
-    @property
-    def ports(self) -> AbstractBearing:
-        """The scenes whose model has a tilt."""
-        return self.scene if self.dry is None else self.dry
-
     def rows(self, expansion, at_rest=False):
-        scene = self.ports
+        scene = self.scene
         if at_rest:
             speeds = lambda bearing: (bearing.operation.inner_speed, bearing.operation.outer_speed)
             scene = eqx.tree_at(speeds, scene, tuple(0.0 * jnp.asarray(speed) for speed in speeds(scene)))
@@ -166,9 +152,6 @@ def solutions(
     """
 
     def solution_of(scene: AbstractBearing, displacement: Array, expansion: Array) -> Solution:
-        if not scene.may_tilt:
-            displacement = displacement.at[3:].set(0.0)
-
         def of_running(running: AbstractBearing) -> Solution:
             zero = jnp.zeros(())
             ring = held_ring(displacement, running.ring_lever, scene.port_distance, zero, expansion)
@@ -177,114 +160,6 @@ def solutions(
         return scene.solved_running(of_running)
 
     return jax.vmap(solution_of)(scene, displacement, expansion)
-
-
-class Acting(NamedTuple):
-    """Forces and stiffness of a batch, as in `Port`, and the solutions behind them.
-
-    - `own`: solutions of the scenes of the batch.
-    - `tilted`, `even`: solutions of the dry scenes with and without the tilt of the ring; `None` without dry scenes.
-    """
-
-    force: Float[Array, "own 5"]
-    stiffness: Float[Array, "own 5 5"]
-    own: Solution
-    tilted: Solution | None
-    even: Solution | None
-
-    @property
-    def converged(self) -> Bool[Array, ""]:
-        """True if all solutions converged."""
-        parts = [self.own, self.tilted, self.even]
-        return jnp.all(jnp.stack([part.converged for part in parts if part is not None]))
-
-
-def acting(
-    batch: RollingBatch,
-    displacement: Float[Array, "own 5"],
-    expansion: Float[Array, " own"],
-    load: Float[Array, ""],
-    options: NewtonOptions,
-    when: Bool[Array, ""] | None = None,
-) -> Acting:
-    r"""Forces and stiffness of a batch at prescribed displacements.
-
-    The model of rollers that slide has no tilt $\tau$. The effect of the tilt is taken from dry rollers whose inner
-    raceways are enlarged by the films h: $F = P(q) + T(q, \tau, h) - T(q, 0, h)$, with the force P of the sliding
-    rollers and the force T of the dry rollers. Without tilt the force is P. The films are those at a typical `load` of
-    a bearing, N; they are not unknowns.
-    """
-    own = solutions(batch.scene, displacement, expansion, options, when=when)
-    if batch.dry is None:
-        return Acting(own.force, own.stiffness, own, None, None)
-    grown = expansion + jax.vmap(lambda scene: scene.film_growth(load))(batch.scene)
-    tilted = solutions(batch.dry, displacement, grown, options, when=when)
-    even = solutions(batch.dry, displacement.at[:, 3:].set(0.0), grown, options, when=when)
-    return Acting(
-        own.force + tilted.force - even.force,
-        own.stiffness + tilted.stiffness - even.stiffness.at[:, :, 3:].set(0.0),
-        own,
-        tilted,
-        even,
-    )
-
-
-def evenly_loaded(
-    batch: RollingBatch,
-    held: Acting,
-    displacement: Float[Array, "own 5"],
-    expansion: Float[Array, " own"],
-    options: NewtonOptions,
-    when: Bool[Array, ""],
-) -> Solution:
-    """Solutions of rollers that slide and carry the radial and lateral force of `acting` evenly along their length.
-    Films, cage and losses are those of this load. Newton's iteration finds the radial and lateral displacement; without
-    tilt its steps are 0."""
-
-    def better(state: tuple[Array, Solution], _: None) -> tuple[tuple[Array, Solution], None]:
-        place, solution = state
-        missing = (held.force - solution.force)[:, 1:3]
-        stiffness = solution.stiffness[:, 1:3, 1:3] + ANCHOR * jnp.eye(2)[None]
-        step = jax.vmap(solve_dense)(stiffness, missing)
-        place = place.at[:, 1:3].add(jnp.clip(step, -LOAD_STEP, LOAD_STEP))
-        return (place, solutions(batch.scene, place, expansion, options, when=when)), None
-
-    # the body of a loop is compiled once, unrolled steps are compiled one by one
-    return jax.lax.scan(better, (displacement, held.own), None, length=LOAD_STEPS)[0][1]
-
-
-def with_carried_loads(scene: AbstractBearing, held: Acting, solution: Solution) -> Solution:
-    """The solution of a bearing with sliding rollers, with the loads that they carry under the tilted ring. The life is
-    computed from these loads: the loads of its own model plus the change of the lamina loads of dry rollers by the
-    tilt."""
-    tilted, even, own = held.tilted, held.even, held.own
-    assert tilted is not None
-    assert even is not None
-    assert tilted.laminae is not None
-    parts, count = [], tilted.laminae.inner.shape[-1]
-    for side in ("inner", "outer"):
-        films = getattr(own.elements, f"load_{side}") - getattr(even.elements, f"load_{side}")
-        parts.append(jnp.maximum(getattr(tilted.laminae, side) + films[:, None] / count, 0.0))
-    lines = scene.race_lines(solution.elements)
-    assert lines is not None
-    inner, outer = parts
-    most = jnp.stack([jnp.max(part, axis=1) for part in parts]) * count
-    pressure = jnp.where(most > 0, lines.hertz_pressure(jnp.where(most > 0, most, 1.0)), 0.0)
-    elements = dataclasses.replace(
-        solution.elements,
-        load_inner=jnp.sum(inner, axis=1),
-        load_outer=jnp.sum(outer, axis=1),
-        pressure_inner=pressure[0],
-        pressure_outer=pressure[1],
-    )
-    laminae = LaminaLoads(inner, outer, tilted.laminae.profiled)
-    return dataclasses.replace(solution, elements=elements, laminae=laminae, force=held.force)
-
-
-def _dry(scene: AbstractBearing) -> AbstractBearing:
-    """A bearing with sliding rollers without contact laws, cage, drag, flange and oil: its dry rollers can tilt."""
-    names = [name for name in ("contact", "cage", "drag", "flange", "oil") if getattr(scene, name, None) is not None]
-    return dataclasses.replace(scene, **dict.fromkeys(names))
 
 
 def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ...]:
@@ -304,8 +179,7 @@ def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ..
         if isinstance(stacked, LinearBearing):
             batches.append(LinearBatch(stiffness=jnp.asarray(stacked.stiffness), places=numbers))
         else:
-            dry = None if stacked.may_tilt else _dry(stacked)
-            batches.append(RollingBatch(scene=stacked, dry=dry, places=numbers))
+            batches.append(RollingBatch(scene=stacked, places=numbers))
     return tuple(batches)
 
 

@@ -27,7 +27,7 @@ from ..numerics.newton import NewtonOptions
 from ..numerics.once import once
 from ..numerics.status import Status
 from .balance import Balance
-from .batches import AbstractBatch, LinearBatch, RollingBatch, acting, spread
+from .batches import AbstractBatch, LinearBatch, RollingBatch, solutions, spread
 
 START_TOLERANCE = 1e-5
 """Tolerance of the first stage for the residual, relative to the size of the loads."""
@@ -107,11 +107,10 @@ def ports(
     for batch in problem.batches:
         own = displacement[batch.index]
         if isinstance(batch, RollingBatch):
-            expansion = problem.expansion[batch.index]
-            held = acting(batch, own, expansion, problem.balance.typical_load, options)
+            held = solutions(batch.scene, own, problem.expansion[batch.index], options)
             forces.append(held.force)
             stiffness.append(held.stiffness)
-            good &= held.converged
+            good &= jnp.all(held.converged)
         else:
             assert isinstance(batch, LinearBatch)
             forces.append(batch.force_at(None, own, None))

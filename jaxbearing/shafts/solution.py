@@ -29,11 +29,10 @@ class BearingOnShaft(eqx.Module):
     **Arguments:** the labels of the fields describe them; others are
     - `ring`: displacement of the inner ring relative to the outer ring at the port (on the axis, in the plane of the
       unloaded balls or in the middle of the rollers), in the bearing's frame, without closure.
-    - `solution`: results of the bearing's own family at the displacement that the shaft prescribes. For rollers that
-      slide they are those under the same radial and lateral force without tilt. `None` for a linear bearing.
+    - `solution`: results of the bearing's own family at the displacement that the shaft prescribes. `None` for a linear
+      bearing.
     - `life`: life of the bearing; `None` without a rating in the bearing's scene.
     - `name`, `sense`: name of the bearing; 1 if its axis points along +X, else -1.
-    - `sliding_difference`: only for rollers that slide, whose own model has no tilt; else `None`.
     """
 
     position: _Number = eqx.field(metadata=label("m", "position along the shaft"))
@@ -64,10 +63,6 @@ class BearingOnShaft(eqx.Module):
     life: Life | None
     name: str = eqx.field(static=True)
     sense: float = eqx.field(static=True)
-    sliding_difference: Float[Array, "5"] | None = eqx.field(
-        default=None,
-        metadata=label("mixed", "force of the sliding rollers at the same displacement without tilt, less force"),
-    )
 
     @property
     def radial_force(self) -> Float[Array, "*batch"]:

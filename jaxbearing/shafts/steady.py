@@ -23,12 +23,10 @@ from .batches import (
     AbstractBatch,
     LinearBatch,
     RollingBatch,
-    acting,
     batches_of,
-    evenly_loaded,
     largest_load,
     pressure_centre,
-    with_carried_loads,
+    solutions,
 )
 from .lives import system_of
 from .mounting import LinearBearing
@@ -46,11 +44,6 @@ from .solution import (
 )
 from .warm import solve_warm_shaft
 
-SLIDING_APART = (
-    "rollers that slide: films, cage, traction and losses are those of the same load carried evenly along the rollers; "
-    "the tilt of the ring acts on the force, the stiffness and the life"
-)
-"""Note on a bearing whose model has no tilt."""
 TOO_MUCH_PRELOAD = (
     "set.{0}.preload: its bearings carry no such force: one would close by {{:.4g}} mm, and an equilibrium is sought "
     f"within {1e3 * FARTHEST:g} mm"
@@ -239,20 +232,13 @@ def _bearings(
     for batch in problem.batches:
         own = displacement[batch.index]
         stack: Solution | None = None
-        most = apart = None
+        most = None
         if isinstance(batch, RollingBatch):
-            expansion = problem.expansion[batch.index]
-            held = acting(batch, own, expansion, problem.balance.typical_load, options, when=solved)
-            good &= held.converged
-            force, stiffness = held.force, held.stiffness
-            stack = rated = held.own
-            if batch.dry is not None:
-                apart = stack.force - force
-                stack = evenly_loaded(batch, held, own, expansion, options, solved)
-                good &= jnp.all(stack.converged)
-                rated = jax.vmap(with_carried_loads)(batch.scene, held, stack)
-            most = jax.vmap(largest_load)(rated)
-            stack = jax.vmap(_with_life_of)(batch.scene, rated, stack)
+            stack = solutions(batch.scene, own, problem.expansion[batch.index], options, when=solved)
+            good &= jnp.all(stack.converged)
+            force, stiffness = stack.force, stack.stiffness
+            most = jax.vmap(largest_load)(stack)
+            stack = jax.vmap(with_life)(batch.scene, stack)
         else:
             assert isinstance(batch, LinearBatch)
             force, stiffness = batch.force_at(None, own, None), batch.stiffness
@@ -278,13 +264,10 @@ def _bearings(
                 life=None if solution is None else solution.life,
                 name=place.name,
                 sense=place.sense,
-                sliding_difference=None if apart is None else apart[number],
             )
             if solution is not None:
                 checks |= {about(place.name, text): flag for text, flag in solution.checks.items()}
                 notes += [about(place.name, note) for note in solution.notes]
-            if apart is not None:
-                notes.append(f"{place.name}: {SLIDING_APART}")
             if solution is not None and _has_angle(place):
                 wrong = (solution.elements.load_inner > LIGHT) & (solution.elements.contact_angle_inner < 0)
                 checks[f"{place.name}: {MISSING_SHOULDER}"] = jnp.any(wrong)
@@ -292,12 +275,6 @@ def _bearings(
             checks[f"{place.name}: the inner ring is tilted by more than 1 mrad against the outer ring"] = steep
     in_order = {places[index].name: bearings[index] for index in range(len(places))}
     return in_order, checks, notes, good
-
-
-def _with_life_of(scene: AbstractBearing, rated: Solution, shown: Solution) -> Solution:
-    """The solution `shown` with the life from the loads of `rated`, another solution of the same bearing."""
-    source = with_life(scene, rated)
-    return dataclasses.replace(shown, life=source.life, checks=source.checks, notes=source.notes)
 
 
 def _has_angle(place: Place) -> bool:

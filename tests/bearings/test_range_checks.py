@@ -91,7 +91,7 @@ FAMILIES = {
     "tilting rollers": (
         "turbine_roller",
         UNSHEARED | {"operation.misalignment": 1e-3},
-        "yield edge hot thermal_loading",
+        "yield edge hot thermal_loading slide_ratio",
         "",
         "tilt squeezed clearance hot_inlet cold_inlet slow standing_cage",
     ),

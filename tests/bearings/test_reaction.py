@@ -345,8 +345,6 @@ def test_what_it_does_not_take():
         jb.reaction(T15, np.zeros(5), expansion=np.zeros(3))
     with pytest.raises(ValueError, match="tilt must be one of 'exact', 'linear', got 'iso'"):
         jb.reaction(T15, np.zeros(5), tilt="iso")
-    with pytest.raises(ValueError, match=r"displacement: tilt .* with contact\.traction must be 0"):
-        jb.reaction(jb.load_scene("turbine_roller"), [0.0, 1e-6, 0.0, 1e-4, 0.0])
     with pytest.raises(TypeError, match="reaction takes a bearing, got a TwoDisk"):
         jb.reaction(jb.load_scene("two_disk_etm"), np.zeros(5))
     invalid = jax.jit(lambda w: jb.reaction(N7.replace_geometry(roller_length=w), np.zeros(5), throw=False).status)
@@ -355,7 +353,8 @@ def test_what_it_does_not_take():
 
 @pytest.mark.slow
 def test_rollers_that_slide_are_held_where_a_solve_brings_them():
-    """Cage, losses and stiffness are those of the solve; a tilt is an invalid input."""
+    """Cage, losses and stiffness are those of the solve, whose rollers carry evenly. Under a ring that tilts the
+    balance of power closes too."""
     scene = jb.load_scene("reference_roller").replace({"ring_freedom": ("radial", "lateral")})
     solved = jb.solve(scene)
     place = jnp.asarray([0.0, solved.ring.radial, solved.ring.lateral, 0.0, 0.0])
@@ -364,9 +363,8 @@ def test_rollers_that_slide_are_held_where_a_solve_brings_them():
     np.testing.assert_allclose(held.power_loss.total, solved.power_loss.total, rtol=1e-9)
     np.testing.assert_allclose(held.cage.speed, solved.cage.speed, rtol=1e-12)
     scale = float(solved.stiffness[1, 1])
-    np.testing.assert_allclose(held.stiffness / scale, solved.stiffness / scale, atol=1e-8)
-    np.testing.assert_allclose(
-        held.drive_power, held.power_loss.total, rtol=1e-8
-    )  # the balance of power of a held ring
-    tilted = jax.jit(lambda q: jb.reaction(scene, q, throw=False).status)(place.at[3].set(1e-6))
-    assert int(tilted) == jb.Status.INVALID_INPUT
+    np.testing.assert_allclose(held.stiffness[1:3, 1:3] / scale, solved.stiffness[1:3, 1:3] / scale, atol=1e-8)
+    tilted = jax.jit(lambda q: jb.reaction(scene, q))(place.at[3].set(1e-3))
+    for solution in (held, tilted):
+        np.testing.assert_allclose(solution.drive_power, solution.power_loss.total, rtol=1e-11)
+    assert float(tilted.force[3]) > 10.0

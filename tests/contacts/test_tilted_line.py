@@ -141,3 +141,41 @@ def test_profiles():
     np.testing.assert_allclose(near, 5e-6 * x**2, atol=1e-11)
     with pytest.raises(ValueError, match=r"profile.drop must be >= 0"):
         CrownedProfile(-1e-6)
+
+
+INVERTED = {
+    "straight": EXACT,
+    "unlike races": StraightLine(K, LENGTH, ratio=jnp.asarray([[0.8], [1.2]])),
+    "logarithmic": SlicedLine(K, LENGTH, LogarithmicProfile(5e-6)),
+    "crowned": SlicedLine(K, LENGTH, CrownedProfile(2e-6), count=11),
+}
+SLOPES = (0.0, 1e-9, 2e-5, -1e-4, 1e-3, -1e-2)
+
+
+@pytest.mark.parametrize("name", INVERTED)
+def test_the_approach_under_a_load_is_the_inverse_of_the_load(name):
+    """From almost no load to 100 kN, from an even contact to one that touches at an end only; and its derivatives are
+    those of the implicit function."""
+    line = INVERTED[name]
+    load = jnp.broadcast_to(jnp.asarray([1e-3, 1.0, 3e3, 1e5])[:, None], (2, 4, len(SLOPES)))
+    slope = jnp.broadcast_to(jnp.asarray(SLOPES), load.shape)
+    load, slope = load.reshape(2, -1), slope.reshape(2, -1)
+    inverse = lambda q, g: line.approach_under(q, g).value
+
+    @jax.jit
+    def both(load, slope):
+        ones, zero = jnp.ones_like(load), jnp.zeros_like(load)
+        f = inverse(load, slope)
+        forward = [jax.jvp(inverse, (load, slope), seeds)[1] for seeds in ((ones, zero), (zero, ones))]
+        back = [
+            jax.jvp(lambda f, g: line.load_and_moment(f, g)[0], (f, slope), s)[1] for s in ((ones, zero), (zero, ones))
+        ]
+        return line.load_and_moment(f, slope)[0], forward, back, line.approach_under(load, slope).residual
+
+    carried, (by_load, by_slope), (stiffness, turning), residual = both(load, slope)
+    # where an end touches by 1e-12 m, the approach at the other end has its last digit there
+    np.testing.assert_allclose(carried, load, rtol=2e-9)
+    np.testing.assert_allclose(carried[:, len(SLOPES) :], load[:, len(SLOPES) :], rtol=1e-11)
+    assert np.max(np.abs(residual)) < 2e-9
+    np.testing.assert_allclose(by_load * stiffness, 1.0, rtol=1e-6)
+    np.testing.assert_allclose(by_slope, -turning / stiffness, rtol=1e-6)

@@ -14,6 +14,7 @@ from jaxbearing.numerics.precision import as_float
 from jaxbearing.numerics.quadrature import gauss_legendre
 from jaxbearing.numerics.roots import monotone_root
 from jaxbearing.numerics.safe import (
+    largest,
     nonnegative_pressure,
     positive_power,
     regular_power,
@@ -144,3 +145,14 @@ def test_numbers_become_float64_leaves_and_float32_is_refused():
     for narrow in (np.float32(1.0), jnp.ones(3, dtype=jnp.float32)):
         with pytest.raises(TypeError, match="64-bit"):
             as_float(narrow)
+
+
+def test_the_largest_of_equal_values_has_a_derivative():
+    """Also inside of a program, where an entry may be computed twice: that of the first one."""
+    places = jnp.linspace(-1.0, 1.0, 20)
+    bell = lambda width: largest(jnp.log1p(-0.99 * jnp.square(places)[:, None] * width[None]), axis=0)
+    width = jnp.asarray([1.0, 0.7, 0.3])
+    value, slope = jax.jit(lambda w: jax.jvp(bell, (w,), (jnp.ones_like(w),)))(width)
+    middle = 0.99 * places[9] ** 2
+    np.testing.assert_allclose(value, jnp.log1p(-middle * width), rtol=1e-14)
+    np.testing.assert_allclose(slope, -middle / (1.0 - middle * width), rtol=1e-12)

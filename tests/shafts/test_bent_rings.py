@@ -226,8 +226,7 @@ def test_loads_from_outside_need_a_rigid_support():
 
 
 def test_sliding_rollers_in_one_batch():
-    """Of two such bearings the forces on the shaft are those of dry ones: a stack of scenes with their rings and
-    widths."""
+    """Two such bearings are one stack of scenes with their rings and widths."""
     scene = dataclasses.replace(reference_roller(), inner_ring=FlexibleInnerRing(**SHAFT), outer_ring=None)
     system = ShaftSystem(
         Shaft(SPEED), bearings=[MountedBearing(name, scene, place) for name, place in (("A", 0.0), ("B", 0.2))]
@@ -235,5 +234,4 @@ def test_sliding_rollers_in_one_batch():
     (batch,) = jax.eval_shape(lambda speed: batches_of(system.places, speed), jnp.asarray(SPEED))
     assert batch.places == (0, 1)
     assert batch.scene.cage is not None
-    assert batch.dry.cage is None
-    assert batch.dry.inner_ring.thickness.shape == (2,)
+    assert batch.scene.inner_ring.thickness.shape == (2,)

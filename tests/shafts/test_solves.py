@@ -267,8 +267,7 @@ def test_the_drive_gives_what_the_bearings_lose():
     for one in solved.bearings.values():
         closed = one.solution.inner_torque * speed
         np.testing.assert_allclose(closed, one.solution.power_loss.total, rtol=1e-9)
-        np.testing.assert_allclose(one.solution.force[1:3], one.force[1:3], rtol=1e-6)
-        assert 0.0 < np.linalg.norm(one.sliding_difference[1:3]) < 0.1 * np.linalg.norm(one.force[1:3])
+        np.testing.assert_allclose(one.solution.force, one.force, rtol=1e-12)
         assert np.isfinite(one.life.Lnmr)
         assert float(one.life.viscosity_ratio) > 0.0
 
@@ -292,7 +291,6 @@ def test_rollers_that_slide_without_tilt_are_their_own_model():
     same = lambda found, value: np.testing.assert_allclose(found, value, rtol=1e-8, atol=1e-12)
     for one in jb.solve(system).bearings.values():
         np.testing.assert_allclose(one.force[1:3], [4e3, 0.0], rtol=1e-9, atol=1e-6)
-        np.testing.assert_allclose(one.sliding_difference[:3], 0.0, atol=1e-6)
         same(one.ring.radial, alone.ring.radial)
         same(one.largest_load, jnp.max(alone.elements.load_inner))
         same(one.solution.power_loss.total, alone.power_loss.total)

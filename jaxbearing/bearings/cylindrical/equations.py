@@ -36,8 +36,9 @@ the source's eq. (32) and action = reaction. The friction force of an interactio
 dissipation use the same sliding speed; only rolling resistance dissipates with the mean speed.
 """
 
+import abc
 import dataclasses
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple, TypeVar
 
 import equinox as eqx
 import jax
@@ -54,6 +55,7 @@ from ..elastic_ring import ElasticRing
 from ..inlet import AbstractOils, OilElsewhere
 from ..land import LandState, guided_land
 from ..ring import LENGTH_UNIT, InnerRing
+from ..rings import AbstractBetweenRings
 from .forces import CageParts, forces_without_pocket, on_cage
 from .in_plane import AbstractInPlane
 from .kinematics import RollerKinematics
@@ -65,52 +67,128 @@ rolling without slip."""
 EASED_PRESSURE = 1.5e9
 """Hertz pressure of the most loaded roller at the start of homotopy path 1, Pa. It is so high that traction certainly
 drives the rollers."""
+APPROACH = "approach of the rings at a roller"
+LOG_LOAD_STEP = 3.0
+"""Longest step of ln Qi."""
+
+Rollers = TypeVar("Rollers", bound="AbstractLubricatedRollers")
+
+
+class PressedRollers(NamedTuple):
+    """Contacts of all rollers with the races (inner, outer), from the unknowns of the normal direction.
+
+    - `load`, N, and `approach` in the middle of the roller, m.
+    - `opening`: of the rings at each roller, m.
+    - `along`: loads along rollers that tilt; `None` for rollers that carry evenly along their length.
+    """
+
+    load: Float[Array, "2 roller"]
+    approach: Float[Array, "2 roller"]
+    opening: Float[Array, " roller"]
+    along: "LoadsAlong | None" = None
+
+
+class LoadsAlong(NamedTuple):
+    """Loads along rollers that tilt.
+
+    - `start`, m, and `slope`: the approach is `start` + `slope` s, with the distance s from one end of the roller.
+    - `moment`: about the middle of the roller, N m.
+    - `laminae`: loads of the laminae in which films and friction are computed, N.
+    - `residual`: of the nested search for `start`.
+    """
+
+    start: Float[Array, "2 roller"]
+    slope: Float[Array, "2 roller"]
+    moment: Float[Array, "2 roller"]
+    laminae: Float[Array, "2 roller lamina"]
+    residual: Float[Array, ""]
 
 
 class RollerState(NamedTuple):
     """State of every roller for given unknowns. The last axis runs over the rollers. A first axis of length 2 runs over
-    the races (inner, outer), and in `cage_force` over the components."""
+    the races (inner, outer), and in `cage_force` over the components.
 
-    load: Float[Array, "2 roller"]
-    approach: Float[Array, "2 roller"]
+    `contact` holds the films of whole contacts and the sums of their forces; `laminae` holds the films and forces of
+    each lamina of rollers that tilt, on a further axis. `errors` are the scaled residuals of the normal direction."""
+
+    pressed: PressedRollers
     orbital_speed: Float[Array, " roller"]
     spin_speed: Float[Array, " roller"]
     mean_speed: Float[Array, "2 roller"]
     sliding_speed: Float[Array, "2 roller"]
     contact: ContactState
-    pocket: PocketFilm | None
-    inner_flange: EndForces | None
-    outer_flange: EndForces | None
-    rails: EndForces | None
-    drag_force: Float[Array, " roller"] | None
-    approach_error: Float[Array, " roller"]
-    moment_error: Float[Array, " roller"] | None
-    cage_moment: Float[Array, " roller"] | None
-    cage_force: Float[Array, "2 roller"] | None
+    laminae: ContactState | None
+    errors: tuple[Float[Array, " roller"], ...]
+    pocket: PocketFilm | None = None
+    inner_flange: EndForces | None = None
+    outer_flange: EndForces | None = None
+    rails: EndForces | None = None
+    drag_force: Float[Array, " roller"] | None = None
+    moment_error: Float[Array, " roller"] | None = None
+    cage_moment: Float[Array, " roller"] | None = None
+    cage_force: Float[Array, "2 roller"] | None = None
+
+    @property
+    def load(self) -> Float[Array, "2 roller"]:
+        """Loads on both races, N."""
+        return self.pressed.load
 
 
-class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
-    """Lubricated bearing. With `cage` the unknowns are ln Qi and the speed at the outer race for each roller, the ring
-    displacement and the cage speed. Without a cage the raceways are frictionless and the rollers roll without slip; the
-    unknowns are ln Qi for each roller and the ring displacement."""
+class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings):
+    """Lubricated rollers between two rings. The unknowns of a roller are those of the normal direction, which a
+    subclass defines, and with a `cage` its speed at the outer race. The last global is then the cage speed. Without a
+    cage the raceways are frictionless and the rollers roll without slip.
+    """
 
-    kinematics: RollerKinematics
-    contact: LineContact
-    laws: ContactLaws
-    oil: Lubricant
-    inlet: InletOil
-    directions: Float[Array, "freedom roller"]
-    azimuth: Float[Array, " roller"]
-    ring: InnerRing
-    radial_clearance: Float[Array, ""]
-    roller_mass: Float[Array, ""]
-    held: Float[Array, " roller"] | None = None
-    out_of_round: Float[Array, " roller"] | None = None
-    outer: ElasticRing | None = None
-    inner: ElasticRing | None = None
-    cage: CageParts | None = None
-    elsewhere: OilElsewhere | None = None
-    """Oil of the other interactions, if it differs from `inlet`, the oil of the raceways."""
+    kinematics: eqx.AbstractVar[RollerKinematics]
+    contact: eqx.AbstractVar[LineContact]
+    laws: eqx.AbstractVar[ContactLaws]
+    oil: eqx.AbstractVar[Lubricant]
+    azimuth: eqx.AbstractVar[Float[Array, " roller"]]
+    roller_mass: eqx.AbstractVar[Float[Array, ""]]
+    cage: eqx.AbstractVar[CageParts | None]
+
+    # -- normal direction -----------------------------------------------------------------------------------------
+
+    normal_names: ClassVar[tuple[str, ...]]
+    """Names of the equations of the normal direction of a roller."""
+    normal_caps: ClassVar[tuple[float, ...]]
+    """Longest steps of its unknowns."""
+    normal_bounds: ClassVar[tuple[tuple[float, float], ...]]
+    """Bounds of its unknowns."""
+
+    @abc.abstractmethod
+    def load_scale(self) -> Array:
+        """Scale of the ring's balances, N."""
+
+    @abc.abstractmethod
+    def normal(
+        self, unknowns: Float[Array, "m roller"], shared: Float[Array, "p roller"], centrifugal: Float[Array, " roller"]
+    ) -> PressedRollers:
+        """Loads and approaches. **Arguments:** `centrifugal`: force on each roller, N; others as in `rollers`."""
+
+    @abc.abstractmethod
+    def films(
+        self, pressed: PressedRollers, mean_speed: Float[Array, "2 roller"], sliding: Float[Array, "2 roller"]
+    ) -> tuple[ContactState, ContactState | None]:
+        """`RollerState.contact` and `RollerState.laminae`. **Arguments:** speeds on both races, m/s."""
+
+    @abc.abstractmethod
+    def normal_errors(self, pressed: PressedRollers, contact: ContactState) -> tuple[Float[Array, " roller"], ...]:
+        """Scaled residuals of the normal direction of each roller."""
+
+    @abc.abstractmethod
+    def on_ring(self, pressed: PressedRollers) -> Float[Array, "row roller"]:
+        """Contributions of the rollers to the balances of both rings."""
+
+    @abc.abstractmethod
+    def ring_rows(self, globals_: Float[Array, " g"], totals: Float[Array, " k"]) -> Float[Array, " row"]:
+        """Residuals of the balances of both rings, divided by `load_scale`."""
+
+    @property
+    @abc.abstractmethod
+    def cage_row(self) -> int:
+        """Row of the cage speed in `shared`."""
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -126,52 +204,21 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
     def equation_names(self) -> tuple[str, ...]:
         ring = self.ring_names()
         if self.cage is None:
-            return ("approach of the rings at a roller", *ring)
-        return ("approach of the rings at a roller", "moment balance of a roller", *ring, "moment balance of the cage")
+            return (*self.normal_names, *ring)
+        return (*self.normal_names, "moment balance of a roller", *ring, "moment balance of the cage")
 
     def step_caps(self) -> ArrowPoint:
-        ring = [5.0] * self.ring_unknowns
-        if self.cage is None:
-            return ArrowPoint(jnp.asarray([[3.0]]), jnp.asarray(ring))
-        return ArrowPoint(jnp.asarray([[3.0], [0.2]]), jnp.asarray([*ring, 0.2]))
+        caps, ring = list(self.normal_caps), [5.0] * self.ring_unknowns
+        if self.cage is not None:
+            caps, ring = [*caps, 0.2], [*ring, 0.2]
+        return ArrowPoint(jnp.asarray(caps)[:, None], jnp.asarray(ring))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        low, high = LOG_LOAD_RANGE
-        ring = [1e4] * self.ring_unknowns
-        if self.cage is None:
-            return (
-                ArrowPoint(jnp.asarray([[low]]), -jnp.asarray(ring)),
-                ArrowPoint(jnp.asarray([[high]]), jnp.asarray(ring)),
-            )
-        return (
-            ArrowPoint(jnp.asarray([[low], [-3.0]]), -jnp.asarray([*ring, 2.0])),
-            ArrowPoint(jnp.asarray([[high], [3.0]]), jnp.asarray([*ring, 2.0])),
-        )
-
-    def initial(self) -> ArrowPoint:
-        """Starts from rolling without slip. The loads are those of a dry elastic bearing whose clearance is reduced by
-        the films, plus Martin's film force on the rollers outside the loaded zone. The ring displacement is the one
-        that carries the load."""
-        motion, n = self.kinematics, self.azimuth.shape[0]
-        mean_speed, _ = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))
-        along = self.ring.across()
-        opening = self.radial_clearance
-        for inward in (self.held, self.out_of_round):
-            opening = opening if inward is None else opening - inward
-        shift, log_load = guessed_loads(
-            self.contact,
-            self.laws,
-            self.inlet,
-            mean_speed,
-            jnp.einsum("f,fn->n", along, self.directions),
-            self.load_scale(),
-            self.centrifugal(motion.free_orbit),
-            opening,
-        )
-        ring = self.begun(along * shift / LENGTH_UNIT)
-        if self.cage is None:
-            return ArrowPoint(log_load[None, :], ring)
-        return ArrowPoint(jnp.stack([log_load, jnp.zeros(n)]), jnp.concatenate([ring, jnp.zeros(1)]))
+        ends, ring = list(self.normal_bounds), [1e4] * self.ring_unknowns
+        if self.cage is not None:
+            ends, ring = [*ends, (-3.0, 3.0)], [*ring, 2.0]
+        low, high = (jnp.asarray([end[k] for end in ends])[:, None] for k in (0, 1))
+        return ArrowPoint(low, -jnp.asarray(ring)), ArrowPoint(high, jnp.asarray(ring))
 
     @property
     def homotopies(self) -> int:
@@ -187,36 +234,27 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         per_roller = 2.0 * jnp.pi * EASED_PRESSURE**2 * contact.reduced_radius * contact.length
         heavy = per_roller / contact.reduced_modulus * self.azimuth.shape[0] / 4.0
         factor = jnp.where(path == 1, jnp.maximum(heavy / self.load_scale(), 1.0) ** parameter, 1.0)
-        easier = eqx.tree_at(lambda system: system.laws.entrainment_offset, self, offset)
-        outer = None if self.outer is None else self.outer.under(factor)
-        return dataclasses.replace(easier, ring=self.ring.under(self.ring.load * factor), outer=outer)
+        return eqx.tree_at(lambda system: system.laws.entrainment_offset, self, offset).under(factor)
+
+    @abc.abstractmethod
+    def under(self: Rollers, factor: Float[Array, ""]) -> Rollers:
+        """The same system with the given loads multiplied by a factor."""
 
     @property
     def extra_totals(self) -> int:
         # the one global of the cage needs three totals: the moment on the cage and two components of its force
         return 0 if self.cage is None else 2
 
-    def local_inputs(self, globals_):
-        """With flexible rings, returns the displacement of the rings towards each other at each roller and, with a
-        cage, the cage speed. Returns `None` if both rings are rigid."""
-        if not self.bent:
-            return None
-        shift = self.approaching(globals_)
-        return shift[None] if self.cage is None else jnp.stack([shift, jnp.broadcast_to(globals_[-1], shift.shape)])
-
-    def gathered(self, globals_, acting):
-        if not self.bent:
-            return jnp.sum(acting, axis=1)
-        return jnp.concatenate([self.on_rings(acting[:2]), jnp.sum(acting[2:], axis=1)])
-
     def element(self, unknowns, shared):
         state = self.rollers(unknowns, shared)
-        balance = state.load if self.bent else state.load[0][None, :] * self.directions
+        balance, nested = self.on_ring(state.pressed), state.contact.inner_residual
+        if state.pressed.along is not None:
+            nested = jnp.maximum(nested, state.pressed.along.residual)
         if state.moment_error is None or state.cage_moment is None or state.cage_force is None:
-            return state.approach_error[None, :], balance, state.contact.inner_residual
-        local = jnp.stack([state.approach_error, state.moment_error])
+            return jnp.stack(state.errors), balance, nested
+        local = jnp.stack([*state.errors, state.moment_error])
         contributions = jnp.concatenate([balance, state.cage_moment[None, :], state.cage_force])
-        return local, contributions, state.contact.inner_residual
+        return local, contributions, nested
 
     def global_residual(self, globals_, totals):
         d = self.ring_unknowns
@@ -242,38 +280,27 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
 
         **Arguments:** `shared`: the globals. If a ring bends, the values of `local_inputs` instead.
         """
-        motion, d = self.kinematics, 1 if self.bent else self.directions.shape[0]
-        log_load = unknowns[0]
-        shift = shared[0] if self.bent else self.inward(shared[:d])
+        motion = self.kinematics
         if self.cage is None:
-            orbit_change = spin_change = jnp.zeros_like(log_load)
+            orbit_change = spin_change = jnp.zeros_like(unknowns[0])
         else:
-            orbit_change = motion.orbit_unit * shared[d]
+            cage = shared[self.cage_row]
+            orbit_change = motion.orbit_unit * cage
             # twice the change of the outer race's mean speed is R_R spin_change + R_o orbit_change
-            spin_change = motion.spin_unit * (unknowns[1] - shared[d])
+            spin_change = motion.spin_unit * (unknowns[-1] - cage)
         orbit, spin = motion.free_orbit + orbit_change, motion.free_spin + spin_change
-        inner_load = jnp.exp(log_load)
-        load = jnp.stack([inner_load, inner_load + self.centrifugal(orbit)])
         mean_speed, sliding = motion.surface_speeds(orbit_change, spin_change)
-        contact = self.laws.evaluate(self.contact, load, mean_speed, sliding, self.oil, self.inlet)
-        approach = self.contact.palmgren_approach(load)
+        pressed = self.normal(unknowns, shared, self.centrifugal(orbit))
+        contact, laminae = self.films(pressed, mean_speed, sliding)
         state = RollerState(
-            load=load,
-            approach=approach,
+            pressed=pressed,
             orbital_speed=orbit,
             spin_speed=spin,
             mean_speed=mean_speed,
             sliding_speed=sliding,
             contact=contact,
-            pocket=None,
-            inner_flange=None,
-            outer_flange=None,
-            rails=None,
-            drag_force=None,
-            approach_error=approach_error(approach, contact.separation, self.radial_clearance - shift),
-            moment_error=None,
-            cage_moment=None,
-            cage_force=None,
+            laminae=laminae,
+            errors=self.normal_errors(pressed, contact),
         )
         return state if self.cage is None else self._with_cage(state, self.cage)
 
@@ -326,6 +353,94 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         assert state.cage_force is not None
         force = jnp.sum(state.cage_force, axis=1)
         return self.land(self.orbit(point.globals[-1]), force[0], force[1])
+
+
+class LubricatedRollerSystem(AbstractInPlane, AbstractLubricatedRollers):
+    """Rollers that carry evenly along their length. The unknown of the normal direction is ln Qi."""
+
+    normal_names: ClassVar[tuple[str, ...]] = (APPROACH,)
+    normal_caps: ClassVar[tuple[float, ...]] = (LOG_LOAD_STEP,)
+    normal_bounds: ClassVar[tuple[tuple[float, float], ...]] = (LOG_LOAD_RANGE,)
+
+    kinematics: RollerKinematics
+    contact: LineContact
+    laws: ContactLaws
+    oil: Lubricant
+    inlet: InletOil
+    directions: Float[Array, "freedom roller"]
+    azimuth: Float[Array, " roller"]
+    ring: InnerRing
+    radial_clearance: Float[Array, ""]
+    roller_mass: Float[Array, ""]
+    held: Float[Array, " roller"] | None = None
+    out_of_round: Float[Array, " roller"] | None = None
+    outer: ElasticRing | None = None
+    inner: ElasticRing | None = None
+    cage: CageParts | None = None
+    elsewhere: OilElsewhere | None = None
+    """Oil of the other interactions, if it differs from `inlet`, the oil of the raceways."""
+
+    @property
+    def cage_row(self) -> int:
+        return 1 if self.bent else self.directions.shape[0]
+
+    def initial(self) -> ArrowPoint:
+        """Starts from rolling without slip. The loads are those of a dry elastic bearing whose clearance is reduced by
+        the films, plus Martin's film force on the rollers outside the loaded zone. The ring displacement is the one
+        that carries the load."""
+        motion, n = self.kinematics, self.azimuth.shape[0]
+        mean_speed, _ = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))
+        along = self.ring.across()
+        opening = self.radial_clearance
+        for inward in (self.held, self.out_of_round):
+            opening = opening if inward is None else opening - inward
+        shift, log_load = guessed_loads(
+            self.contact,
+            self.laws,
+            self.inlet,
+            mean_speed,
+            jnp.einsum("f,fn->n", along, self.directions),
+            self.load_scale(),
+            self.centrifugal(motion.free_orbit),
+            opening,
+        )
+        ring = self.begun(along * shift / LENGTH_UNIT)
+        if self.cage is None:
+            return ArrowPoint(log_load[None, :], ring)
+        return ArrowPoint(jnp.stack([log_load, jnp.zeros(n)]), jnp.concatenate([ring, jnp.zeros(1)]))
+
+    def under(self, factor):
+        ring, outer = self.rings_under(factor)
+        return dataclasses.replace(self, ring=ring, outer=outer)
+
+    def local_inputs(self, globals_):
+        """With flexible rings, returns the displacement of the rings towards each other at each roller and, with a
+        cage, the cage speed. Returns `None` if both rings are rigid."""
+        if not self.bent:
+            return None
+        shift = self.approaching(globals_)
+        return shift[None] if self.cage is None else jnp.stack([shift, jnp.broadcast_to(globals_[-1], shift.shape)])
+
+    def gathered(self, globals_, acting):
+        if not self.bent:
+            return jnp.sum(acting, axis=1)
+        return jnp.concatenate([self.on_rings(acting[:2]), jnp.sum(acting[2:], axis=1)])
+
+    def normal(self, unknowns, shared, centrifugal):
+        inner = jnp.exp(unknowns[0])
+        load = jnp.stack([inner, inner + centrifugal])
+        shift = shared[0] if self.bent else self.inward(shared[: self.directions.shape[0]])
+        return PressedRollers(load, self.contact.palmgren_approach(load), self.radial_clearance - shift)
+
+    def films(self, pressed, mean_speed, sliding):
+        state = self.laws.evaluate(self.contact, pressed.load, mean_speed, sliding, self.oil, self.inlet)
+        return state, None
+
+    def normal_errors(self, pressed, contact):
+        return (approach_error(pressed.approach, contact.separation, pressed.opening),)
+
+    def on_ring(self, pressed):
+        return pressed.load if self.bent else pressed.load[0][None, :] * self.directions
 
 
 class DryRollerSystem(AbstractInPlane):

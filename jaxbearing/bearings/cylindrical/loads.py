@@ -16,12 +16,11 @@ from ...numerics.arrow import AbstractArrowSystem, ArrowPoint
 from ...numerics.plain_newton import plain_newton
 from ...numerics.roots import monotone_root
 from ...numerics.safe import positive_power, safe_norm
-from ..inlet import of_inner_race, oil_of_races
+from ..inlet import of_inner_race
 from ..ring import LENGTH_UNIT
-from .kinematics import roller_kinematics
 
 if TYPE_CHECKING:
-    from .scene import CylindricalRollerBearing
+    pass
 
 LOG_LOAD_RANGE = (-40.0, 18.0)
 """Bounds of ln(load / 1 N) in the iteration."""
@@ -52,6 +51,16 @@ def approach_error(
     return jnp.log(apart / together)
 
 
+def floating_films(
+    contact: LineContact, laws: ContactLaws, inlet: InletOil, mean_speed: Float[Array, "2"], load: Array
+) -> tuple[Array, Array]:
+    """Films of a first guess: the sum of the films on both races under a load, N, in m, and the constant of Martin's
+    film force of a rigid roller, force times gap, N m. **Arguments:** `mean_speed`: on both races, m/s."""
+    film = laws.film.log_thickness(contact, load, mean_speed[:, None], inlet.viscosity, inlet.pressure_viscosity)
+    size = per_race(contact.reduced_radius * contact.length)[0]
+    return jnp.sum(jnp.exp(film)), MARTIN_CONSTANT * of_inner_race(inlet.viscosity) * jnp.abs(mean_speed[0]) * size
+
+
 def guessed_loads(
     contact: LineContact,
     laws: ContactLaws,
@@ -73,13 +82,8 @@ def guessed_loads(
     - `total`: load on the ring, N.
     - `opening`: opening between races and roller if the ring is not displaced along the load, m.
     """
+    film, martin = floating_films(contact, laws, inlet, mean_speed, total * 4.0 / cosine.shape[0] + centrifugal + 1.0)
     kappa = per_race(contact.palmgren_compliance)
-    typical = total * 4.0 / cosine.shape[0] + centrifugal + 1.0
-    film = laws.film.log_thickness(contact, typical, mean_speed[:, None], inlet.viscosity, inlet.pressure_viscosity)
-    film = jnp.sum(jnp.exp(film))
-    # Martin's film of a rigid roller
-    size = per_race(contact.reduced_radius * contact.length)[0]
-    martin = MARTIN_CONSTANT * of_inner_race(inlet.viscosity) * jnp.abs(mean_speed[0]) * size
     stiff = jnp.sum(kappa)
 
     def loads(shift, args):
@@ -216,17 +220,3 @@ def distributed_loads(
     root = plain_newton(system, guess, tolerance=tolerance, max_steps=max_steps)
     load, ring = system.both(root.point.elements[0]), root.point.globals * LENGTH_UNIT
     return Distribution(load, ring, root.residual, root.point)
-
-
-def film_growth(scene: "CylindricalRollerBearing", load: Float[Array, ""]) -> Float[Array, ""]:
-    """See `AbstractBearing.film_growth`. The films are those of rolling without sliding under the largest roller load
-    of a bearing without clearance (Stribeck), plus 1 N so that the load is never 0."""
-    if scene.contact is None or scene.oil is None:
-        return jnp.zeros(())
-    zero = jnp.zeros((2, 1))
-    speed = roller_kinematics(scene.geometry, scene.operation).surface_speeds(jnp.zeros(()), jnp.zeros(()))[0]
-    most = 4.0 * jnp.asarray(load) / scene.geometry.n_rollers + 1.0
-    film, _ = scene.contact.separation(
-        scene.race_lines(None), most + zero, speed[:, None] + zero, zero, scene.oil, oil_of_races(scene)
-    )
-    return jnp.sum(film)

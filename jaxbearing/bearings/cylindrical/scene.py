@@ -50,7 +50,6 @@ from ..warm import thermal_problems
 from ..warming.settings import WarmUpSimulation
 from .checks import CHECKS
 from .geometry import ASSUMED_FLANGE_HEIGHT, RollerCage, RollerFlange, RollerGeometry, check_height
-from .loads import film_growth
 from .mounting import running_geometry, running_play
 from .outline import roller_outline
 from .rating import rated_contacts
@@ -82,8 +81,8 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     - With `contact.traction`, a steady solve needs a `cage`: without it, a roller outside the loaded zone has no steady
       state. Only a scene with a `simulation` may leave the cage out.
     - `profile`, or `operation.misalignment` or `operation.moment`: rollers may tilt, divided into laminae if they have
-      a `profile`. If there is a `contact`, it must be without traction. Films and rolling resistance are then those of
-      rolling without sliding.
+      a `profile`. Films, friction and cage are modelled as without tilt. A run of rollers and cage in motion does not
+      have it.
     - `geometry.flange_stiffness`: flanges hold the ring along its axis. This axial degree of freedom is independent of
       all others.
     - `outer_ring`: flexible outer ring in its housing; `None`: it is rigid. A run of rollers and cage in motion
@@ -132,18 +131,9 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         yield from bending_problems(self, self.operation, lambda: self.raceway_diameters[0], self.ring_width)
         if moves:
             yield from moving_problems(self, round_races=False)
-            yield from refusals_of(check_run, self.operation)
+            yield from refusals_of(check_run, self.operation, self.profile)
         if self.contact is None:
             return
-        if self.tilts and self.slips:
-            operation = self.operation
-            names = ("misalignment", "misalignment_lateral", "moment", "moment_lateral")
-            causes = [f"operation.{name}" for name in names if getattr(operation, name) is not None]
-            causes += [] if self.profile is None else ["profile"]
-            yield (
-                f"{causes[0]}: tilting or profiled rollers (a profile, misalignments, moments) roll "
-                f"without sliding in this version; leave out {' and '.join(causes)}, or contact.traction"
-            )
         if self.cage is not None:
             yield from refusals_of(self.cage.check_fits, self.geometry)
         if self.flange is not None:
@@ -175,6 +165,12 @@ class CylindricalRollerBearing(AbstractMovingBearing):
             jnp.asarray(geometry.pitch_diameter - geometry.roller_diameter),
             jnp.asarray(geometry.pitch_diameter + geometry.roller_diameter),
         )
+
+    @property
+    def roller_mass(self) -> Array:
+        """Mass of a roller, kg."""
+        radius = jnp.asarray(self.geometry.roller_radius)
+        return self.materials.rollers.density * jnp.pi * radius**2 * self.geometry.roller_length
 
     @property
     def ring_width(self) -> Scalar:
@@ -209,14 +205,6 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     def unknown_freedoms(self) -> tuple[str, ...]:
         """See `AbstractBearing`. The axial one is left out, because it follows in closed form."""
         return tuple(name for name in super().unknown_freedoms if name in _ACROSS)
-
-    @property
-    def may_tilt(self) -> bool:
-        """False if rollers can slide: they carry evenly along their length in this model."""
-        return not self.slips
-
-    def film_growth(self, load: Array) -> Array:
-        return film_growth(self, load)
 
     @property
     def skewed(self) -> bool:
@@ -267,11 +255,6 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         if self.contact is not None and self.oil is not None:
             notes += [f"oil: {note}" for note in self.oil.notes]
             notes += _misfit(self.contact, self.oil)
-        if self.tilts and self.contact is not None:
-            notes.append(
-                "tilting rollers roll without sliding: cage, skidding and sliding friction are not modelled, losses "
-                + ("are those of rolling resistance alone" if self.contact.resists_rolling else "are not either")
-            )
         if self.geometry.flange_stiffness is not None:
             notes.append(NOT_MODELLED)
         if self.geometry.contact_length is None:
@@ -284,11 +267,19 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         return tuple(notes)
 
 
-def check_run(operation: Operation) -> None:
-    """Checks the operating point of a transient run.
+def check_run(operation: Operation, profile: RollerProfile | None) -> None:
+    """Checks the operating point of a transient run, and that its rollers carry evenly along their length.
 
-    **Raises:** `ValueError` for given displacements, an axial load, or no radial load.
+    **Raises:** `ValueError` for given displacements, an axial load, or no radial load; for a moment, a misalignment or
+    a profile of the rollers.
     """
+    names = ("moment", "moment_lateral", "misalignment", "misalignment_lateral")
+    tilting = [f"operation.{name}" for name in names if getattr(operation, name) is not None]
+    tilting += [] if profile is None else ["profile"]
+    if tilting:
+        raise ValueError(
+            f"{tilting[0]}: expected none in a transient run, where rollers carry evenly along their length"
+        )
     if operation.displaced:
         raise ValueError("operation.displacement: expected none in a transient run, where loads move the ring")
     if operation.axial_given:

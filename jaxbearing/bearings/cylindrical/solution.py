@@ -11,15 +11,15 @@ from ..operation import Operation
 from ..solution import Solution, label
 
 if TYPE_CHECKING:
-    from .equations import LubricatedRollerSystem, RollerState
+    from .equations import AbstractLubricatedRollers, RollerState
 
 _Values = Float[Array, " element"]
 
 
 class SolvedRollers(NamedTuple):
-    """Converged state of lubricated rollers that carry evenly along their length."""
+    """Converged state of lubricated rollers."""
 
-    system: "LubricatedRollerSystem"
+    system: "AbstractLubricatedRollers"
     state: "RollerState"
 
 
@@ -32,8 +32,7 @@ def _optional(unit: str, description: str) -> Any:
 
 
 def _computed(unit: str, description: str, of: Callable[[SolvedRollers], Array | None]) -> Any:
-    """Field of `RollerResults` that the function `of` computes; `None` for dry rollers, tilting rollers and transient
-    runs."""
+    """Field of `RollerResults` that the function `of` computes; `None` for dry rollers and transient runs."""
     return computed(unit, description, of, default=None)
 
 

@@ -3,13 +3,12 @@
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ...contacts import LineContact, alike_modulus, palmgren_stiffness
+from ...contacts import alike_modulus, palmgren_stiffness
 from ...gaps import Flange, Pocket, PocketEdge, RollerDrag
 from ...numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
-from ..assemble import Results, assemble
+from ..assemble import Results
 from ..computed import computed_results
-from ..elastic_ring import UNSUPPORTED
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..interactions import FrictionTotals, Interaction, friction_totals, of_land
@@ -19,17 +18,19 @@ from ..parts import azimuths, drag_density
 from ..profile import pressed_load
 from ..ring import LENGTH_UNIT, InnerRing, Port
 from ..ring_shape import out_of_round, shaped_parts
-from ..solution import CageState, FailureCause, Solution
-from .equations import DryRollerSystem, LubricatedRollerSystem, RollerState
+from ..solution import CageState, Solution
+from .equations import AbstractLubricatedRollers, DryRollerSystem, LubricatedRollerSystem, RollerState
 from .forces import CageParts, friction_on_rings, rolling_alone
 from .geometry import RollerCage, RollerGeometry
 from .in_plane import IN_PLANE, outward
 from .kinematics import RollerKinematics, roller_kinematics
 from .loads import LEAST_LOAD
+from .lubricated_tilt import LAMINAE, LubricatedTiltingRollers, least_films
 from .ring import bending_rings, roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults, SolvedRollers
-from .tilting_steady import solve_tilting
+from .tilting import TiltingRollers
+from .tilting_steady import assembled, build_tilting, loads_along, none_outside, port_of, solve_tilting
 
 NOTHING_UNKNOWN = ("no unknown: given displacements are the whole state",)
 """Equation names of a system without unknowns."""
@@ -48,17 +49,7 @@ def build_system(
     if ring is None:
         ring = roller_ring(scene, scene.ring_lever)
     motion = roller_kinematics(geometry, operation)
-    radii = jnp.stack(
-        [
-            1.0 / (1.0 / motion.roller_radius + 1.0 / motion.inner_radius),
-            1.0 / (1.0 / motion.roller_radius - 1.0 / motion.outer_radius),
-        ]
-    )
-    contact = LineContact(
-        reduced_radius=radii[:, None],
-        length=jnp.asarray(geometry.loaded_length),
-        reduced_modulus=scene.materials.race_modulus,
-    )
+    contact = scene.race_lines(None)
     clearance, held = jnp.asarray(geometry.diametral_clearance) / 2.0, None
     form, bent = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth), bending_rings(scene, azimuth)
     if ring.needs_held_load:
@@ -81,7 +72,7 @@ def build_system(
         "outer": bent.outer,
         "inner": bent.inner,
         "radial_clearance": clearance,
-        "roller_mass": scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length,
+        "roller_mass": scene.roller_mass,
     }
     if scene.contact is None:
         return DryRollerSystem(**common)
@@ -92,11 +83,12 @@ def build_system(
         oil=scene.oil,
         inlet=oil_of_races(scene),
         elsewhere=oil_elsewhere(scene),
-        cage=_cage_parts(scene, motion) if scene.slips else None,
+        cage=cage_parts(scene, motion) if scene.slips else None,
     )
 
 
-def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> CageParts:
+def cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> CageParts:
+    """Models of all forces on rollers and cage except those of the raceways."""
     cage, oil, geometry, operation = scene.cage, scene.oil, scene.geometry, scene.operation
     assert oil is not None
     viscosity_at = lambda place: oil.viscosity.viscosity(0.0, jnp.asarray(oil_temperature(scene, place)))
@@ -165,52 +157,87 @@ def solve_rollers(
     ring: InnerRing | None = None,
     exact_tilt: bool | None = None,
 ) -> Solution:
-    """Solves for the steady state, in the plane (`solve_steady`) or with rollers that tilt (`solve_tilting`). The loads
-    that the flanges carry follow from the solution.
+    """Solves for the steady state, with rollers that carry evenly along their length or with rollers that tilt. The
+    loads that the flanges carry follow from the solution.
 
     **Arguments:** as `AbstractBearing.solve_ring`; `exact_tilt` has no effect, because rollers have no grooves.
     """
-    # dry rollers that carry evenly have no unknowns if the ring is held: the tilting model finds the same loads
-    evenly = scene.slips or not scene.tilts
-    if ring is not None:
-        evenly = scene.slips
-    elif scene.contact is None and not scene.unknown_freedoms and not shaped_parts(scene):
+    evenly = ring is None and not scene.tilts
+    if scene.contact is None and not scene.unknown_freedoms and not shaped_parts(scene):
+        # dry rollers that carry evenly have no unknowns if the ring is held: the tilting model finds the same loads
         evenly = False
-    solution = solve_steady(scene, options, ring) if evenly else solve_tilting(scene, options, ring)
-    flanges = scene.geometry.thrust_flanges
-    return solution if flanges is None else flanges.hold(solution, scene.operation, ring)
-
-
-def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions, ring: InnerRing | None = None) -> Solution:
-    """Solves for the steady state. The function is pure and can be jitted, vmapped and differentiated. A failed solve
-    does not raise.
-
-    **Arguments:** `ring`: inner ring to use instead of the one at the scene's operating point.
-
-    **Raises:** `ValueError` for a scene that has no steady state.
-    """
     if scene.slips and scene.cage is None:
         raise ValueError(
             "cage: without one a roller outside the loaded zone has no steady state; simulate can run this scene"
         )
+    solve = _solve_evenly if evenly else solve_tilting if scene.contact is None else _solve_lubricated_tilt
+    solution = solve(scene, options, ring)
+    flanges = scene.geometry.thrust_flanges
+    return solution if flanges is None else flanges.hold(solution, scene.operation, ring)
+
+
+def _solve_evenly(scene: CylindricalRollerBearing, options: NewtonOptions, ring: InnerRing | None) -> Solution:
+    """Steady state of rollers that carry evenly along their length."""
     system, result = newton_solve(build_system(scene, ring), options)
-    results = _dry_results(system, result) if isinstance(system, DryRollerSystem) else _lubricated(system, result)
-    causes, steps = {}, result.iterations
-    results = results._replace(**system.bent.results(system.amplitudes(result.point.globals)))
-    if system.outer is not None:
-        result, none = system.outer.judged(system.ring, result)
-        causes, steps = {UNSUPPORTED: FailureCause(none, jnp.zeros(0))}, jnp.where(none, 0, steps)
-    return assemble(
+    dry = isinstance(system, DryRollerSystem)
+    results = _dry_results(system, result) if dry else _lubricated(scene, system, result)
+    port = _port(system, result, results.elements.load_inner)
+    return assembled(
         scene,
+        system,
         result,
         results,
-        system.ring.displacement(result.point.globals),
-        _port(system, result, results.elements.load_inner),
-        failure_causes=causes,
-        iterations=steps,
+        port,
+        result.iterations,
         ring_freedom=scene.shown_freedoms if ring is None else IN_PLANE,
         stiffness_freedom=IN_PLANE if system.ring.needs_held_load else None,
         equation_names=system.equation_names() or NOTHING_UNKNOWN,
+    )
+
+
+def _solve_lubricated_tilt(scene: CylindricalRollerBearing, options: NewtonOptions, ring: InnerRing | None) -> Solution:
+    """Steady state of lubricated rollers that tilt. The iteration starts at the equilibrium of the dry bearing."""
+    dry, minimum = build_tilting(scene, ring).started()
+    system, result = newton_solve(build_lubricated_tilt(scene, dry), options)
+    released = system.ring.released(system.load_scale())
+    return assembled(
+        scene,
+        system,
+        none_outside(result, minimum),
+        _lubricated(scene, system, result),
+        port_of(system, build_lubricated_tilt(scene, build_tilting(scene, released)), result.point),
+        minimum.steps + result.iterations,
+        ring_freedom=scene.shown_freedoms if ring is None else scene.modelled_freedoms,
+        stiffness_freedom=scene.modelled_freedoms,
+        equation_names=system.equation_names(),
+    )
+
+
+def build_lubricated_tilt(scene: CylindricalRollerBearing, dry: TiltingRollers) -> LubricatedTiltingRollers:
+    """Equations of lubricated rollers that tilt.
+
+    **Arguments:** `dry`: the same bearing without films and friction, with its equilibrium as first guess, or without a
+    guess for equations that are not solved.
+    """
+    assert scene.contact is not None
+    assert scene.oil is not None
+    motion = roller_kinematics(scene.geometry, scene.operation)
+    return LubricatedTiltingRollers(
+        dry=dry,
+        ring=dry.ring,
+        outer=dry.outer,
+        inner=dry.inner,
+        azimuth=dry.azimuth,
+        heavier=jnp.ones(()),
+        kinematics=motion,
+        contact=scene.race_lines(None),
+        laws=scene.contact,
+        oil=scene.oil,
+        inlet=oil_of_races(scene),
+        roller_mass=scene.roller_mass,
+        cage=cage_parts(scene, motion) if scene.slips else None,
+        elsewhere=oil_elsewhere(scene),
+        laminae=LAMINAE if scene.profile is None else scene.profile.n_laminae,
     )
 
 
@@ -253,12 +280,21 @@ def _dry_results(system: DryRollerSystem, result: NewtonResult) -> Results[Rolle
     return Results(elements, FrictionTotals(PowerLoss()), facts)
 
 
-def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results[RollerResults, PowerLoss]:
+def _lubricated(
+    scene: CylindricalRollerBearing, system: AbstractLubricatedRollers, result: NewtonResult
+) -> Results[RollerResults, PowerLoss]:
     state, motion = system.at(result.point), system.kinematics
-    pressure = system.contact.hertz_pressure(state.load)
     contact, pocket, rise = state.contact, state.pocket, state.contact.temperature_rise
-    speeds = (state.mean_speed, state.sliding_speed)
-    mixed = system.laws.mixed_state(system.contact, state.load, contact, *speeds, system.inlet)
+    along, laminae, rated, more = state.pressed.along, None, None, {}
+    if isinstance(system, LubricatedTiltingRollers):
+        assert along is not None
+        mixed = system.mixed(state)
+        laminae, pressure, rated = loads_along(scene, system.dry.line, system.contact, along.start, along.slope)
+        more = least_films(state)
+    else:
+        speeds = (state.mean_speed, state.sliding_speed)
+        mixed = system.laws.mixed_state(system.contact, state.load, contact, *speeds, system.inlet)
+        pressure = system.contact.hertz_pressure(state.load)
     elements = RollerResults(
         azimuth=system.azimuth,
         load_inner=state.load[0],
@@ -279,6 +315,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
         pocket_film_rear=None if pocket is None else pocket.film_rear,
         pocket_load_front=None if pocket is None else pocket.load_front,
         pocket_load_rear=None if pocket is None else pocket.load_rear,
+        **more,
         **mixed_results(mixed),
         **computed_results(RollerResults, SolvedRollers(system, state)),
     )
@@ -293,12 +330,13 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
         sliding=state.sliding_speed,
         temperature=None if rise is None else system.inlet.temperature + rise,
         load_share=None if mixed is None else mixed.share,
+        laminae=laminae,
         starved=contact.supply,
     )
     facts = Facts((contacts,))
     if system.cage is None:
         totals = rolling_alone(system.contact, motion, contact.rolling_force)
-        return Results(elements, totals, facts)
+        return Results(elements, totals, facts, laminae=rated)
 
     land = system.land_at(result.point, state)
     orbit = system.orbit(result.point.globals[-1])
@@ -309,7 +347,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
         attitude_angle=land.attitude_angle,
     )
     totals = friction_totals(PowerLoss, _interactions(system, state, land), motion)
-    return Results(elements, totals, facts, cage=cage, boundary_power=boundary_power(mixed))
+    return Results(elements, totals, facts, cage=cage, laminae=rated, boundary_power=boundary_power(mixed))
 
 
 def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
@@ -322,7 +360,7 @@ def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
     return (free - orbit) * free / (jnp.square(free) + jnp.square(1e-8 * motion.orbit_unit))
 
 
-def _interactions(system: LubricatedRollerSystem, state: RollerState, land: LandState) -> list[Interaction]:
+def _interactions(system: AbstractLubricatedRollers, state: RollerState, land: LandState) -> list[Interaction]:
     """All friction of a bearing with sliding rollers. The power of each interaction is computed from its own force and
     its own speed."""
     motion, pocket, cage = system.kinematics, state.pocket, system.cage

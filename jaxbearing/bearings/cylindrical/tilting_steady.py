@@ -1,36 +1,31 @@
-r"""Steady state of a cylindrical roller bearing with tilting, profiled rollers.
-
-The load distribution is dry and frictionless. Loads are integrated in closed form along straight rollers, and over
-laminae along a profile. If the scene has an oil and contact laws, films and rolling resistance follow from the loads,
-for rolling without sliding: the laminae are short line contacts side by side, each with its own load per length. The
-tractions that keep the rollers rolling follow from the balance of each roller, and the ring torques from the tractions.
-"""
+"""Steady state of a cylindrical roller bearing with dry, frictionless rollers that tilt, and what lubricated rollers
+that tilt share with it: loads along the rollers, reaction of the ring, results."""
 
 import dataclasses
+from typing import Any
 
-import jax
 import jax.numpy as jnp
-from jaxtyping import Array, Float
+from jaxtyping import Array, Float, Int
 
-from ...contacts import LineContact
-from ...contacts.laws import ContactState
-from ...contacts.oil_supply import Starvation
-from ...lubricants import InletOil
+from ...contacts import AbstractTiltedLine, LineContact
 from ...numerics.arrow import ArrowPoint, linearize
-from ...numerics.newton import NewtonOptions, newton_solve
+from ...numerics.convex import Minimum
+from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
+from ...numerics.safe import largest
 from ...numerics.status import Status
 from ..assemble import Results, assemble
 from ..elastic_ring import UNSUPPORTED
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
-from ..inlet import oil_of_races
+from ..interactions import FrictionTotals
 from ..parts import azimuths
 from ..profile import own_laminae, pressed_load, roller_line
 from ..rating import rated_laminae
 from ..ring import InnerRing, Port
 from ..ring_shape import out_of_round
+from ..rings import AbstractBetweenRings
 from ..solution import FailureCause, LaminaLoads, Solution
-from .forces import rolling_alone
-from .kinematics import RollerKinematics, roller_kinematics
+from .kinematics import roller_kinematics
+from .lubricated_tilt import LubricatedTiltingRollers
 from .ring import bending_rings, roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults
@@ -47,7 +42,6 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
         ring = roller_ring(scene, length)
     line = roller_line(scene.profile, scene.materials.race_modulus, length)
     motion = roller_kinematics(scene.geometry, scene.operation)
-    mass = scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length
     held = jnp.einsum("f,fcn->cn", ring.held, columns)
     form, bent = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth), bending_rings(scene, azimuth)
     if form is not None:
@@ -59,7 +53,7 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
         held=held if ring.expansion is None else held.at[0].add(ring.expansion),
         ring=ring,
         radial_clearance=jnp.asarray(geometry.diametral_clearance) / 2.0,
-        centrifugal=mass * motion.pitch_radius * jnp.square(motion.free_orbit),
+        centrifugal=scene.roller_mass * motion.pitch_radius * jnp.square(motion.free_orbit),
         guess=None,
         outer=bent.outer,
         inner=bent.inner,
@@ -87,57 +81,51 @@ def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions, ring:
     does not raise. **Arguments:** `ring`: inner ring to use instead of the one at the scene's operating point."""
     started, minimum = build_tilting(scene, ring).started()
     system, result = newton_solve(started, options)
-    none = ~result.converged & minimum.outside
-    result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
-    results, causes, steps = _results(scene, system, system.at(result.point)), {}, minimum.steps + result.iterations
-    results = results._replace(**system.bent.results(system.amplitudes(result.point.globals)))
-    if system.outer is not None:
-        result, none = system.outer.judged(system.ring, result)
-        causes, steps = {UNSUPPORTED: FailureCause(none, jnp.zeros(0))}, jnp.where(none, 0, steps)
-    return assemble(
+    return assembled(
         scene,
-        result,
-        results,
-        system.ring.displacement(result.point.globals),
-        _port(scene, system, result.point),
-        failure_causes=causes,
-        iterations=steps,
+        system,
+        none_outside(result, minimum),
+        _results(scene, system, system.at(result.point)),
+        port_of(system, build_tilting(scene, system.ring.released(system.load_scale())), result.point),
+        minimum.steps + result.iterations,
         ring_freedom=scene.shown_freedoms if ring is None else scene.modelled_freedoms,
         stiffness_freedom=scene.modelled_freedoms,
         equation_names=system.equation_names(),
     )
 
 
+def none_outside(result: NewtonResult, minimum: Minimum) -> NewtonResult:
+    """The result with the status of a bearing without equilibrium, if the dry bearing has none either."""
+    none = ~result.converged & minimum.outside
+    return result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
+
+
+def assembled(
+    scene: CylindricalRollerBearing,
+    system: AbstractBetweenRings,
+    result: NewtonResult,
+    results: Results[RollerResults, PowerLoss],
+    port: Port,
+    steps: Int[Array, ""],
+    **names: Any,
+) -> Solution:
+    """Builds the solution, with the results of flexible rings. **Arguments:** `steps`: Newton steps of all solves;
+    others as in `assemble.assemble`."""
+    results = results._replace(**system.bent.results(system.amplitudes(result.point.globals)))
+    causes = {}
+    if system.outer is not None:
+        result, none = system.outer.judged(system.ring, result)
+        causes, steps = {UNSUPPORTED: FailureCause(none, jnp.zeros(0))}, jnp.where(none, 0, steps)
+    ring = system.ring.displacement(result.point.globals)
+    return assemble(scene, result, results, ring, port, failure_causes=causes, iterations=steps, **names)
+
+
 def _results(
     scene: CylindricalRollerBearing, system: TiltingRollers, state: TiltingState
 ) -> Results[RollerResults, PowerLoss]:
-    motion, zero, ones = (
-        roller_kinematics(scene.geometry, scene.operation),
-        jnp.zeros(()),
-        jnp.ones_like(system.azimuth),
-    )
-    count = own_laminae(scene.profile)
-    cut = lambda number: jnp.stack(
-        [system.line.of_race(side).laminae(state.approach[side], state.slope[side], number) for side in (0, 1)]
-    )
-    laminae = cut(count)
-    rated = rated_laminae(scene.rating, count)
-    inner_laminae, outer_laminae = laminae if rated == count else cut(rated)
-    curvatures = jnp.stack([1.0 / motion.inner_radius, -1.0 / motion.outer_radius])
-    contact = LineContact(
-        (1.0 / (1.0 / motion.roller_radius + curvatures))[:, None],
-        jnp.asarray(system.line.length),
-        scene.materials.race_modulus,
-    )
-    if scene.profile is None:
-        # the load per length of a straight roller is largest at one of its ends
-        ends = jnp.asarray([0.0, 1.0])[:, None, None]
-        per_length = system.line.load_per_length(state.approach[None], state.slope[None], ends)
-        most = jnp.max(per_length, axis=0) * contact.length
-    else:
-        most = jnp.max(laminae, axis=2) * count
-    peaks = jnp.where(most > 0, contact.hertz_pressure(jnp.where(most > 0, most, 1.0)), 0.0)
-    more, rolling, starved = _films(scene, contact, motion, state.load, laminae)
+    motion, ones = roller_kinematics(scene.geometry, scene.operation), jnp.ones_like(system.azimuth)
+    contact = scene.race_lines(None)
+    laminae, peaks, rated = loads_along(scene, system.line, contact, state.approach, state.slope)
     elements = RollerResults(
         azimuth=system.azimuth,
         load_inner=state.load[0],
@@ -146,72 +134,43 @@ def _results(
         pressure_outer=peaks[1],
         orbital_speed=motion.free_orbit * ones,
         spin_speed=motion.free_spin * ones,
-        **more,
     )
-    profiled = scene.profile is not None and scene.profile.shape is not None
-    totals = rolling_alone(contact, motion, rolling)
-    contacts = Contacts(RACEWAYS, state.load, peaks, MEAN_OF_LINE, laminae=laminae)
-    facts = Facts((contacts,))
-    if scene.contact is not None and scene.oil is not None:
-        rises = [more[name] for name in ("temperature_rise_inner", "temperature_rise_outer") if name in more]
-        inlet = oil_of_races(scene)
-        speed = motion.surface_speeds(zero, zero)[0][:, None]
-        temperature = inlet.temperature + jnp.stack(rises) if rises else None
-        contacts = contacts._replace(laws=scene.contact, inlet=inlet, mean_speed=speed, temperature=temperature)
-        contacts = contacts._replace(starved=starved)
-        facts = facts._replace(contacts=(contacts,))
-    laminae = LaminaLoads(inner_laminae, outer_laminae, profiled)
-    return Results(elements, totals, facts, laminae=laminae)
+    facts = Facts((Contacts(RACEWAYS, state.load, peaks, MEAN_OF_LINE, laminae=laminae),))
+    return Results(elements, FrictionTotals(PowerLoss()), facts, laminae=rated)
 
 
-def _films(
+def loads_along(
     scene: CylindricalRollerBearing,
+    line: AbstractTiltedLine,
     contact: LineContact,
-    motion: RollerKinematics,
-    load: Float[Array, "2 roller"],
-    laminae: Float[Array, "2 roller lamina"],
-) -> tuple[dict[str, Array], Float[Array, "2 roller"] | None, Starvation | None]:
-    """Films by the names of the results, rolling resistance of each contact, N, and its starvation.
-
-    `film_*` are the films of whole contacts, with the load spread evenly over the length, m; `film_least_*` are the
-    thinnest films of the laminae, m. Both are NaN for contacts without load.
-    """
-    laws, oil = scene.contact, scene.oil
-    if laws is None or oil is None:
-        return {}, None, None
-    inlet = oil_of_races(scene)
-    # laminae are the last axis
-    along = lambda tree: jax.tree.map(lambda values: values[..., None] if jnp.ndim(values) else values, tree)
-    inlet_along = along(inlet)
-    speed = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))[0][:, None]
-
-    def loaded(line: LineContact, load: Array, speed: Array, inlet: InletOil) -> tuple[Array, ContactState]:
-        carries = load > 0
-        safe = jnp.where(carries, load, 1.0)
-        return carries, laws.evaluate(line, safe, speed + 0.0 * safe, 0.0 * safe, oil, inlet)
-
-    carries, whole = loaded(contact, load, speed, inlet)
-    radius, modulus = along((contact.reduced_radius, contact.reduced_modulus))
-    each = LineContact(radius, contact.length / laminae.shape[2], modulus)
-    if inlet.flow is not None:
-        # the flow is shared equally by the laminae
-        inlet_along = dataclasses.replace(inlet_along, flow=inlet.flow / laminae.shape[2])
-    carried, parts = loaded(each, laminae, speed[..., None], inlet_along)
-    blank = lambda values: jnp.where(carries, values, jnp.nan)
-    film = blank(whole.film)
-    least = blank(jnp.min(jnp.where(carried, parts.film, jnp.inf), axis=2))
-    more = {"film_inner": film[0], "film_outer": film[1], "film_least_inner": least[0], "film_least_outer": least[1]}
-    if whole.temperature_rise is not None:
-        rise = blank(whole.temperature_rise)
-        more |= {"temperature_rise_inner": rise[0], "temperature_rise_outer": rise[1]}
-    if parts.rolling_force is None:
-        return more, None, whole.supply
-    return more, jnp.sum(jnp.where(carried, parts.rolling_force, 0.0), axis=2), whole.supply
+    start: Float[Array, "2 roller"],
+    slope: Float[Array, "2 roller"],
+) -> tuple[Float[Array, "2 roller lamina"], Float[Array, "2 roller"], LaminaLoads]:
+    """Loads along tilted rollers: of the laminae of the profile, N; largest pressures, Pa; loads of the laminae for the
+    life. **Arguments:** `start`, m, and `slope`: of the approach along the rollers."""
+    count, profile = own_laminae(scene.profile), scene.profile
+    cut = lambda number: jnp.stack([line.of_race(side).laminae(start[side], slope[side], number) for side in (0, 1)])
+    laminae = cut(count)
+    rated = rated_laminae(scene.rating, count)
+    inner, outer = laminae if rated == count else cut(rated)
+    if profile is None:
+        # the load per length of a straight roller is largest at one of its ends
+        ends = jnp.asarray([0.0, 1.0])[:, None, None]
+        most = largest(line.load_per_length(start[None], slope[None], ends), axis=0) * contact.length
+    else:
+        most = largest(laminae, axis=2) * count
+    peaks = jnp.where(most > 0, contact.hertz_pressure(jnp.where(most > 0, most, 1.0)), 0.0)
+    profiled = profile is not None and profile.shape is not None
+    return laminae, peaks, LaminaLoads(inner, outer, profiled)
 
 
-def _port(scene: CylindricalRollerBearing, system: TiltingRollers, point: ArrowPoint) -> Port:
-    """Reaction and stiffness of the ring, with the rollers in equilibrium."""
-    full = build_tilting(scene, system.ring.released(system.load_scale()))
+def port_of(
+    system: TiltingRollers | LubricatedTiltingRollers,
+    full: TiltingRollers | LubricatedTiltingRollers,
+    point: ArrowPoint,
+) -> Port:
+    """Reaction and stiffness of the ring, with the rollers and the cage in equilibrium. **Arguments:** `full`: the
+    equations with all degrees of freedom of the ring as unknowns; `point`: equilibrium of `system`."""
     place = ArrowPoint(point.elements, system.ring.released_unknowns(point.globals))
     equations, jacobian = linearize(full, place)
     force = full.of_freedoms(equations.residual.globals) * full.load_scale() + full.ring.load

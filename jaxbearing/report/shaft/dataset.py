@@ -27,7 +27,6 @@ _VECTORS = {
     "on_shaft": ("freedom",),
     "outer": ("freedom",),
     "stiffness": ("freedom", "freedom_displaced"),
-    "sliding_difference": ("freedom",),
 }
 """Results of a bearing that are vectors or matrices -> their dimensions."""
 _OWN = ("ring_", "force", "stiffness", "operation_", "life_", "freedom")

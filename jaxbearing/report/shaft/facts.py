@@ -264,15 +264,6 @@ def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
         bent = ", ".join(f"{name} {bending(ring)}" for name, ring in rings.items() if ring is not None)
         if bent:
             yield f"{side.capitalize()} rings", bent
-    apart = {name: bearing.sliding_difference for name, bearing in solution.bearings.items()}
-    sizes = {
-        name: float(np.linalg.norm(np.asarray(difference)[:3]))
-        for name, difference in apart.items()
-        if difference is not None
-    }
-    if any(size > _LEAST for size in sizes.values()):
-        sliding = ", ".join(f"{name} {with_unit(size, 'N', 3)}" for name, size in sizes.items())
-        yield "Rollers that slide", f"part of the force across the axis that comes from tilt: {sliding}"
     torque = solution.torque
     parts = [f"forces {with_unit(float(torque.forces), 'N m')}", f"drive {with_unit(float(torque.drive), 'N m')}"]
     if number(torque.bearings):

@@ -59,7 +59,6 @@ def _bearing(bearing: BearingOnShaft, converged: bool) -> dict[str, Any]:
         "closure": plain(bearing.closure),
         "expansion": plain(bearing.expansion),
         "largest_load": plain(bearing.largest_load),
-        "sliding_difference": None if bearing.sliding_difference is None else plain_array(bearing.sliding_difference),
         "pressure_centre": plain(bearing.pressure_centre),
         "life": None if bearing.life is None else plain(bearing.life),
     }

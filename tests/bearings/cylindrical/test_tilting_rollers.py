@@ -167,8 +167,6 @@ def test_gradients_of_life(tilted):
 
 
 def test_refusals():
-    with pytest.raises(ValueError, match=r"^operation\.misalignment: tilting .*, or contact\.traction"):
-        jb.load_scene("turbine_roller").replace({"operation.misalignment": 1e-3})
     with pytest.raises(ValueError, match="sets the tilt free"):
         roller(misalignment=1e-3, moment=0.0)
 
@@ -192,27 +190,25 @@ def test_rolling_takes_the_power_that_the_rings_bring(lubricated, speeds):
     assert found.power_loss.inner_raceway is None
     dry = jb.solve(lubricated.replace({"contact.rolling": None}))
     assert dry.power_loss.rolling_resistance is None
-    assert any("without sliding" in note for note in found.notes)
 
 
 @pytest.mark.slow
 def test_films_of_laminae(lubricated):
     tilted_ = jb.solve(lubricated)
     e = tilted_.elements
-    idle = np.asarray(e.load_inner) == 0.0
-    assert np.any(idle)
-    for film in (e.film_inner, e.film_least_inner, tilted_.life.film_ratio_inner):
-        assert np.array_equal(np.isnan(film), idle)
-    assert not np.any(np.signbit(e.load_inner))
-    assert np.all(e.film_least_inner[~idle] < e.film_inner[~idle])
+    # rollers outside the loaded zone float on their films
+    assert np.min(e.load_inner) > 0.0
+    assert np.min(e.load_inner) < 1e-2 * np.max(e.load_inner)
+    loaded = np.asarray(e.load_inner) > 10.0
+    assert np.all(e.film_least_inner[loaded] < e.film_inner[loaded])
     thinnest = LINE_SHARE * e.film_least_inner  # of the lamina: minimum over central film
     np.testing.assert_allclose(tilted_.life.film_ratio_inner, thinnest / np.hypot(1e-7, 1e-7))
     assert tilted_.life.viscosity_ratio > 0.1
-    # aligned straight rollers: all laminae alike, and the film of the plane model but for its share of the elastic gap
+    # aligned straight rollers: all laminae alike, and the films of the plane model
     even = jb.solve(lubricated.replace({"operation.misalignment": 0.0, "profile": RollerProfile()})).elements
     np.testing.assert_allclose(even.film_least_inner, even.film_inner, rtol=1e-9)
     plane = jb.solve(lubricated.replace({"operation.misalignment": None, "profile": None})).elements
-    np.testing.assert_allclose(even.film_inner[0], plane.film_inner[0], rtol=5e-3)
+    np.testing.assert_allclose(even.film_inner, plane.film_inner, rtol=1e-9)
 
 
 def test_absurd_tilts_are_said(tilted):

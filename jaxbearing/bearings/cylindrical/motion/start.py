@@ -74,7 +74,7 @@ def build_dynamics(
     point with given displacements, an axial load or no radial load; and for settings that only ball bearings have.
     """
     require_moving(scene)
-    check_run(scene.operation)
+    check_run(scene.operation, scene.profile)
     simulation.require_no_mass()
     if simulation.rotating_load is not None and not scene.skewed:
         scene = scene.replace({"ring_freedom": ("radial", "lateral")})
