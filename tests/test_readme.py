@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import jaxbearing as jb
@@ -85,22 +86,41 @@ def test_oil_table_is_a_scene(tmp_path):
     assert nu == pytest.approx(68e-6, rel=1e-12)
 
 
-def test_curve_file_is_read(tmp_path):
+@pytest.fixture
+def curve(tmp_path):
+    """The points of the page, and the scene that its command names."""
     (block,) = blocks(FITTING, "csv")
     file = tmp_path / "curves.csv"
     file.write_text(block, encoding="utf-8")
-    changes = re.findall(r"jaxbearing fit .*? --scene (\w+) --set ([\w.]+)=\"(.*?)\"", FITTING)
-    ((scene, path, value),) = changes
-    measured = Measurements.of(read_curves(file), jb.load_scene(scene, {path: value}))
+    ((name, path, value),) = re.findall(r"jaxbearing fit .*? --scene (\w+) --set ([\w.]+)=\"(.*?)\"", FITTING)
+    scene = jb.load_scene(name, {path: value})
+    return Measurements.of(read_curves(file), scene), scene
+
+
+def test_curve_file_is_that_of_the_oil_of_the_scene(curve):
+    """With errors of up to 2 %."""
+    measured, scene = curve
     assert measured.slide_to_roll.tolist() == [0.001, 0.002, 0.005, 0.01, 0.02, 0.05]
-    result = fit(measured, jb.load_scene(scene, {path: value}))
+    scene = scene.at_operation(
+        slide_to_roll=np.asarray(measured.slide_to_roll), pressure=1.5e9, temperature=313.15, entrainment_speed=20.0
+    )
+    found = jb.solve(scene).traction_coefficient.ravel()
+    np.testing.assert_allclose(found, measured.traction_coefficient, rtol=0.02)
+
+
+@pytest.mark.slow
+def test_curve_file_is_fitted(curve):
+    """As all noise free curves are: tests/fitting/test_fit.py."""
+    measured, scene = curve
+    result = fit(measured, scene)
     assert result.converged
     assert result.fitted == ("shear_modulus", "stress")
-    # the points are those of the scene's own oil: the fit finds it, and has nothing to remark on its values
+    # the fit has nothing to remark on the values of the scene's own oil
     assert not [note for note in result.notes if "not that of an oil" in note or "stands for something else" in note]
-    oil = jb.load_scene(scene).oil.rheology
     for name in result.fitted:
-        assert float(getattr(result.oil.rheology, name)) == pytest.approx(float(getattr(oil, name)), rel=0.1)
+        assert float(getattr(result.oil.rheology, name)) == pytest.approx(
+            float(getattr(scene.oil.rheology, name)), rel=0.1
+        )
 
 
 def test_commands_are_one_line_each():

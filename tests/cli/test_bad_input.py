@@ -154,8 +154,9 @@ def check(result, folder, file, path, words):
         assert word in message
 
 
-@pytest.mark.parametrize("name", BROKEN)
-@pytest.mark.parametrize("options", [(), ("--json",)], ids=["screen", "json"])
+@pytest.mark.parametrize(
+    ("name", "options"), [*((name, ()) for name in BROKEN), *((name, ("--json",)) for name in ("syntax", "wrong_unit"))]
+)
 def test_broken_scene(name, options, jaxbearing_command, folder):
     text, path, words = BROKEN[name]
     file = f"{name}.toml"

@@ -17,9 +17,9 @@ def test_files_that_know_a_family():
     known = set()
     for path in test_layers.modules(test_layers.PACKAGE):
         name = path.relative_to(test_layers.PACKAGE).as_posix()
-        modules = (f"jaxbearing.bearings.{family}." for family in FAMILIES)
+        modules = tuple(f"jaxbearing.bearings.{family}." for family in FAMILIES)
         if not name.startswith(OWN) and any(
-            f"{imported}.".startswith(module) for module in modules for imported in test_layers.imported_modules(path)
+            f"{one}.".startswith(modules) for one in test_layers.imported_modules(path)
         ):
             known.add(name)
     (listed,) = re.findall(

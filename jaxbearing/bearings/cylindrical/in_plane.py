@@ -25,8 +25,7 @@ class AbstractInPlane(AbstractBetweenRings):
     """Base of the equations of rollers that carry evenly along their length.
 
     - `directions`: components of the outward unit vectors along the unknown degrees of freedom of the `ring`.
-    - `held`: given displacement of the inner ring towards each roller, with the expansion of its raceway, m; `None` if
-      none is given.
+    - `held`: given displacement of the inner ring towards each roller, m; `None` if none is given.
     - `out_of_round`: approach of the races at each roller because they are not round, m; `None` if they are round.
     - `outer`, `inner`: flexible rings; `None` if they are rigid. Their bending opens the contacts of a roller, which
       reduces the displacement of the rings towards each other (`local_inputs`).
@@ -82,5 +81,4 @@ class AbstractInPlane(AbstractBetweenRings):
         """These equations with the radial and the lateral displacement of the ring as unknowns."""
         ring, both = self.ring, outward(self.azimuth)
         free = InnerRing(jnp.full(2, ring.size() / jnp.sqrt(2.0)), jnp.zeros(5), ring.lever, IN_PLANE)
-        held = None if ring.expansion is None else jnp.broadcast_to(ring.expansion, self.azimuth.shape)
-        return dataclasses.replace(self, directions=both, ring=free, held=held)
+        return dataclasses.replace(self, directions=both, ring=free, held=None)

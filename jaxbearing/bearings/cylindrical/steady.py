@@ -36,26 +36,19 @@ NOTHING_UNKNOWN = ("no unknown: given displacements are the whole state",)
 """Equation names of a system without unknowns."""
 
 
-def build_system(
-    scene: CylindricalRollerBearing, ring: InnerRing | None = None
-) -> DryRollerSystem | LubricatedRollerSystem:
-    """Equations of a scene; everything that does not depend on the unknowns is computed here.
-
-    **Arguments:** `ring`: inner ring to use instead of the one at the scene's operating point.
-    """
+def build_system(scene: CylindricalRollerBearing) -> DryRollerSystem | LubricatedRollerSystem:
+    """Equations of rollers that carry evenly along their length; everything that does not depend on the unknowns is
+    computed here."""
     geometry, operation = scene.geometry, scene.operation
     azimuth = azimuths(geometry, geometry.n_rollers)
     cosines = outward(azimuth)
-    if ring is None:
-        ring = roller_ring(scene, scene.ring_lever)
+    ring = roller_ring(scene, scene.ring_lever)
     motion = roller_kinematics(geometry, operation)
     contact = scene.race_lines(None)
     clearance, held = jnp.asarray(geometry.diametral_clearance) / 2.0, None
     form, bent = out_of_round(scene.inner_roundness, scene.outer_roundness, azimuth), bending_rings(scene, azimuth)
     if ring.needs_held_load:
         held = jnp.einsum("f,fn->n", ring.held[1:3], cosines)
-        if ring.expansion is not None:
-            held = held + ring.expansion
         stiffness = palmgren_stiffness(contact.length, alike_modulus(contact.reduced_modulus))
         pressed = held - clearance if form is None else held + form - clearance
         asked = pressed_load(stiffness, contact.length, pressed, jnp.zeros(()))
@@ -170,15 +163,17 @@ def solve_rollers(
         raise ValueError(
             "cage: without one a roller outside the loaded zone has no steady state; simulate can run this scene"
         )
-    solve = _solve_evenly if evenly else solve_tilting if scene.contact is None else _solve_lubricated_tilt
-    solution = solve(scene, options, ring)
+    if evenly:
+        solution = _solve_evenly(scene, options)
+    else:
+        solution = (solve_tilting if scene.contact is None else _solve_lubricated_tilt)(scene, options, ring)
     flanges = scene.geometry.thrust_flanges
     return solution if flanges is None else flanges.hold(solution, scene.operation, ring)
 
 
-def _solve_evenly(scene: CylindricalRollerBearing, options: NewtonOptions, ring: InnerRing | None) -> Solution:
+def _solve_evenly(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
     """Steady state of rollers that carry evenly along their length."""
-    system, result = newton_solve(build_system(scene, ring), options)
+    system, result = newton_solve(build_system(scene), options)
     dry = isinstance(system, DryRollerSystem)
     results = _dry_results(system, result) if dry else _lubricated(scene, system, result)
     port = _port(system, result, results.elements.load_inner)
@@ -189,7 +184,7 @@ def _solve_evenly(scene: CylindricalRollerBearing, options: NewtonOptions, ring:
         results,
         port,
         result.iterations,
-        ring_freedom=scene.shown_freedoms if ring is None else IN_PLANE,
+        ring_freedom=scene.shown_freedoms,
         stiffness_freedom=IN_PLANE if system.ring.needs_held_load else None,
         equation_names=system.equation_names() or NOTHING_UNKNOWN,
     )

@@ -9,6 +9,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from rings_that_bend import lobes
 from roller_cases import reference_roller
 
 import jaxbearing as jb
@@ -70,8 +71,8 @@ def test_under_a_moment_power_and_loads_are_in_balance(scene, under):
         np.testing.assert_allclose(solution.force[1], scene.operation.radial_load, rtol=1e-9)
         elements, laminae = solution.elements, solution.laminae
         for load, along in ((elements.load_inner, laminae.inner), (elements.load_outer, laminae.outer)):
-            loaded = np.asarray(load) > 100.0
-            np.testing.assert_allclose(np.sum(along, axis=1)[loaded], load[loaded], rtol=1e-3)
+            # two points in each lamina: less exact where the contact ends within a lamina
+            np.testing.assert_allclose(np.sum(along, axis=1), load, atol=3e-4 * np.max(load))
         # both races press the roller with one moment: laminae of 30, two points in each
         place = np.arange(30) - 14.5
         inner, outer = (np.asarray(along) @ place for along in (laminae.inner, laminae.outer))
@@ -208,7 +209,7 @@ def test_profiled_rollers_of_a_tilted_and_flexible_ring(scene):
     """Profile, misalignment, flexible outer ring and oval race together, with cage and traction."""
     profile = RollerProfile(LogarithmicProfile(5e-6))
     tilted = scene.replace({"operation.moment": None, "operation.misalignment": 1e-3, "profile": profile})
-    oval = OuterRoundness(lobes=2, height=5e-6, angle=0.3)
+    oval = lobes(OuterRoundness, 2, 5e-6, 0.3)
     for changes in (
         {"outer_roundness": oval},
         {"outer_ring": FlexibleRing(thickness=0.012, width=0.02, harmonics=8, housing_stiffness=1e10)},
