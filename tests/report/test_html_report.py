@@ -4,9 +4,11 @@ import dataclasses
 import re
 from datetime import UTC, datetime
 
+import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from filled_results import solution_of
 from html_pages import Page
 from roller_cases import dry_roller, turbine_roller
 
@@ -21,8 +23,8 @@ from jaxbearing.scenes.inputs import SceneInput, described_field, scene_inputs
 
 WHEN = datetime(2026, 1, 2, 3, 4, tzinfo=UTC)
 CHANGES = {
-    # what compiles fast: traction at the mean pressure, or no friction
     "turbine_roller": {"contact.traction_model": "mean_pressure"},
+    # what compiles fast: no friction
     "turbine_ball": {"contact": "none", "cage": "none", "drag": "none", "kinematics": "none"},
     "deep_groove_6205": {"contact": "none", "operation.radial_load": "3 kN"},
     "tapered_example": {"contact": "none", "drag": "none"},
@@ -30,15 +32,35 @@ CHANGES = {
 EVIL = "</script><script>alert(1)</script>\"'><img src=x onerror=alert(2)>{{ 7*7 }}"
 
 
+MADE_UP = ("turbine_roller", "tapered_example")
+"""Those that are large to solve."""
+
+
+class Solved(dict):
+    """Scenes and their solutions by name, each when it is asked for."""
+
+    def __missing__(self, name):
+        scene = jb.load_scene(name, CHANGES[name])
+        self[name] = scene, rollers(scene) if name in MADE_UP else jb.solve(scene)
+        return self[name]
+
+
+def rollers(scene):
+    """A solution with made up numbers, some of the size that they have, and with unloaded rollers."""
+    found = solution_of(scene)
+    load = 8e3 * np.maximum(np.cos(np.asarray(found.elements.azimuth)), 0.0)
+    parts = lambda s: (s.elements.load_inner, s.elements.load_outer, s.ring.radial)
+    return eqx.tree_at(parts, found, (load, load + 300.0, 40e-6))
+
+
 @pytest.fixture(scope="module")
 def solved():
-    scenes = {name: jb.load_scene(name, changes) for name, changes in CHANGES.items()}
-    return {name: (scene, jb.solve(scene)) for name, scene in scenes.items()}
+    return Solved()
 
 
-def made(solved, name, title=""):
+def made(solved, name):
     scene, solution = solved[name]
-    return html_report(scene, solution, title or name, scene_inputs(name, CHANGES[name], scene), WHEN)
+    return html_report(scene, solution, name, scene_inputs(name, CHANGES[name], scene), WHEN)
 
 
 @pytest.mark.parametrize("name", CHANGES)
@@ -70,12 +92,12 @@ def test_all_kinds(name, solved):
     ("name", "changes", "charts"),
     [
         ("two_disk_etm", {"contact.traction_accuracy": "1e-2"}, {"data-traction-0"}),
-        ("satellite_contact_1", {}, {"data-pressure", "data-film"}),
+        ("satellite_contact_1", {"contact.nodes": "51"}, {"data-pressure", "data-film"}),
     ],
 )
 def test_machines_and_line_contacts(name, changes, charts):
     scene = jb.load_scene(name, changes)
-    solution = jb.solve(scene)
+    solution = solution_of(scene) if name == "two_disk_etm" else jb.solve(scene)
     page = Page(html_report(scene, solution, name, scene_inputs(name, changes, scene), WHEN))
     assert page.data("solution") == solution_to_dict(solution)
     assert set(page.scripts) == {"solution", "code", *charts}

@@ -124,7 +124,7 @@ def test_roller_bearing_has_both_directions_and_nothing_along_the_axis():
 
 
 def test_a_failed_speed_is_named_and_nothing_comes_out():
-    scene = jb.load_scene("angular_contact_218")
+    scene = jb.load_scene("reference_roller", {"contact": "none"})
     fast = jb.jit_solver(scene)
     stopped = jb.jit_solver(scene, options=jb.NewtonOptions(max_steps=1))
     solver = lambda one: (stopped if one.operation.inner_speed > 500.0 else fast)(one)

@@ -199,6 +199,9 @@ def test_data_set(filled, tmp_path):
 
 def test_results_that_would_have_one_name_keep_the_dots_of_their_bearings(scene, filled, tmp_path):
     """A bearing beside a set may be called as one of the set's is, and as the data set calls something else."""
+    with_one_more = lambda name: dataclasses.replace(
+        filled, bearings={name: filled.bearings["pair.1"], **filled.bearings}
+    )
     plain = solution_to_dataset(filled)
     own = sum(str(one).startswith("pair_2_") for one in plain.variables)
     for name, fronts in (
@@ -206,21 +209,20 @@ def test_results_that_would_have_one_name_keep_the_dots_of_their_bearings(scene,
         ("bearing", ("bearing_", "pair_1_", "pair_2_")),
         ("pair", ("pair_", "pair_1_", "pair_2_")),
     ):
-        beside = dataclasses.replace(scene, bearings=(MountedBearing(name, scene.sets[0].scene, 0.0),))
-        solution = solution_of(beside)
+        solution = with_one_more(name)
         dataset = solution_to_dataset(solution)
         # all that the bearing adds is there, and nothing of the others is lost
         assert len(dataset.variables) == len(plain.variables) + own, name
-        for bearing, front in zip((name, "pair.1", "pair.2"), fronts, strict=True):
-            path = f"bearings.{bearing}.solution.elements.load_inner"
+        places = [f"bearings.{one}.solution.elements.load_inner" for one in (name, "pair.1", "pair.2")]
+        found = labels_of(solution, [f"{path}[0]" for path in places])
+        for path, front in zip(places, fronts, strict=True):
             assert dataset[f"{front}load_inner"].attrs["path"] == path
             assert dataset[f"{front}load_inner"].dims == (f"{front}element",)
-            assert labels_of(solution, [f"{path}[0]"])[f"{path}[0]"].variable == f"{front}load_inner"
+            assert found[f"{path}[0]"].variable == f"{front}load_inner"
     beside = dataclasses.replace(scene, bearings=(MountedBearing("pair_1", scene.sets[0].scene, 0.0),))
     bearings = [one for one in ross_rotor(table_of(beside), beside) if one.startswith("Bearing")]
     assert bearings == ["BearingElement_pair.1", "BearingElement_pair_2", "BearingElement_pair_1"]
-    dataset = solution_to_dataset(solution_of(beside))
-    write_netcdf(dataset, tmp_path / "a.nc")
+    write_netcdf(solution_to_dataset(with_one_more("pair_1")), tmp_path / "a.nc")
     with xr.open_dataset(tmp_path / "a.nc") as back:
         assert {"pair.1.load_inner", "pair_1.load_inner", "pair_2_load_inner"} < set(back.variables)
 

@@ -90,9 +90,12 @@ def together(name, faults, base):
     for path, found in alone.items():
         assert len(found) == 1, path
         assert found[0].startswith(path.rpartition(".")[0]), path
-    for pair in [*itertools.combinations(faults, 2), tuple(faults)]:
-        found = refused(name, {**base, **{path: faults[path] for path in pair}})
-        assert sorted(found) == sorted({one for path in pair for one in alone[path]}), pair
+    pairs = list(itertools.combinations(faults, 2))
+    if len(faults) > 6:  # of many those of one table, and the others in halves
+        pairs = [pair for pair in pairs if len({path.partition(".")[0] for path in pair}) == 1]
+    for some in [*pairs, tuple(faults)[::2], tuple(faults)[1::2], tuple(faults)]:
+        found = refused(name, {**base, **{path: faults[path] for path in some}})
+        assert sorted(found) == sorted({one for path in some for one in alone[path]}), some
 
 
 @pytest.mark.parametrize(
