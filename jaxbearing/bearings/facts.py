@@ -81,12 +81,15 @@ class Facts(NamedTuple):
     - `contacts`: the contacts, one entry for each kind.
     - `traction_reserve`: for tapered rollers that are constrained to roll without slip, the largest traction of the
       films less the traction needed, N.
+    - `opening`: least opening of the rings along each roller, m, negative where they press it; `None`: every load
+      presses.
     - `roller_tilt`: tilt of the rollers if they may tilt, rad.
     - `stiffness`: tangent stiffness of a ring that is free to tilt, with all degrees of freedom as lengths, N/m.
     """
 
     contacts: tuple[Contacts, ...]
     traction_reserve: Float[Array, "2 roller"] | None = None
+    opening: Float[Array, " roller"] | None = None
     roller_tilt: Float[Array, " roller"] | None = None
     stiffness: Float[Array, "freedom freedom"] | None = None
 

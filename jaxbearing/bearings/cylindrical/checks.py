@@ -20,7 +20,10 @@ def _squeezed(result: SolvedBearing) -> Excess:
     scene = result.scene
     if not scene.tilts or result.held:
         return {}
-    load = result.facts.contacts[0].load
+    load, opening = result.facts.contacts[0].load, result.facts.opening
+    if opening is not None:
+        # a roller between films carries some load everywhere
+        load = jnp.where(opening < 0, load, 0.0)
     azimuth = azimuths(scene.geometry, load.shape[1])
     outward = jnp.stack([jnp.cos(azimuth), jnp.sin(azimuth)])
     resultant = outward @ load[0]

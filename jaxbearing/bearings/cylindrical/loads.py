@@ -1,7 +1,7 @@
 """Roller loads of a lubricated bearing from the approach of the rings: the equation of one roller, a guess of all
 loads, and the load distribution for given roller speeds and positions (source eqs. (37)-(39), (41))."""
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -18,9 +18,6 @@ from ...numerics.roots import monotone_root
 from ...numerics.safe import positive_power, safe_norm
 from ..inlet import of_inner_race
 from ..ring import LENGTH_UNIT
-
-if TYPE_CHECKING:
-    pass
 
 LOG_LOAD_RANGE = (-40.0, 18.0)
 """Bounds of ln(load / 1 N) in the iteration."""

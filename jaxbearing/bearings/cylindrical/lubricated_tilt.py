@@ -32,7 +32,7 @@ from ...numerics.safe import largest
 from ..elastic_ring import ElasticRing
 from ..inlet import OilElsewhere
 from ..ring import LENGTH_UNIT, InnerRing
-from ..tapered.system import LOAD_FLOOR
+from ..tapered.system import LOAD_FLOOR, MOST_TILT
 from .equations import APPROACH, LOG_LOAD_STEP, AbstractLubricatedRollers, LoadsAlong, PressedRollers, RollerState
 from .forces import CageParts
 from .kinematics import RollerKinematics
@@ -92,7 +92,7 @@ class LubricatedTiltingRollers(AbstractLubricatedRollers):
         guess, line, still = self.dry.initial(), self.dry.line, jnp.zeros(())
         state = self.dry.at(guess)
         mean_speed, _ = self.kinematics.surface_speeds(still, still)
-        typical = self.load_scale() * 4.0 / self.azimuth.size + self.centrifugal(self.kinematics.free_orbit) + 1.0
+        typical = 4.0 * self.load_scale() / self.azimuth.size + self.centrifugal(self.kinematics.free_orbit) + 1.0
         film, martin = floating_films(self.contact, self.laws, self.inlet, mean_speed, typical)
         opening = -jnp.sum(state.approach + 0.5 * line.length * state.slope, axis=0)
         load = self.heavier * state.load[0] + martin / (jnp.maximum(opening, 0.0) + film)
@@ -101,6 +101,15 @@ class LubricatedTiltingRollers(AbstractLubricatedRollers):
         if self.cage is None:
             return ArrowPoint(jnp.stack([log_load, guess.elements[1]]), ring)
         return ArrowPoint(jnp.stack([log_load, guess.elements[1], jnp.zeros_like(log_load)]), jnp.append(ring, 0.0))
+
+    def bounds(self):
+        """Those of the dry rollers for tilts and rings, beyond which no equilibrium is sought."""
+        (low, high), (dry_low, dry_high) = super().bounds(), self.dry.bounds()
+        joined = lambda own, dry: ArrowPoint(
+            own.elements.at[1].set(MOST_TILT * self.dry.line.length / LENGTH_UNIT * jnp.sign(own.elements[1])),
+            jnp.concatenate([dry.globals, own.globals[self.ring_unknowns :]]),
+        )
+        return joined(low, dry_low), joined(high, dry_high)
 
     def under(self, factor):
         ring, outer = self.rings_under(factor)
@@ -174,6 +183,8 @@ class LubricatedTiltingRollers(AbstractLubricatedRollers):
     def mixed(self, state: RollerState) -> MixedState | None:
         """Mixed friction of the contacts for the results: film ratio of the whole contact, sums of the forces and
         powers of the laminae, share of the load that asperities carry, highest flash temperature."""
+        if self.laws.mixed is None:
+            return None
         assert state.pressed.along is not None
         contact, inlet, shares = self._cut()
         contact = dataclasses.replace(contact, length=self.contact.length * shares[..., 1:])
@@ -182,11 +193,8 @@ class LubricatedTiltingRollers(AbstractLubricatedRollers):
         speeds = along(state.mean_speed), along(state.sliding_speed)
         assert state.laminae is not None
         parts = self.laws.mixed_state(contact, load, state.laminae, *speeds, inlet)
-        whole = self.laws.mixed_state(
-            self.contact, state.load, state.contact, state.mean_speed, state.sliding_speed, self.inlet
-        )
-        if parts is None or whole is None:
-            return None
+        assert parts is not None
+        whole = self.laws.asperities(self.contact, state.load, state.contact.film, state.mean_speed, self.inlet)
         return MixedState(
             film_ratio=whole.film_ratio,
             share=jnp.sum(parts.share * load, axis=2) / jnp.sum(load, axis=2),
@@ -197,7 +205,7 @@ class LubricatedTiltingRollers(AbstractLubricatedRollers):
 
 
 def least_films(state: RollerState) -> dict[str, Array]:
-    """Thinnest films of the laminae that carry load, m: names of the results -> values."""
+    """Thinnest films along the rollers, of laminae that carry load, m: names of the results -> values."""
     assert state.laminae is not None
     assert state.pressed.along is not None
     load = state.pressed.along.laminae

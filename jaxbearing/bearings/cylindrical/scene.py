@@ -140,9 +140,10 @@ class CylindricalRollerBearing(AbstractMovingBearing):
             yield from refusals_of(check_height, self.flange, self.geometry)
         yield from refusals_of(self.operation.check_rings_turn)
         if self.slips and self.cage is None and not moves:
+            ways = "or leave out contact.traction" if self.tilts else "leave out contact.traction, or use simulate"
             yield (
                 "cage: a lubricated bearing with traction and without a cage has no steady state (a roller outside the "
-                "loaded zone slows down for ever); give it a cage, leave out contact.traction, or use simulate"
+                f"loaded zone slows down for ever); give it a cage, {ways}"
             )
         if self.oil is None:
             yield "oil: a scene with a [contact] table needs an oil"

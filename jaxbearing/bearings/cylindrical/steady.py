@@ -280,12 +280,13 @@ def _lubricated(
 ) -> Results[RollerResults, PowerLoss]:
     state, motion = system.at(result.point), system.kinematics
     contact, pocket, rise = state.contact, state.pocket, state.contact.temperature_rise
-    along, laminae, rated, more = state.pressed.along, None, None, {}
+    along, opening, laminae, rated, more = state.pressed.along, state.pressed.opening, None, None, {}
     if isinstance(system, LubricatedTiltingRollers):
         assert along is not None
         mixed = system.mixed(state)
         laminae, pressure, rated = loads_along(scene, system.dry.line, system.contact, along.start, along.slope)
         more = least_films(state)
+        opening = opening - 0.5 * system.dry.line.length * jnp.abs(jnp.sum(along.slope, axis=0))
     else:
         speeds = (state.mean_speed, state.sliding_speed)
         mixed = system.laws.mixed_state(system.contact, state.load, contact, *speeds, system.inlet)
@@ -328,7 +329,7 @@ def _lubricated(
         laminae=laminae,
         starved=contact.supply,
     )
-    facts = Facts((contacts,))
+    facts = Facts((contacts,), opening=opening)
     if system.cage is None:
         totals = rolling_alone(system.contact, motion, contact.rolling_force)
         return Results(elements, totals, facts, laminae=rated)

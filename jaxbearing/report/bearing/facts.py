@@ -82,7 +82,8 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
     yield from _ball_facts(solution)
     yield from _tapered_facts(solution)
     yield "Stiffness", ", ".join(_stiffness(solution))
-    for title, name, pick in (("Thinnest film", "film", np.nanargmin), ("Highest pressure", "pressure", np.argmax)):
+    film = "film" if getattr(solution.elements, "film_least_inner", None) is None else "film_least"
+    for title, name, pick in (("Thinnest film", film, np.nanargmin), ("Highest pressure", "pressure", np.argmax)):
         text = ", ".join(extremes(solution.elements, name, pick))
         if text:
             yield title, text

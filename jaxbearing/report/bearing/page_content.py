@@ -95,7 +95,8 @@ def _headlines(solution: Solution, total: float | None) -> Iterator[tuple[str, s
     yield f"largest {solution.element_name} load", with_unit(float(np.max(loads)), "N")
     pressures = np.maximum(np.asarray(elements.pressure_inner), np.asarray(elements.pressure_outer))
     yield "highest pressure", with_unit(float(np.max(pressures)), "Pa")
-    films = [getattr(elements, f"film_{side}") for side in ("inner", "outer")]
+    least = "film" if getattr(elements, "film_least_inner", None) is None else "film_least"
+    films = [getattr(elements, f"{least}_{side}") for side in ("inner", "outer")]
     arrays = [np.asarray(film) for film in films if film is not None and not np.all(np.isnan(np.asarray(film)))]
     if arrays:
         yield "thinnest film", with_unit(min(float(np.nanmin(film)) for film in arrays), "m")

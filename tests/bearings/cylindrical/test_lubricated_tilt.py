@@ -196,6 +196,23 @@ def test_where_only_ends_touch_residuals_and_derivatives_are_finite(scene):
     assert all(np.all(np.isfinite(leaf)) for leaf in jax.tree.leaves(slopes))
 
 
+def test_a_moment_beyond_all_tilts_has_no_equilibrium(scene):
+    """As of dry rollers: 0.1 rad is the largest tilt that is sought. A batch says so of its lane alone."""
+    solve = eqx.filter_jit(lambda moment: jb.solve(scene.replace({"operation.moment": moment}), throw=False))
+    solution = eqx.filter_vmap(solve)(jnp.asarray([20.0, 5e3, jnp.nan]))
+    expected = [jb.Status.CONVERGED, jb.Status.NO_EQUILIBRIUM, jb.Status.INVALID_INPUT]
+    np.testing.assert_array_equal(solution.status, [int(status) for status in expected])
+    np.testing.assert_array_equal(np.isfinite(solution.power_loss.total), [True, False, False])
+
+
+def test_rollers_between_films_are_not_squeezed(scene):
+    """Films carry some load opposite a light load, and take up no clearance."""
+    light = scene.replace({**FRICTIONLESS, "operation.radial_load": 100.0})
+    said = lambda scene: " ".join(text for text, on in jb.solve(scene).range_checks.items() if on)
+    assert "whole clearance" not in said(light)
+    assert "whole clearance" in said(light.replace({"operation.moment": 150.0, "operation.radial_load": 1e3}))
+
+
 def test_a_run_in_time_has_no_tilt(scene):
     simulation = jb.load_scene("reference_roller", {"simulation.duration": "1 ms"}).simulation
     with pytest.raises(ValueError, match=r"operation\.moment: expected none in a transient run"):
