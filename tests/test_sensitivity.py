@@ -62,7 +62,7 @@ def test_scenes_without_any_of_the_results_are_refused():
 CALLERS = {
     # the table of solvers names them
     **dict.fromkeys(("solve_ball", "solve_rollers", "solve_tapered", "solve_line_contact"), ()),
-    **dict.fromkeys(("solve_steady", "solve_tilting"), ("steady.py",)),
+    "solve_tilting": ("steady.py",),
     "solve_two_disk": ("two_disk.py",),
     "steady_solution": ("solve.py",),
     "with_life": ("solve.py", "steady.py"),  # of a shaft, which rates its bearings itself

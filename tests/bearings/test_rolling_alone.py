@@ -97,6 +97,4 @@ def test_rollers_that_roll_alone_cost_what_they_do_under_a_misalignment_of_zero(
     assert "contact.rolling_resistance" not in plain.unused_parts()
     straight = jb.solve(plain.replace({"operation.misalignment": 0.0}))
     check(straight, (float(plain.operation.inner_speed), 0.0))
-    # the plane model has films, and with them a little resistance, on the rollers that the ring does not load
-    ratio = solve().power_loss.total / straight.power_loss.total
-    assert 1.0 < ratio < 1.25
+    np.testing.assert_allclose(straight.power_loss.total, solve().power_loss.total, rtol=1e-10)

@@ -50,12 +50,12 @@ SOFT = 1e-3
 ends of a roller touch."""
 
 
-class LubricatedTiltingRollers(AbstractLubricatedRollers):
+class LubricatedTiltingSystem(AbstractLubricatedRollers):
     """Lubricated rollers that tilt (see the module). The unknowns of the normal direction are ln Qi and the tilt.
 
     - `dry`: the same bearing without friction and films, whose raceways and contact lines are used. Its guess, the
       equilibrium of the dry bearing, is where the iteration starts; `heavier`: factor of the loads at this start.
-    - `laminae`: number of laminae of a contact.
+    - `azimuth`: of the rollers, rad; `roller_mass`: mass of a roller, kg; `laminae`: number of laminae of a contact.
     """
 
     normal_names: ClassVar[tuple[str, ...]] = (APPROACH, "tilting moment of a roller")

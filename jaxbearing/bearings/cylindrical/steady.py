@@ -25,7 +25,7 @@ from .geometry import RollerCage, RollerGeometry
 from .in_plane import IN_PLANE, outward
 from .kinematics import RollerKinematics, roller_kinematics
 from .loads import LEAST_LOAD
-from .lubricated_tilt import LAMINAE, LubricatedTiltingRollers, least_films
+from .lubricated_tilt import LAMINAE, LubricatedTiltingSystem, least_films
 from .ring import bending_rings, roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults, SolvedRollers
@@ -208,7 +208,7 @@ def _solve_lubricated_tilt(scene: CylindricalRollerBearing, options: NewtonOptio
     )
 
 
-def build_lubricated_tilt(scene: CylindricalRollerBearing, dry: TiltingRollers) -> LubricatedTiltingRollers:
+def build_lubricated_tilt(scene: CylindricalRollerBearing, dry: TiltingRollers) -> LubricatedTiltingSystem:
     """Equations of lubricated rollers that tilt.
 
     **Arguments:** `dry`: the same bearing without films and friction, with its equilibrium as first guess, or without a
@@ -217,7 +217,7 @@ def build_lubricated_tilt(scene: CylindricalRollerBearing, dry: TiltingRollers) 
     assert scene.contact is not None
     assert scene.oil is not None
     motion = roller_kinematics(scene.geometry, scene.operation)
-    return LubricatedTiltingRollers(
+    return LubricatedTiltingSystem(
         dry=dry,
         ring=dry.ring,
         outer=dry.outer,
@@ -281,7 +281,7 @@ def _lubricated(
     state, motion = system.at(result.point), system.kinematics
     contact, pocket, rise = state.contact, state.pocket, state.contact.temperature_rise
     along, opening, laminae, rated, more = state.pressed.along, state.pressed.opening, None, None, {}
-    if isinstance(system, LubricatedTiltingRollers):
+    if isinstance(system, LubricatedTiltingSystem):
         assert along is not None
         mixed = system.mixed(state)
         laminae, pressure, rated = loads_along(scene, system.dry.line, system.contact, along.start, along.slope)

@@ -25,7 +25,7 @@ from ..ring_shape import out_of_round
 from ..rings import AbstractBetweenRings
 from ..solution import FailureCause, LaminaLoads, Solution
 from .kinematics import roller_kinematics
-from .lubricated_tilt import LubricatedTiltingRollers
+from .lubricated_tilt import LubricatedTiltingSystem
 from .ring import bending_rings, roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults
@@ -165,8 +165,8 @@ def loads_along(
 
 
 def port_of(
-    system: TiltingRollers | LubricatedTiltingRollers,
-    full: TiltingRollers | LubricatedTiltingRollers,
+    system: TiltingRollers | LubricatedTiltingSystem,
+    full: TiltingRollers | LubricatedTiltingSystem,
     point: ArrowPoint,
 ) -> Port:
     """Reaction and stiffness of the ring, with the rollers and the cage in equilibrium. **Arguments:** `full`: the
