@@ -54,8 +54,11 @@ class LubricatedTiltingSystem(AbstractLubricatedRollers):
     """Lubricated rollers that tilt (see the module). The unknowns of the normal direction are ln Qi and the tilt.
 
     - `dry`: the same bearing without friction and films, whose raceways and contact lines are used. Its guess, the
-      equilibrium of the dry bearing, is where the iteration starts; `heavier`: factor of the loads at this start.
-    - `azimuth`: of the rollers, rad; `roller_mass`: mass of a roller, kg; `laminae`: number of laminae of a contact.
+      equilibrium of the dry bearing, is where the iteration starts.
+    - `heavier`: factor of the loads at this start.
+    - `azimuth`: of the rollers, rad.
+    - `roller_mass`: mass of a roller, kg.
+    - `laminae`: number of laminae of a contact.
     """
 
     normal_names: ClassVar[tuple[str, ...]] = (APPROACH, "tilting moment of a roller")
@@ -103,7 +106,7 @@ class LubricatedTiltingSystem(AbstractLubricatedRollers):
         return ArrowPoint(jnp.stack([log_load, guess.elements[1], jnp.zeros_like(log_load)]), jnp.append(ring, 0.0))
 
     def bounds(self):
-        """Those of the dry rollers for tilts and rings, beyond which no equilibrium is sought."""
+        """Tilts and rings have the bounds of the dry rollers: no equilibrium is sought beyond them."""
         (low, high), (dry_low, dry_high) = super().bounds(), self.dry.bounds()
         joined = lambda own, dry: ArrowPoint(
             own.elements.at[1].set(MOST_TILT * self.dry.line.length / LENGTH_UNIT * jnp.sign(own.elements[1])),

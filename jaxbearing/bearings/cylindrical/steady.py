@@ -165,8 +165,10 @@ def solve_rollers(
         )
     if evenly:
         solution = _solve_evenly(scene, options)
+    elif scene.contact is None:
+        solution = solve_tilting(scene, options, ring)
     else:
-        solution = (solve_tilting if scene.contact is None else _solve_lubricated_tilt)(scene, options, ring)
+        solution = _solve_lubricated_tilt(scene, options, ring)
     flanges = scene.geometry.thrust_flanges
     return solution if flanges is None else flanges.hold(solution, scene.operation, ring)
 
