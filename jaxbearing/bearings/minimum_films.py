@@ -26,13 +26,14 @@ def minimum_films(scene: AbstractBearing, elements: Any) -> tuple[Float[Array, "
     else:
         points = scene.point_contacts(elements)
         share = _line_share(scene.contact.film) if points is None else _point_share(scene, points, elements)
-    films = [_thinnest(elements, side) for side in ("inner", "outer")]
+    films = [getattr(elements, f"{thinnest_film(elements)}_{side}") for side in ("inner", "outer")]
     return films[0] * share[0], films[1] * share[1]
 
 
-def _thinnest(elements: Any, side: str) -> Float[Array, " element"]:
-    least = getattr(elements, f"film_least_{side}", None)
-    return getattr(elements, f"film_{side}") if least is None else least
+def thinnest_film(elements: Any) -> str:
+    """First part of the names of the results with the thinnest central film of each element: `film`, or `film_least` of
+    rollers that tilt."""
+    return "film" if getattr(elements, "film_least_inner", None) is None else "film_least"
 
 
 def _line_share(law: AbstractLineFilm) -> Array:

@@ -45,6 +45,9 @@ ANCHOR = 1e-4
 The systems of the families add it (`convex.anchored`). It is 1e-12 of the stiffness of a loaded contact; 100 times as
 much would change derivatives of barely loaded rollers by 6e-6 of their value."""
 
+LOAD_FLOOR = 1e-3
+"""Smallest scale of the loads, N, added in squares."""
+
 
 class Port(NamedTuple):
     """The load that keeps the inner ring at a displacement, and its derivatives. It acts at the reference point of the
@@ -150,6 +153,10 @@ class InnerRing(eqx.Module):
         else:
             size = jnp.sqrt(jnp.sum(jnp.square(self.load)) + NORM_FLOOR**2)
         return size if self.held_load is None else size + self.held_load
+
+    def scale(self) -> Float[Array, ""]:
+        """Scale of the ring's balances, N: `size`, but not 0 without load."""
+        return jnp.sqrt(jnp.square(self.size()) + LOAD_FLOOR**2)
 
     def equation_names(self) -> tuple[str, ...]:
         """Names of the equations of the unknown degrees of freedom, for messages."""

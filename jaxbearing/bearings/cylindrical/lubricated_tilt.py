@@ -32,14 +32,14 @@ from ...numerics.safe import largest
 from ..elastic_ring import ElasticRing
 from ..inlet import OilElsewhere
 from ..ring import LENGTH_UNIT, InnerRing
-from ..tapered.system import LOAD_FLOOR, MOST_TILT
+from ..tapered.system import MOST_TILT
 from .equations import APPROACH, LOG_LOAD_STEP, AbstractLubricatedRollers, LoadsAlong, PressedRollers, RollerState
 from .forces import CageParts
 from .kinematics import RollerKinematics
 from .loads import LEAST_LOAD, LOG_LOAD_RANGE, approach_error, floating_films
 from .tilting import TiltingRollers
 
-LAMINAE = 10
+FRICTION_LAMINAE = 10
 """Number of laminae for films and friction of straight rollers."""
 FLOOR = 1e-8
 """Least load of a lamina, over the mean load of the laminae of its contact."""
@@ -86,7 +86,7 @@ class LubricatedTiltingSystem(AbstractLubricatedRollers):
         return len(self.freedoms)
 
     def load_scale(self) -> Array:
-        return jnp.sqrt(jnp.square(self.ring.size()) + LOAD_FLOOR**2)
+        return self.ring.scale()
 
     def initial(self) -> ArrowPoint:
         """Starts from rolling without slip at the equilibrium of the dry bearing, with Martin's film force on the
@@ -145,10 +145,7 @@ class LubricatedTiltingSystem(AbstractLubricatedRollers):
     def films(self, pressed, mean_speed, sliding):
         assert pressed.along is not None
         loads = jnp.concatenate([pressed.load[..., None], pressed.along.laminae], axis=2)
-        contact, inlet, shares = self._cut()
-        contact = dataclasses.replace(contact, length=self.contact.length * shares)
-        if inlet.flow is not None:
-            inlet = dataclasses.replace(inlet, flow=inlet.flow * shares)
+        contact, inlet = self._cut([1.0] + [1.0 / self.laminae] * self.laminae)
         along = lambda speed: speed[..., None] + jnp.zeros_like(loads)
         state = self.laws.evaluate(contact, loads, along(mean_speed), along(sliding), self.oil, inlet)
         cut = lambda of: jax.tree.map(lambda leaf: of(leaf) if jnp.ndim(leaf) == 3 else leaf, state)
@@ -157,12 +154,14 @@ class LubricatedTiltingSystem(AbstractLubricatedRollers):
         sums = {"traction": total(laminae.traction), "rolling_force": total(laminae.rolling_force)}
         return whole._replace(**sums), laminae
 
-    def _cut(self) -> tuple[LineContact, InletOil, Float[Array, "1 1 lamina"]]:
-        """Contact and oil with an axis for the whole contact and its laminae, and the part of the length that each has.
-        The laminae share the oil flow equally."""
+    def _cut(self, parts: list[float]) -> tuple[LineContact, InletOil]:
+        """Contact and oil of parts of the contacts, on a further axis. **Arguments:** `parts`: of the length and of the
+        oil flow."""
         along = lambda tree: jax.tree.map(lambda leaf: leaf[..., None] if jnp.ndim(leaf) else leaf, tree)
-        shares = jnp.asarray([1.0] + [1.0 / self.laminae] * self.laminae)[None, None, :]
-        return along(self.contact), along(self.inlet), shares
+        contact, inlet, share = along(self.contact), along(self.inlet), jnp.asarray(parts)[None, None, :]
+        if inlet.flow is not None:
+            inlet = dataclasses.replace(inlet, flow=inlet.flow * share)
+        return dataclasses.replace(contact, length=contact.length * share), inlet
 
     def normal_errors(self, pressed, contact):
         along = pressed.along
@@ -183,18 +182,17 @@ class LubricatedTiltingSystem(AbstractLubricatedRollers):
     def ring_rows(self, globals_, totals):
         return self.ring_balance(globals_, totals, self.ring.needs_held_load) / self.load_scale()
 
-    def mixed(self, state: RollerState) -> MixedState | None:
-        """Mixed friction of the contacts for the results: film ratio of the whole contact, sums of the forces and
-        powers of the laminae, share of the load that asperities carry, highest flash temperature."""
+    def mixed(self, state):
+        """The film ratio is that of the whole contact, forces and powers are sums over the laminae, and the flash
+        temperature is the highest one."""
         if self.laws.mixed is None:
             return None
         assert state.pressed.along is not None
-        contact, inlet, shares = self._cut()
-        contact = dataclasses.replace(contact, length=self.contact.length * shares[..., 1:])
+        assert state.laminae is not None
+        contact, inlet = self._cut([1.0 / self.laminae] * self.laminae)
         load = state.pressed.along.laminae
         along = lambda speed: speed[..., None] + jnp.zeros_like(load)
         speeds = along(state.mean_speed), along(state.sliding_speed)
-        assert state.laminae is not None
         parts = self.laws.mixed_state(contact, load, state.laminae, *speeds, inlet)
         assert parts is not None
         whole = self.laws.asperities(self.contact, state.load, state.contact.film, state.mean_speed, self.inlet)

@@ -19,13 +19,14 @@ from ..profile import pressed_load
 from ..ring import LENGTH_UNIT, InnerRing, Port
 from ..ring_shape import out_of_round, shaped_parts
 from ..solution import CageState, Solution
-from .equations import AbstractLubricatedRollers, DryRollerSystem, LubricatedRollerSystem, RollerState
+from .dry import DryRollerSystem
+from .equations import AbstractLubricatedRollers, LubricatedRollerSystem, RollerState
 from .forces import CageParts, friction_on_rings, rolling_alone
 from .geometry import RollerCage, RollerGeometry
 from .in_plane import IN_PLANE, outward
 from .kinematics import RollerKinematics, roller_kinematics
 from .loads import LEAST_LOAD
-from .lubricated_tilt import LAMINAE, LubricatedTiltingSystem, least_films
+from .lubricated_tilt import FRICTION_LAMINAE, LubricatedTiltingSystem, least_films
 from .ring import bending_rings, roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults, SolvedRollers
@@ -234,7 +235,7 @@ def build_lubricated_tilt(scene: CylindricalRollerBearing, dry: TiltingRollers) 
         roller_mass=scene.roller_mass,
         cage=cage_parts(scene, motion) if scene.slips else None,
         elsewhere=oil_elsewhere(scene),
-        laminae=LAMINAE if scene.profile is None else scene.profile.n_laminae,
+        laminae=FRICTION_LAMINAE if scene.profile is None else scene.profile.n_laminae,
     )
 
 
@@ -282,16 +283,14 @@ def _lubricated(
 ) -> Results[RollerResults, PowerLoss]:
     state, motion = system.at(result.point), system.kinematics
     contact, pocket, rise = state.contact, state.pocket, state.contact.temperature_rise
+    mixed = system.mixed(state)
     along, opening, laminae, rated, more = state.pressed.along, state.pressed.opening, None, None, {}
     if isinstance(system, LubricatedTiltingSystem):
         assert along is not None
-        mixed = system.mixed(state)
         laminae, pressure, rated = loads_along(scene, system.dry.line, system.contact, along.start, along.slope)
         more = least_films(state)
         opening = opening - 0.5 * system.dry.line.length * jnp.abs(jnp.sum(along.slope, axis=0))
     else:
-        speeds = (state.mean_speed, state.sliding_speed)
-        mixed = system.laws.mixed_state(system.contact, state.load, contact, *speeds, system.inlet)
         pressure = system.contact.hertz_pressure(state.load)
     elements = RollerResults(
         azimuth=system.azimuth,

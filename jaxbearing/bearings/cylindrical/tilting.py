@@ -31,7 +31,7 @@ from ...numerics.convex import Minimum, anchored, find_minimum
 from ..elastic_ring import ElasticRing
 from ..ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
 from ..row import AbstractRowSystem
-from ..tapered.system import FARTHEST, LOAD_FLOOR, LONGEST_STEP, MOST_TILT, START_TOLERANCE
+from ..tapered.system import FARTHEST, LONGEST_STEP, MOST_TILT, START_TOLERANCE
 
 SLOW = 1e-2
 """If the centrifugal force is below this fraction of a roller's share of the load, the bearing is first solved at
@@ -71,7 +71,7 @@ class TiltingRollers(AbstractRowSystem):
     inner: ElasticRing | None = None
 
     def load_scale(self) -> Array:
-        return jnp.sqrt(jnp.square(self.ring.size()) + LOAD_FLOOR**2)
+        return self.ring.scale()
 
     def roller_scale(self) -> Array:
         return self.load_scale() / self.azimuth.size + self.centrifugal

@@ -43,8 +43,6 @@ from ..elastic_ring import ElasticRing
 from ..ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
 from ..row import AbstractRowSystem
 
-LOAD_FLOOR = 1e-3
-"""Smallest scale of the loads, N, added in squares."""
 START_TOLERANCE = 1e-11
 """Scaled residual at which the descent of the potential hands over to Newton. With 1e-7, random tapered bearings take a
 fifth more steps in all, and 12 instead of 8 of 1 000 tilted cylindrical ones fail."""
@@ -139,7 +137,7 @@ class TaperedSystem(AbstractRowSystem):
 
     def load_scale(self) -> Array:
         """Scale of the ring's balances, N."""
-        return jnp.sqrt(jnp.square(self.ring.size()) + LOAD_FLOOR**2)
+        return self.ring.scale()
 
     def roller_scale(self) -> Array:
         """Scale of a roller's balances, N."""

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ...bearings.flanks import on_heavier_flanks
+from ...bearings.minimum_films import thinnest_film
 from ...bearings.ring_deflection import AbstractRingDeflection
 from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
 from ...materials import BALL_PRESSURE, ROLLER_PRESSURE
@@ -82,8 +83,10 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
     yield from _ball_facts(solution)
     yield from _tapered_facts(solution)
     yield "Stiffness", ", ".join(_stiffness(solution))
-    film = "film" if getattr(solution.elements, "film_least_inner", None) is None else "film_least"
-    for title, name, pick in (("Thinnest film", film, np.nanargmin), ("Highest pressure", "pressure", np.argmax)):
+    for title, name, pick in (
+        ("Thinnest film", thinnest_film(solution.elements), np.nanargmin),
+        ("Highest pressure", "pressure", np.argmax),
+    ):
         text = ", ".join(extremes(solution.elements, name, pick))
         if text:
             yield title, text

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...bearings.bearing import AbstractBearing
 from ...bearings.flanks import on_heavier_flanks
+from ...bearings.minimum_films import thinnest_film
 from ...bearings.solution import RING_FREEDOMS, Solution, stiffness_units
 from ...numerics.status import Status
 from ..display import digits, pretty, with_unit
@@ -95,8 +96,7 @@ def _headlines(solution: Solution, total: float | None) -> Iterator[tuple[str, s
     yield f"largest {solution.element_name} load", with_unit(float(np.max(loads)), "N")
     pressures = np.maximum(np.asarray(elements.pressure_inner), np.asarray(elements.pressure_outer))
     yield "highest pressure", with_unit(float(np.max(pressures)), "Pa")
-    least = "film" if getattr(elements, "film_least_inner", None) is None else "film_least"
-    films = [getattr(elements, f"{least}_{side}") for side in ("inner", "outer")]
+    films = [getattr(elements, f"{thinnest_film(elements)}_{side}") for side in ("inner", "outer")]
     arrays = [np.asarray(film) for film in films if film is not None and not np.all(np.isnan(np.asarray(film)))]
     if arrays:
         yield "thinnest film", with_unit(min(float(np.nanmin(film)) for film in arrays), "m")
