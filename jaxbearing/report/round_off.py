@@ -107,7 +107,15 @@ def _cleaned(part: Any, floors: Mapping[str, float]) -> Any:
             new = _zeroed(value, floors.get(field.metadata.get("unit", "")))
         if new is not value:
             changes[field.name] = new
-    return dataclasses.replace(part, **changes) if changes else part
+    return _with(part, changes) if changes else part
+
+
+def _with(part: Any, changes: Mapping[str, Any]) -> Any:
+    """A copy with these fields. Its class is not called: of a transient run a part has the shapes of many instants."""
+    copied = object.__new__(type(part))
+    for field in dataclasses.fields(part):
+        object.__setattr__(copied, field.name, changes.get(field.name, getattr(part, field.name)))
+    return copied
 
 
 def _zeroed(value: Any, floor: float | np.ndarray | None) -> Any:
