@@ -62,16 +62,13 @@ def test_what_is_resolved_stays():
     assert without_round_off(run) is run
 
 
-@pytest.mark.parametrize("name", ["deep_groove_6205_mounted", "turbine_ball_dynamic"])
-def test_round_off_of_a_run_is_0_at_the_instants_that_have_it(name):
-    run = history_of(jb.load_scene(name))
-    units = [field for field in dataclasses.fields(run.instants) if field.metadata.get("unit") in RESOLUTIONS]
-    field = next(field.name for field in units if np.ndim(getattr(run.instants, field.name)) >= 1)
-    numbers = getattr(run.instants, field)
-    noise = numbers.at[-1].set(1e-40)
-    cleaned = without_round_off(eqx.tree_at(lambda run: getattr(run.instants, field), run, noise))
-    assert type(cleaned) is type(run)
-    assert np.array_equal(getattr(cleaned.instants, field), numbers.at[-1].set(0.0))
+def test_round_off_of_a_run_is_0_at_the_instants_that_have_it():
+    """Parts of a run have the shapes of many instants, which their classes do not accept."""
+    flow = lambda run: run.instants.flows.inner_ring_oil
+    run = history_of(jb.load_scene("deep_groove_6205_mounted"))
+    cleaned = without_round_off(eqx.tree_at(flow, run, flow(run).at[-1].set(1e-40)))
+    assert type(cleaned.instants.flows) is type(run.instants.flows)
+    assert np.array_equal(flow(cleaned), flow(run).at[-1].set(0.0))
 
 
 def test_an_axially_loaded_bearing_has_no_motion_across():
