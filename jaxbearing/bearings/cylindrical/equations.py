@@ -38,7 +38,7 @@ dissipation use the same sliding speed; only rolling resistance dissipates with 
 
 import abc
 import dataclasses
-from typing import ClassVar, NamedTuple, TypeVar
+from typing import ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
 import equinox as eqx
 import jax
@@ -56,7 +56,7 @@ from ..inlet import AbstractOils, OilElsewhere
 from ..land import LandState, guided_land
 from ..ring import LENGTH_UNIT, InnerRing
 from ..rings import AbstractBetweenRings
-from .forces import CageParts, forces_without_pocket, on_cage
+from .forces import CageParts, RollerForces, forces_without_pocket, on_cage
 from .in_plane import AbstractInPlane
 from .kinematics import RollerKinematics
 from .loads import LOG_LOAD_RANGE, approach_error, guessed_loads, per_race
@@ -104,14 +104,31 @@ class LoadsAlong(NamedTuple):
     residual: Float[Array, ""]
 
 
-class RollerState(NamedTuple):
+class PressedContacts(Protocol):
+    """Protocol of the contacts of all rollers with the races (inner, outer).
+
+    - `load`: N.
+    - `along`: loads along rollers that tilt; `None` for rollers that are not cut into laminae.
+    """
+
+    @property
+    def load(self) -> Array: ...
+
+    @property
+    def along(self) -> LoadsAlong | None: ...
+
+
+Pressed = TypeVar("Pressed", bound=PressedContacts)
+
+
+class RollerState(NamedTuple, Generic[Pressed]):
     """State of every roller for given unknowns. The last axis runs over the rollers. A first axis of length 2 runs over
     the races (inner, outer), and in `cage_force` over the components.
 
     `contact` holds the films of whole contacts and the sums of their forces; `laminae` holds the films and forces of
     each lamina of rollers that tilt, on a further axis. `errors` are the scaled residuals of the normal direction."""
 
-    pressed: PressedRollers
+    pressed: Pressed
     orbital_speed: Float[Array, " roller"]
     spin_speed: Float[Array, " roller"]
     mean_speed: Float[Array, "2 roller"]
@@ -134,7 +151,7 @@ class RollerState(NamedTuple):
         return self.pressed.load
 
 
-class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings):
+class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings, Generic[Pressed]):
     """Lubricated rollers between two rings. The unknowns of a roller are those of the normal direction, which a
     subclass defines, and with a `cage` its speed at the outer race. The last global is then the cage speed. Without a
     cage the raceways are frictionless and the rollers roll without slip.
@@ -163,22 +180,27 @@ class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings):
 
     @abc.abstractmethod
     def normal(
-        self, unknowns: Float[Array, "m roller"], shared: Float[Array, "p roller"], centrifugal: Float[Array, " roller"]
-    ) -> PressedRollers:
-        """Loads and approaches. **Arguments:** `centrifugal`: force on each roller, N; others as in `rollers`."""
+        self,
+        unknowns: Float[Array, "m roller"],
+        shared: Float[Array, "p roller"],
+        orbit: Float[Array, " roller"],
+        spin: Float[Array, " roller"],
+    ) -> Pressed:
+        """Loads and approaches. **Arguments:** `orbit`, `spin`: orbital speeds and spins, rad/s; others as in
+        `rollers`."""
 
     @abc.abstractmethod
     def films(
-        self, pressed: PressedRollers, mean_speed: Float[Array, "2 roller"], sliding: Float[Array, "2 roller"]
+        self, pressed: Pressed, mean_speed: Float[Array, "2 roller"], sliding: Float[Array, "2 roller"]
     ) -> tuple[ContactState, ContactState | None]:
         """`RollerState.contact` and `RollerState.laminae`. **Arguments:** speeds on both races, m/s."""
 
     @abc.abstractmethod
-    def normal_errors(self, pressed: PressedRollers, contact: ContactState) -> tuple[Float[Array, " roller"], ...]:
+    def normal_errors(self, pressed: Pressed, contact: ContactState) -> tuple[Float[Array, " roller"], ...]:
         """Scaled residuals of the normal direction of each roller."""
 
     @abc.abstractmethod
-    def on_ring(self, pressed: PressedRollers) -> Float[Array, "row roller"]:
+    def on_ring(self, pressed: Pressed) -> Float[Array, "row roller"]:
         """Contributions of the rollers to the balances of both rings."""
 
     @abc.abstractmethod
@@ -272,10 +294,10 @@ class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings):
         """Orbital speed W, rad/s, from the scaled unknown, which is 0 in rolling without slip."""
         return self.kinematics.free_orbit + self.kinematics.orbit_unit * scaled
 
-    def at(self, point: ArrowPoint) -> RollerState:
+    def at(self, point: ArrowPoint) -> RollerState[Pressed]:
         return self.rollers(point.elements, seen_by_elements(self, point))
 
-    def rollers(self, unknowns: Float[Array, "m roller"], shared: Float[Array, "p roller"]) -> RollerState:
+    def rollers(self, unknowns: Float[Array, "m roller"], shared: Float[Array, "p roller"]) -> RollerState[Pressed]:
         """State of the rollers.
 
         **Arguments:** `shared`: the globals. If a ring bends, the values of `local_inputs` instead.
@@ -290,7 +312,7 @@ class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings):
             spin_change = motion.spin_unit * (unknowns[-1] - cage)
         orbit, spin = motion.free_orbit + orbit_change, motion.free_spin + spin_change
         mean_speed, sliding = motion.surface_speeds(orbit_change, spin_change)
-        pressed = self.normal(unknowns, shared, self.centrifugal(orbit))
+        pressed = self.normal(unknowns, shared, orbit, spin)
         contact, laminae = self.films(pressed, mean_speed, sliding)
         state = RollerState(
             pressed=pressed,
@@ -304,11 +326,16 @@ class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings):
         )
         return state if self.cage is None else self._with_cage(state, self.cage)
 
-    def _with_cage(self, state: RollerState, cage: CageParts) -> RollerState:
+    def forces(self, state: RollerState[Pressed], cage: CageParts) -> RollerForces:
+        """Sum of all forces on the rollers except those of the pocket walls."""
+        orbit, spin = state.orbital_speed, state.spin_speed
+        return forces_without_pocket(self.kinematics, self.contact, state.contact, cage, orbit, spin)
+
+    def _with_cage(self, state: RollerState[Pressed], cage: CageParts) -> RollerState[Pressed]:
         """Tangential and moment balance of the rollers, and their forces on the cage."""
         motion, spin = self.kinematics, state.spin_speed
         assert cage.pocket is not None
-        forces = forces_without_pocket(motion, self.contact, state.contact, cage, state.orbital_speed, spin)
+        forces = self.forces(state, cage)
         # tangential balance: the front minus the rear load of the pocket films carries the remaining force
         pocket = cage.pocket.balance(forces.tangential, spin, self.oil_of("pocket").viscosity)
         moment = forces.moment + motion.roller_radius * (pocket.friction_front + pocket.friction_rear)
@@ -330,7 +357,7 @@ class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings):
             cage_force=cage_force,
         )
 
-    def mixed(self, state: RollerState) -> MixedState | None:
+    def mixed(self, state: RollerState[Pressed]) -> MixedState | None:
         """Mixed friction of the contacts for the results; `None` if it is not modelled."""
         speeds = (state.mean_speed, state.sliding_speed)
         return self.laws.mixed_state(self.contact, state.load, state.contact, *speeds, self.inlet)
@@ -354,13 +381,13 @@ class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings):
             self.oil_of("cage_pilot"),
         )
 
-    def land_at(self, point: ArrowPoint, state: RollerState) -> LandState:
+    def land_at(self, point: ArrowPoint, state: RollerState[Pressed]) -> LandState:
         assert state.cage_force is not None
         force = jnp.sum(state.cage_force, axis=1)
         return self.land(self.orbit(point.globals[-1]), force[0], force[1])
 
 
-class LubricatedRollerSystem(AbstractInPlane, AbstractLubricatedRollers):
+class LubricatedRollerSystem(AbstractInPlane, AbstractLubricatedRollers[PressedRollers]):
     """Rollers that carry evenly along their length. The unknown of the normal direction is ln Qi."""
 
     normal_names: ClassVar[tuple[str, ...]] = (APPROACH,)
@@ -431,9 +458,10 @@ class LubricatedRollerSystem(AbstractInPlane, AbstractLubricatedRollers):
             return jnp.sum(acting, axis=1)
         return jnp.concatenate([self.on_rings(acting[:2]), jnp.sum(acting[2:], axis=1)])
 
-    def normal(self, unknowns, shared, centrifugal):
+    def normal(self, unknowns, shared, orbit, spin):
+        del spin
         inner = jnp.exp(unknowns[0])
-        load = jnp.stack([inner, inner + centrifugal])
+        load = jnp.stack([inner, inner + self.centrifugal(orbit)])
         shift = shared[0] if self.bent else self.inward(shared[: self.directions.shape[0]])
         return PressedRollers(load, self.contact.palmgren_approach(load), self.radial_clearance - shift)
 

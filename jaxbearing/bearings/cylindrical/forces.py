@@ -51,9 +51,12 @@ class RollerForces(NamedTuple):
 
 
 def rolling_force_factor(contact: LineContact, motion: RollerKinematics) -> Float[Array, "2"]:
-    """Tangential force that rolling resistance exerts on a roller, divided by this resistance, at the inner and at the
-    outer race: R_reduced/R_R - 1/2."""
-    return per_race(contact.reduced_radius) / motion.roller_radius - 0.5
+    r"""Tangential force that rolling resistance exerts on a roller, divided by this resistance, at the inner and at the
+    outer race: $R/R_R - 1/2$ with the reduced radius R. For tapered rollers it is $R/(R_R\cos\epsilon) - 1/2$: the force
+    at mid length on the roller axis that has the same moment about the apex, across that axis, as the shear of the film
+    and the displaced pressure together (`tapered.friction`)."""
+    radius = per_race(contact.reduced_radius) / motion.roller_radius
+    return (radius if motion.half_cosine is None else radius / motion.half_cosine) - 0.5
 
 
 def forces_without_pocket(
@@ -105,11 +108,11 @@ def on_cage(
     the rollers.
     """
     forward = load[0] - load[1]
-    moment = forward * motion.pitch_radius - (friction[0] + friction[1]) * motion.roller_radius
+    moment = forward * motion.pitch_radius - motion.across((friction[0] + friction[1]) * motion.roller_radius)
     if rails is not None:
         forward = forward - rails.tangential_force
         moment = moment - rails.moment - rails.tangential_force * motion.pitch_radius
-    outward = friction[0] - friction[1]
+    outward = motion.across(friction[0] - friction[1])
     cosine, sine = cosine_and_sine(azimuth)
     # t = (-cos, -sin), n = (-sin, cos) in (X, Y), the load along +Y
     return moment, jnp.stack([-forward * cosine - outward * sine, -forward * sine + outward * cosine])

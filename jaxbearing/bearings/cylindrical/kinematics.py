@@ -16,20 +16,34 @@ class RollerKinematics(eqx.Module):
 
     Rolling without slip: $W = (\omega_i R_i + \omega_o R_o)/(2R_m)$, $R_R s = (\omega_i - W) R_i$, where the spin s is
     relative to the orbiting frame and positive when clockwise (its value in normal running).
+
+    The axes of tapered rollers are inclined by $\gamma$ to that of the bearing. All radii are then those of mid length:
+    $R_R = \rho\sin\epsilon$, $R_m = \rho\cos\epsilon\sin\gamma$ and $R_k = \rho\sin\alpha_k = R_m \mp R_R\cos\gamma$
+    (see `tapered.friction`). All speeds of a contact are proportional to the distance from the apex.
+
+    **Arguments:** speeds of the rings, rad/s; radii, m; `axis_cosine`, `half_cosine`: cosines of the inclination gamma
+    and of the half angle epsilon of tapered rollers, `None` for cylindrical ones.
     """
 
     inner_speed: Float[Array, ""]
     outer_speed: Float[Array, ""]
     pitch_radius: Float[Array, ""]
     roller_radius: Float[Array, ""]
+    axis_cosine: Float[Array, ""] | None = None
+    half_cosine: Float[Array, ""] | None = None
+
+    def across(self, values: Array) -> Array:
+        """Components across the bearing axis of vectors across the roller axis, and components along the bearing axis
+        of vectors along the roller axis."""
+        return values if self.axis_cosine is None else values * self.axis_cosine
 
     @property
     def inner_radius(self) -> Array:
-        return self.pitch_radius - self.roller_radius
+        return self.pitch_radius - self.across(self.roller_radius)
 
     @property
     def outer_radius(self) -> Array:
-        return self.pitch_radius + self.roller_radius
+        return self.pitch_radius + self.across(self.roller_radius)
 
     @property
     def free_orbit(self) -> Array:
@@ -74,6 +88,16 @@ class RollerKinematics(eqx.Module):
         outer = orbit_change * self.outer_radius
         mean = free + 0.5 * jnp.stack([inner + roller, outer + roller])
         return mean, jnp.stack([inner - roller, outer - roller])
+
+
+def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
+    """Cage slip 1 - W/W_free, with the cage speed W_free of rolling without slip.
+
+    Near W_free = 0 it stays finite, but has no meaning. For this the quotient is smoothed with 1e-8 of the speed scale,
+    which is a relative error of 1e-16 if one ring is at rest.
+    """
+    free = motion.free_orbit
+    return (free - orbit) * free / (jnp.square(free) + jnp.square(1e-8 * motion.orbit_unit))
 
 
 def roller_kinematics(geometry: "RollerGeometry", operation: "Operation") -> RollerKinematics:

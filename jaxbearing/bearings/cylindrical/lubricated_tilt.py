@@ -50,7 +50,7 @@ SOFT = 1e-3
 ends of a roller touch."""
 
 
-class LubricatedTiltingSystem(AbstractLubricatedRollers):
+class LubricatedTiltingSystem(AbstractLubricatedRollers[PressedRollers]):
     """Lubricated rollers that tilt (see the module). The unknowns of the normal direction are ln Qi and the tilt.
 
     - `dry`: the same bearing without friction and films, whose raceways and contact lines are used. Its guess, the
@@ -120,11 +120,12 @@ class LubricatedTiltingSystem(AbstractLubricatedRollers):
         heavier = self.heavier * factor if self.freedoms else self.heavier
         return dataclasses.replace(self, ring=ring, outer=outer, heavier=heavier)
 
-    def normal(self, unknowns, shared, centrifugal):
+    def normal(self, unknowns, shared, orbit, spin):
+        del spin
         dry, line = self.dry, self.dry.line
         length = jnp.asarray(line.length)
         inner = jnp.exp(unknowns[0])
-        load = jnp.stack([inner, inner + centrifugal])
+        load = jnp.stack([inner, inner + self.centrifugal(orbit)])
         inward, turn = dry.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", self.of_freedoms(shared), dry.columns)
         tilt = LENGTH_UNIT / length * unknowns[1]
         slope = jnp.stack([turn - tilt, tilt])
@@ -205,7 +206,7 @@ class LubricatedTiltingSystem(AbstractLubricatedRollers):
         )
 
 
-def least_films(state: RollerState) -> dict[str, Array]:
+def least_films(state: RollerState[PressedRollers]) -> dict[str, Array]:
     """Thinnest films along the rollers, of laminae that carry load, m: names of the results -> values."""
     assert state.laminae is not None
     assert state.pressed.along is not None

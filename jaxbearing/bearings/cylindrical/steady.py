@@ -24,7 +24,7 @@ from .equations import AbstractLubricatedRollers, LubricatedRollerSystem, Roller
 from .forces import CageParts, friction_on_rings, rolling_alone
 from .geometry import RollerCage, RollerGeometry
 from .in_plane import IN_PLANE, outward
-from .kinematics import RollerKinematics, roller_kinematics
+from .kinematics import RollerKinematics, cage_slip, roller_kinematics
 from .loads import LEAST_LOAD
 from .lubricated_tilt import FRICTION_LAMINAE, LubricatedTiltingSystem, least_films
 from .ring import bending_rings, roller_ring
@@ -345,16 +345,6 @@ def _lubricated(
     )
     totals = friction_totals(PowerLoss, _interactions(system, state, land), motion)
     return Results(elements, totals, facts, cage=cage, laminae=rated, boundary_power=boundary_power(mixed))
-
-
-def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
-    """Cage slip 1 - W/W_free, with the cage speed W_free of rolling without slip.
-
-    Near W_free = 0 it stays finite, but has no meaning. For this the quotient is smoothed with 1e-8 of the speed scale,
-    which is a relative error of 1e-16 if one ring is at rest.
-    """
-    free = motion.free_orbit
-    return (free - orbit) * free / (jnp.square(free) + jnp.square(1e-8 * motion.orbit_unit))
 
 
 def _interactions(system: AbstractLubricatedRollers, state: RollerState, land: LandState) -> list[Interaction]:

@@ -104,7 +104,9 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
     rollers, also under a purely axial load.
     """
     geometry, operation = scene.geometry, scene.operation
-    azimuth = azimuths(geometry, geometry.n_rollers, operation.symmetric and not shaped_parts(scene) and ring is None)
+    # rollers that are all alike are one; the forces of a cage are sums over all of them
+    alike = operation.symmetric and not shaped_parts(scene) and ring is None and not scene.slips
+    azimuth = azimuths(geometry, geometry.n_rollers, alike)
     lever = geometry.apex_distance
     columns = ring_columns(azimuth, lever, jnp.asarray(operation.load_position))
     if ring is None:

@@ -23,7 +23,7 @@ def _skidding(result: SolvedBearing) -> Excess:
     least = jnp.minimum(jnp.min(jnp.where(own, reserve, jnp.inf)), jnp.min(jnp.sum(reserve, axis=1)))
     text = (
         "rollers would skid (to keep them rolling takes more traction than the raceway films have at 10 % sliding): "
-        "speeds and losses are those of pure rolling"
+        "speeds and losses are those of pure rolling; a scene with a cage models the skidding"
     )
     return {text: -least}
 

@@ -30,7 +30,7 @@ Gyroscopic and normal forces have no moment in that plane. The torques that driv
 forces: $\sum[A_i\sin\alpha_i + P_iR_i\cos\alpha_i + F_fr_f + M_f\cos\alpha_f]$ and $\sum[A_o\sin\alpha_o +
 P_oR_o\cos\alpha_o]$. Their power must be the sum of the dissipations, which tests every sign.
 
-**Validity:** pure rolling. Friction does not change the normal loads and does not skew the rollers: the force of the
+**Validity:** pure rolling (`skidding`: rollers that may slide on the raceways). Friction does not change the normal loads and does not skew the rollers: the force of the
 rib along its generator and the effect of friction on the equilibrium of the cone are left out. There is no cage: if
 drag acts on a roller without load on the cone, the constraint forces stand for the pocket that would push it, not for
 forces of the raceways.
@@ -48,12 +48,13 @@ from ...contacts import LineContact, PointContact, Sliding, Traction
 from ...contacts.laws import ContactLaws
 from ...contacts.mixed import Asperities, MixedState
 from ...contacts.oil_supply import Starvation
-from ...contacts.point_laws import PointFilm
-from ...gaps import RollerDrag
+from ...contacts.point_laws import PointFilm, PointLaws
+from ...gaps import PocketFilm, RollerDrag
 from ...lubricants import InletOil, Lubricant
 from ..inlet import oil_elsewhere, oil_of, oil_of_races, oil_temperature
 from ..interactions import FrictionTotals, Interaction, friction_totals
 from ..parts import drag_density
+from ..solution import CageState
 from .build import TaperedMotion, rolling_motion
 from .geometry import TaperedGeometry
 from .scene import TaperedRollerBearing
@@ -86,19 +87,23 @@ class RaceFriction(NamedTuple):
     - `rolling`: rolling resistance P, N.
     - `capacity`: traction at the slide-to-roll ratio `SKIDDING`, N.
     - `speed`: mean surface speed at mid length, m/s; `radius`: reduced radius at mid length, m.
+    - `sliding`: sliding speed at mid length of rollers that may skid, m/s.
     - `residual`: largest residual of nested solves.
-    - `asperities`: film ratio and load share in mixed friction; `starved`: effect of starvation.
+    - `asperities`: film ratio and load share in mixed friction, `mixed`: its state for rollers that may skid;
+      `starved`: effect of starvation.
     """
 
     film: Float[Array, "2 roller"]
     temperature_rise: Float[Array, "2 roller"] | None
     rolling: Float[Array, "2 roller"] | None
     capacity: Float[Array, "2 roller"] | None
-    speed: Float[Array, "2 1"]
+    speed: Float[Array, "2 _"]
     radius: Float[Array, "2 1"]
     residual: Float[Array, ""]
     asperities: Asperities | None
     starved: Starvation | None
+    sliding: Float[Array, "2 roller"] | None = None
+    mixed: MixedState | None = None
 
 
 class RibFriction(NamedTuple):
@@ -118,25 +123,28 @@ class RibFriction(NamedTuple):
 
 
 class RollerBalance(NamedTuple):
-    """Constraint forces of the raceways on every roller; the first axis runs over the races.
+    """Forces of the raceways on every roller, constraint forces in pure rolling; the first axis runs over the races.
 
-    - `arms`: moments A_k about the apex, N m.
+    - `arms`: moments A_k about the apex, N m, of constraint forces.
     - `traction`: circumferential force on the roller, without the part that rolling resistance exerts, N.
     """
 
-    arms: Float[Array, "2 roller"]
+    arms: Float[Array, "2 roller"] | None
     traction: Float[Array, "2 roller"]
 
 
 class TaperedFriction(NamedTuple):
     """Friction of races and rib, oil drag on a roller, N, balance of the rollers, and losses and torques. `balance` is
-    `None` if the scene models no friction."""
+    `None` if the scene models no friction. `cage` and `pocket`: state of the cage and films of its pockets, `None` in
+    pure rolling."""
 
     races: RaceFriction
     rib: RibFriction | None
     drag_force: Array | None
     balance: RollerBalance | None
     totals: FrictionTotals[TaperedPowerLoss]
+    cage: CageState | None = None
+    pocket: PocketFilm | None = None
 
 
 class _Roller(NamedTuple):
@@ -154,13 +162,17 @@ class _Roller(NamedTuple):
     reach: Array
 
 
-def rib_motion(geometry: TaperedGeometry, motion: TaperedMotion) -> RibMotion:
-    """Motion at the rib (see the module). The speed of the inner ring relative to the orbit is computed from the spin,
-    which avoids cancellation."""
-    orbiting = motion.spin_speed * jnp.sin(geometry.roller_half_angle) / jnp.sin(geometry.cone_angle)
-    rib = orbiting * geometry.flange_radius
-    end = motion.spin_speed * geometry.sphere_radius * jnp.sin(geometry.flange_tilt)
-    spin = orbiting * jnp.cos(jnp.asarray(geometry.rib_angle)) + motion.spin_speed * jnp.cos(geometry.flange_tilt)
+def rib_motion(geometry: TaperedGeometry, spin_speed: Array, relative: Array | None = None) -> RibMotion:
+    """Motion at the rib (see the module).
+
+    **Arguments:** `spin_speed`: of the rollers, rad/s; `relative`: speed of the inner ring relative to the orbit,
+    rad/s, by default that of pure rolling, which follows from the spin without cancellation.
+    """
+    if relative is None:
+        relative = spin_speed * jnp.sin(geometry.roller_half_angle) / jnp.sin(geometry.cone_angle)
+    rib = relative * geometry.flange_radius
+    end = spin_speed * geometry.sphere_radius * jnp.sin(geometry.flange_tilt)
+    spin = relative * jnp.cos(jnp.asarray(geometry.rib_angle)) + spin_speed * jnp.cos(geometry.flange_tilt)
     return RibMotion(0.5 * (rib + end), rib - end, spin)
 
 
@@ -174,11 +186,11 @@ def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> Tapere
     modulus = scene.materials.race_modulus
     roller = _roller(geometry)
     races = _races(geometry, scene.contact, state.load, roller.reach, motion, modulus, oil, inlet)
-    rib = (
-        None
-        if scene.rib is None
-        else _rib(scene, state.flange_load, motion, modulus, oil_of(inlet, elsewhere, "flange"))
-    )
+    rib = None
+    if scene.rib is not None:
+        load, at_rib = state.flange_load, oil_of(inlet, elsewhere, "flange")
+        pressing = (load, jnp.where(load > 0, load, 1.0), load > 0)
+        rib = rib_friction(scene.rib, geometry, modulus, oil, at_rib, rib_motion(geometry, motion.spin_speed), pressing)
     drag = None
     if scene.drag is not None:
         fraction, temperature = scene.drag.through_flow_fraction, oil_temperature(scene, "drag")
@@ -265,16 +277,23 @@ def _races(
     )
 
 
-def _rib(
-    scene: TaperedRollerBearing, load: Float[Array, " roller"], motion: TaperedMotion, modulus: Array, inlet: InletOil
+def rib_friction(
+    laws: PointLaws,
+    geometry: TaperedGeometry,
+    modulus: Array,
+    oil: Lubricant,
+    inlet: InletOil,
+    moving: RibMotion,
+    pressed: tuple[Array, Array, Array],
 ) -> RibFriction:
-    laws, oil = scene.rib, scene.oil
-    assert laws is not None
-    assert oil is not None
-    contact: PointContact = scene.geometry.flange_contact(modulus).shaped()
-    moving = rib_motion(scene.geometry, motion)
-    loaded = load > 0
-    pressing, ones = jnp.where(loaded, load, 1.0), jnp.ones_like(load)
+    """Films and friction of the roller ends on the rib.
+
+    **Arguments:** `modulus`: reduced modulus of the raceway contacts, Pa; `inlet`: oil of the rib; `pressed`: load of
+    each contact, N, the load at which its laws are evaluated, N, and the factor of its friction.
+    """
+    contact: PointContact = geometry.flange_contact(modulus).shaped()
+    load, pressing, share = pressed
+    loaded, ones = load > 0, jnp.ones_like(load)
     mean, sliding = moving.mean_speed * ones, moving.sliding_speed * ones
     film: PointFilm = laws.film_state(contact, pressing, mean, sliding, oil, inlet)
     traction, mixed = None, None
@@ -282,7 +301,7 @@ def _rib(
         slides = Sliding(sliding, spin=moving.spin * ones)
         shear = laws.shear(contact, pressing, film, mean, slides, oil)
         mixed = laws.mixed_state(contact, pressing, film, mean, slides, shear, oil)
-        present = lambda values: jnp.where(loaded, values, 0.0)
+        present = lambda values: jnp.where(share, values, 0.0) if share.dtype == bool else share * values
         traction = shear._replace(
             rolling=present(shear.rolling), moment=present(shear.moment), power=present(shear.power)
         )
@@ -292,11 +311,11 @@ def _rib(
         temperature_rise=None if film.rise is None else jnp.where(loaded, film.rise, jnp.nan),
         traction=traction,
         residual=jnp.max(film.residual),
-        mixed=None if mixed is None else _where_loaded(mixed, loaded),
+        mixed=None if mixed is None else where_loaded(mixed, loaded),
     )
 
 
-def _where_loaded(mixed: MixedState, loaded: Array) -> MixedState:
+def where_loaded(mixed: MixedState, loaded: Array) -> MixedState:
     """Mixed friction, with boundary friction 0 and film ratio, load share and flash temperature NaN for contacts
     without load."""
     absent = (jnp.nan, jnp.nan, 0.0, 0.0, jnp.nan)
@@ -313,9 +332,7 @@ def _balance(
         moment = moment - jnp.sum(couple[None] * roller.line, axis=1)
         torque = torque - couple * roller.line[0]
     if rib is not None:
-        normal = jnp.stack([jnp.cos(jnp.asarray(geometry.rib_angle)), -jnp.sin(jnp.asarray(geometry.rib_angle))])
-        axial, radius = geometry.sphere_centre[0] - geometry.sphere_radius * normal[0], geometry.flange_radius
-        of_rib = rib.rolling[None] * jnp.stack([radius, -axial])[:, None] + rib.moment[None] * normal[:, None]
+        of_rib = jnp.stack(geometry.rib_moment(rib.rolling, rib.moment))
         moment, force = moment + of_rib, force + rib.rolling
         torque = torque + jnp.stack([of_rib[0], jnp.zeros_like(force)])
     if drag is not None:

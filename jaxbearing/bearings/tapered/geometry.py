@@ -20,6 +20,8 @@ from ...contacts import PointContact
 from ...numerics.checks import array_module, demand, numbers_or_none
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import count
+from ..cage import AbstractCage
+from ..cylindrical.geometry import ASSUMED_CAGE_INNER, ASSUMED_CAGE_OUTER
 from ..inlet import of_inner_race
 from ..parts import FIRST_ELEMENT, AbstractGeometry
 from .usual_ends import USUAL_END_RADIUS, USUAL_RIB_HEIGHT, usual_end_radius, usual_flange_angle
@@ -176,6 +178,15 @@ class TaperedGeometry(AbstractGeometry):
         height = self.sphere_radius * jnp.sin(self.rib_angle) - self.end_height * jnp.sin(self.axis_angle)
         return self.big_end_radius + height
 
+    def rib_moment(self, force: Array, moment: Array) -> tuple[Array, Array]:
+        """Components (a, r) of the moment about the apex, N m, of the rib's friction on a roller.
+
+        **Arguments:** `force`: circumferential force on the roller, N; `moment`: about the normal of the rib, N m.
+        """
+        normal = (jnp.cos(jnp.asarray(self.rib_angle)), -jnp.sin(jnp.asarray(self.rib_angle)))
+        axial, radius = self.sphere_centre[0] - self.sphere_radius * normal[0], self.flange_radius
+        return force * radius + moment * normal[0], -force * axial + moment * normal[1]
+
     def flange_contact(self, race_modulus: Float[Array, ""] | Float[Array, "2 1"]) -> PointContact:
         """Contact of the spherical big end with the rib, a concave cone (eq. (53)). The rib is straight along its
         generator and curved in the direction of rolling, around the bearing axis. It is a part of the inner ring.
@@ -192,6 +203,23 @@ class TaperedGeometry(AbstractGeometry):
         roller = reach * jnp.tan(self.roller_half_angle)
         inner, outer = reach * jnp.tan(self.cone_angle), reach * jnp.tan(self.contact_angle)
         return jnp.stack([1.0 / (1.0 / roller + 1.0 / inner), 1.0 / (1.0 / roller - 1.0 / outer)])
+
+
+class TaperedCage(AbstractCage[TaperedGeometry]):
+    """One-piece cage, guided by one ring on `n_lands` lands, with a pocket film in front of and behind each roller. The
+    walls of a pocket are parallel to the lines of the roller that face them.
+
+    **Arguments:** those of `AbstractCage`, and
+    - `inner_diameter`, `outer_diameter`: at mid length of the rollers, or at the lands on the side that is guided, m.
+    - `pocket_clearance`: TOTAL circumferential clearance of a roller in its pocket, m, > 0.
+    """
+
+    element: ClassVar[str] = "roller"
+    assumed_inner: ClassVar[float] = ASSUMED_CAGE_INNER
+    assumed_outer: ClassVar[float] = ASSUMED_CAGE_OUTER
+
+    def pocket_opening(self, geometry: TaperedGeometry) -> tuple[Scalar, Scalar]:
+        return geometry.roller_length, geometry.mean_roller_diameter + self.pocket_clearance
 
 
 def _check(n_rollers: int, diameter: Any, length: Any, cup: Any, half: Any, flange: Any, end_radius: Any) -> None:

@@ -48,7 +48,7 @@ from ..supplied import supply_problems
 from ..warm import thermal_problems
 from ..warming.settings import WarmUpSimulation
 from .checks import CHECKS
-from .geometry import TaperedGeometry
+from .geometry import TaperedCage, TaperedGeometry
 from .mounting import closing, raceway_diameters, running_play
 from .outline import tapered_outline
 from .rating import rated_contacts
@@ -85,11 +85,13 @@ class TaperedOperation(AbstractOperation):
 class TaperedRollerBearing(AbstractBearing):
     """A steady single-row tapered roller bearing under axial load, radial load and moment.
 
-    The rollers roll without sliding about the apex. Results are loads of raceways and rib, displacements, films and
+    The rollers roll without sliding about the apex, unless the scene has a cage. Results are loads of raceways and rib, displacements, films and
     friction losses (`friction`). A part that is `None` is not modelled.
 
-    - `contact`: laws of the raceway contacts: films and, if given, rolling resistance. Its `traction` has no effect on
-      the motion. It tells whether the films can carry the forces that keep the rollers rolling.
+    - `contact`: laws of the raceway contacts: films and, if given, rolling resistance and traction. Without a `cage`
+      the traction has no effect on the motion. It tells whether the films can carry the forces that keep the rollers
+      rolling.
+    - `cage`: with it and `contact.traction`, rollers may skid: their spins and the speed of the cage are unknowns.
     - `rib`: laws of the contacts of roller ends and rib: film and, if given, traction.
     - `drag`: oil drag on the orbiting rollers.
     - `profile`: laminae and profile of the rollers; `None`: rollers are straight, and contacts are integrated in closed
@@ -116,6 +118,7 @@ class TaperedRollerBearing(AbstractBearing):
     profile: RollerProfile | None = None
     rating: Rating | None = None
     rib: PointLaws | None = None
+    cage: TaperedCage | None = None
     drag: Drag | None = None
     fits: Fits | None = None
     temperatures: PartTemperatures | None = None
@@ -142,8 +145,10 @@ class TaperedRollerBearing(AbstractBearing):
             return
         if self.oil is None:
             yield "oil: a scene with a [contact] table needs an oil"
-        if self.drag is not None and self.oil is not None and self.oil.density is None:
-            yield "oil.density: the drag needs it"
+        if self.cage is not None:
+            yield from refusals_of(self.cage.check_fits, self.geometry)
+        if self.oil is not None and self.oil.density is None and (self.drag is not None or self.slips):
+            yield "oil.density: the cage land and the drag need it"
         if self.rib is not None and self.rib.resists_rolling:
             yield "rib.rolling: the rib has none, the roller ends slide on it"
         yield from refusals_of(self.operation.check_rings_turn)
@@ -178,15 +183,16 @@ class TaperedRollerBearing(AbstractBearing):
 
     @property
     def slips(self) -> bool:
-        """Always False: rollers roll without sliding on the raceways."""
-        return False
+        """True if roller and cage speeds are unknowns. Without a cage, or without traction, they are those of pure
+        rolling."""
+        return self.cage is not None and self.contact is not None and self.contact.traction is not None
 
     @property
     def dissipates(self) -> bool:
         if self.contact is None:
             return False
         slides = self.rib is not None and self.rib.traction is not None
-        return self.contact.resists_rolling or slides or self.drag is not None
+        return self.contact.resists_rolling or slides or self.drag is not None or self.slips
 
     def race_lines(self, elements: "TaperedResults") -> LineContact:
         radii = self.geometry.race_reduced_radii(jnp.asarray(0.5))[:, None]
@@ -213,9 +219,9 @@ class TaperedRollerBearing(AbstractBearing):
 
     def unused_parts(self) -> tuple[str, ...]:
         """Tables that the scene names but that have no effect."""
-        if self.contact is not None:
-            return ()
-        named = {"oil": self.oil if self.rating is None else None, "drag": self.drag}
+        named: dict[str, object] = {"cage": None if self.slips else self.cage}
+        if self.contact is None:
+            named |= {"oil": self.oil if self.rating is None else None, "drag": self.drag}
         return tuple(name for name, part in named.items() if part is not None)
 
     def assumptions(self) -> tuple[str, ...]:
@@ -225,4 +231,6 @@ class TaperedRollerBearing(AbstractBearing):
             notes += [f"oil: {note}" for note in self.oil.notes]
             laws = (self.contact.traction, None if self.rib is None else self.rib.traction)
             notes += dict.fromkeys(note for law in laws if law is not None for note in law.notes(self.oil))
+        if self.slips and self.cage is not None:
+            notes += self.cage.assumptions()
         return tuple(notes)

@@ -1,7 +1,7 @@
 """Results of a tapered roller bearing, labelled (see `solution`)."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
 from jaxtyping import Array, Float
@@ -70,13 +70,23 @@ class TaperedResults(eqx.Module):
     temperature_rise_flange: _Values | None = _optional("K", "inlet heating, rib")
     sliding_flange: _Values | None = _optional("m/s", "speed of the rib over the roller end")
     spin_flange: _Values | None = _optional("rad/s", "spin of the rib over the roller end about the normal")
-    traction_inner: _Values | None = _optional("N", "forward force by the inner race that keeps the roller rolling")
-    traction_outer: _Values | None = _optional("N", "backward force by the outer race that keeps the roller rolling")
+    sliding_inner: _Values | None = _optional("m/s", "sliding speed on the inner race, at mid length")
+    sliding_outer: _Values | None = _optional("m/s", "sliding speed on the outer race, at mid length")
+    traction_inner: _Values | None = _optional("N", "forward force by the inner race")
+    traction_outer: _Values | None = _optional("N", "backward force by the outer race")
     traction_flange: _Values | None = _optional("N", "forward force by the rib")
+    pocket_film_front: _Values | None = _optional("m", "film in front of the roller")
+    pocket_film_rear: _Values | None = _optional("m", "film behind the roller")
+    pocket_load_front: _Values | None = _optional("N", "pocket load in front")
+    pocket_load_rear: _Values | None = _optional("N", "pocket load behind")
     film_ratio_inner: _Values | None = _optional("1", "film over roughness (lambda), inner raceway")
     film_ratio_outer: _Values | None = _optional("1", "film over roughness (lambda), outer raceway")
     load_share_inner: _Values | None = _optional("1", "part of the load that asperities carry, inner raceway")
     load_share_outer: _Values | None = _optional("1", "part of the load that asperities carry, outer raceway")
+    boundary_inner: _Values | None = _optional("N", "boundary friction along rolling, inner raceway")
+    boundary_outer: _Values | None = _optional("N", "boundary friction along rolling, outer raceway")
+    flash_inner: _Values | None = _optional("K", "flash temperature, inner raceway")
+    flash_outer: _Values | None = _optional("K", "flash temperature, outer raceway")
     film_ratio_flange: _Values | None = _optional("1", "film over roughness (lambda), rib")
     load_share_flange: _Values | None = _optional("1", "part of the load that asperities carry, rib")
     boundary_flange: _Values | None = _optional("N", "boundary friction around the bearing, rib")
@@ -88,13 +98,15 @@ _Power = Float[Array, ""]
 
 class TaperedPowerLoss(eqx.Module):
     """Dissipated power by location, W; the entries add up to `total`. Losses that a scene does not model are `None`,
-    and `total` is `None` where it models none. `never`: losses that no scene of this kind models."""
-
-    never: ClassVar[tuple[str, ...]] = ("inner_raceway", "outer_raceway", "cage")
+    and `total` is `None` where it models none."""
 
     total: _Power | None = _optional("W", "total")
+    inner_raceway: _Power | None = _optional("W", "sliding on the inner raceway")
+    outer_raceway: _Power | None = _optional("W", "sliding on the outer raceway")
     rolling_resistance: _Power | None = _optional("W", "rolling resistance of the raceways")
+    pocket: _Power | None = _optional("W", "rollers sliding in the cage pockets")
     flange: _Power | None = _optional("W", "roller ends sliding on the rib")
+    cage_pilot: _Power | None = _optional("W", "cage lands on the guiding ring")
     drag: _Power | None = _optional("W", "oil drag on the orbiting rollers")
 
 

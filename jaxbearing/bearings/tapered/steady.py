@@ -24,9 +24,10 @@ from ..profile import own_laminae
 from ..rating import rated_laminae
 from ..ring import InnerRing, Port
 from ..solution import RING_FREEDOMS, BoundaryPower, FailureCause, LaminaLoads, Solution
-from .build import build_tapered, rolling_motion
+from .build import TaperedMotion, build_tapered, rolling_motion
 from .friction import TaperedFriction, tapered_friction
 from .scene import TaperedRollerBearing
+from .skidding import SkiddingSystem, build_skidding, skidding_friction
 from .solution import SolvedTapered, TaperedPowerLoss, TaperedResults
 from .system import Inertia, TaperedState, TaperedSystem
 
@@ -56,15 +57,22 @@ def solve_tapered(
     # loads without equilibrium are replaced by loads with one: a few steps then lead to finite values and derivatives
     easy = jnp.where(sliding, _axial_only(asked), asked.ring.load)
     started, minimum = dataclasses.replace(asked, ring=asked.ring.under(easy)).started(sliding)
-    system, result = newton_solve(started, options)
+    system, result = newton_solve(build_skidding(scene, started) if scene.slips else started, options)
     none = sliding | (~result.converged & minimum.outside)
     result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
     result = result._replace(residual_norm=jnp.where(sliding, jnp.nan, result.residual_norm))
-    state, friction = system.at(result.point), None
-    if scene.contact is not None:
-        friction = tapered_friction(scene, state)
+    dry, friction = system, None
+    if isinstance(system, SkiddingSystem):
+        dry, solved = system.dry, system.at(result.point)
+        state, motion = solved.pressed.contacts, TaperedMotion(solved.orbital_speed, solved.spin_speed)
+        friction = skidding_friction(system, result)
+    else:
+        state, motion = system.at(result.point), rolling_motion(scene.geometry, scene.operation)
+        if scene.contact is not None:
+            friction = tapered_friction(scene, state)
+    if friction is not None:
         result = _with_nested(result, friction, options)
-    results = _results(scene, system, result, state, friction)
+    results = _results(scene, dry, result.point.elements[:3], state, motion, friction)
     causes, steps = _reasons(scene, asked.inertia) if _bounded(scene, ring) else {}, minimum.steps + result.iterations
     results = results._replace(**system.bent.results(system.amplitudes(result.point.globals)))
     if system.outer is not None:
@@ -205,14 +213,14 @@ def _with_nested(result: NewtonResult, friction: TaperedFriction, options: Newto
 def _results(
     scene: TaperedRollerBearing,
     system: TaperedSystem,
-    result: NewtonResult,
+    unknowns: Float[Array, "3 roller"],
     state: TaperedState,
+    motion: TaperedMotion,
     friction: TaperedFriction | None,
 ) -> Results[TaperedResults, TaperedPowerLoss]:
     geometry, count = scene.geometry, scene.geometry.n_rollers
     every = lambda values: jnp.broadcast_to(values, (count,))
-    motion = rolling_motion(geometry, scene.operation)
-    place = system.units() * result.point.elements
+    place = system.units() * unknowns
     pressure = line_pressure(scene, system, state)
     modulus = scene.materials.race_modulus
     flange = geometry.flange_contact(modulus).hertz_pressure(state.flange_load)
@@ -250,6 +258,7 @@ def _results(
         laminae=LaminaLoads(
             inner_laminae, outer_laminae, scene.profile is not None and scene.profile.shape is not None
         ),
+        cage=None if friction is None else friction.cage,
         boundary_power=_boundary_power(scene, state, friction),
     )
 
@@ -257,9 +266,10 @@ def _results(
 def _boundary_power(
     scene: TaperedRollerBearing, state: TaperedState, friction: TaperedFriction | None
 ) -> BoundaryPower | None:
-    """The part of the rib's loss that is boundary friction; rollers do not slide on the raceways."""
+    """The part of the losses that is boundary friction."""
     rib = None if friction is None or friction.rib is None else friction.rib.mixed
-    return boundary_power(None, scene.geometry.n_rollers // state.load.shape[1], rib)
+    races = None if friction is None else friction.races.mixed
+    return boundary_power(races, scene.geometry.n_rollers // state.load.shape[1], rib)
 
 
 def _of_friction(friction: TaperedFriction, state: TaperedState) -> dict[str, Array]:
@@ -279,6 +289,12 @@ def _of_friction(friction: TaperedFriction, state: TaperedState) -> dict[str, Ar
         ratio, share = races.asperities
         more |= {"film_ratio_inner": ratio[0], "film_ratio_outer": ratio[1]}
         more |= {"load_share_inner": share[0], "load_share_outer": share[1]}
+    more |= mixed_results(races.mixed)
+    if races.sliding is not None:
+        more |= {"sliding_inner": races.sliding[0], "sliding_outer": races.sliding[1]}
+    if friction.pocket is not None:
+        names = ("film_front", "film_rear", "load_front", "load_rear")
+        more |= {f"pocket_{name}": getattr(friction.pocket, name) for name in names}
     if rib is None:
         return more
     if rib.mixed is not None:
@@ -316,9 +332,11 @@ def _facts(
     warm = lambda oil, rise: None if rise is None else oil.temperature + rise
     warm_races = warm(inlet, of_races.temperature_rise)
     races = races._replace(laws=scene.contact, inlet=inlet, mean_speed=of_races.speed, temperature=warm_races)
-    races = races._replace(starved=of_races.starved)
+    races = races._replace(starved=of_races.starved, sliding=of_races.sliding)
     if of_races.asperities is not None:
         races = races._replace(load_share=of_races.asperities.share)
+    if of_races.mixed is not None:
+        races = races._replace(load_share=of_races.mixed.share)
     if of_rib is not None:
         rise, elsewhere = of_rib.temperature_rise, oil_elsewhere(scene)
         oil = oil_of(inlet, elsewhere, "flange")
@@ -366,11 +384,14 @@ def _end_reach(scene: TaperedRollerBearing, state: TaperedState) -> Array:
     return below + ellipse.transverse - 0.5 * geometry.roller_diameter
 
 
-def _port(scene: TaperedRollerBearing, system: TaperedSystem, result: NewtonResult) -> Port:
-    """Reaction and stiffness of the cone's five degrees of freedom at the reference point, with the rollers in
-    equilibrium."""
+def _port(scene: TaperedRollerBearing, system: TaperedSystem | SkiddingSystem, result: NewtonResult) -> Port:
+    """Reaction and stiffness of the cone's five degrees of freedom at the reference point, with the rollers and the
+    cage in equilibrium."""
     full = build_tapered(scene, system.ring.released(system.load_scale()))
-    elements = jnp.broadcast_to(result.point.elements, (3, scene.geometry.n_rollers))
+    if isinstance(system, SkiddingSystem):
+        full = build_skidding(scene, full)
+    rows = result.point.elements
+    elements = jnp.broadcast_to(rows, (rows.shape[0], scene.geometry.n_rollers))
     point = ArrowPoint(elements, system.ring.released_unknowns(result.point.globals))
     equations, jacobian = linearize(full, point)
     force = full.of_freedoms(equations.residual.globals) * full.load_scale() + full.ring.load

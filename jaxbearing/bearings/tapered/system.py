@@ -193,12 +193,19 @@ class TaperedSystem(AbstractRowSystem):
         """See `AbstractConvexArrow`. The energy of a roller is the energy of its contacts minus the work of its inertia
         forces, J."""
         state = self.state(unknowns, shared)
-        balance = self.balance(state) + anchored(unknowns, ANCHOR * LENGTH_UNIT)
+        balance = self.balance(state, self.inertia) + self.anchors(unknowns)
+        energies = self._energies(state, self.units() * unknowns)
+        return balance / self.roller_scale(), self.on_rings_of(state), energies
+
+    def anchors(self, unknowns: Float[Array, "3 roller"]) -> Float[Array, "3 roller"]:
+        """Forces of the artificial springs that hold the rollers, N: 0, with derivatives that are not (`ANCHOR`)."""
+        return anchored(unknowns, ANCHOR * LENGTH_UNIT)
+
+    def on_rings_of(self, state: TaperedState) -> Float[Array, "row roller"]:
+        """Contributions of the rollers to the balances of both rings, N."""
         force = self.ring_force(state)
         totals = self.multiplicity * jnp.einsum("fcn,cn->fn", self.columns, force)
-        if self.bent:
-            totals = self.on_both(totals, state.load[1] * jnp.cos(self.form.cup_angle), force[1])
-        return balance / self.roller_scale(), totals, self._energies(state, self.units() * unknowns)
+        return self.on_both(totals, state.load[1] * jnp.cos(self.form.cup_angle), force[1]) if self.bent else totals
 
     def global_residual(self, globals_, totals):
         return self.ring_balance(globals_, totals, floats=True) / self.load_scale(), jnp.zeros(())
@@ -296,11 +303,11 @@ class TaperedSystem(AbstractRowSystem):
         load, moment = self.line.load_and_moment(approach, slope)
         return TaperedState(approach, slope, flange, load, moment, self.flange_stiffness * positive_power(flange, 1.5))
 
-    def balance(self, state: TaperedState) -> Float[Array, "3 roller"]:
+    def balance(self, state: TaperedState, inertia: Inertia) -> Float[Array, "3 roller"]:
         """Residuals of the balances of each roller, N: forces along and across its axis, and moment about the centre of
-        its big end, divided by the roller length."""
+        its big end, divided by the roller length. **Arguments:** `inertia`: inertia forces on the rollers."""
         form, (inner, outer), (inner_moment, outer_moment) = self.form, state.load, state.moment
-        flange, inertia = state.flange_load, self.inertia
+        flange = state.flange_load
         sine, cosine = jnp.sin(form.axis_angle), jnp.cos(form.axis_angle)
         below = jnp.sin(form.flange_tilt)
         along = (inner + outer) * form.sine - flange * jnp.cos(form.flange_tilt) + inertia.force * sine

@@ -5,7 +5,7 @@ from functools import cache
 
 from ...bearings.parts import ContactLaws, Drag, Materials
 from ...bearings.rating import Rating
-from ...bearings.tapered.geometry import TaperedGeometry
+from ...bearings.tapered.geometry import TaperedCage, TaperedGeometry
 from ...bearings.tapered.scene import TaperedOperation, TaperedRollerBearing
 from ...contacts import (
     ChittendenCentral,
@@ -17,7 +17,7 @@ from ...contacts import (
 )
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant, NoPressureViscosity
-from ..bearing.build import built, laws_of, part, seats, shapes, solids
+from ..bearing.build import built, cage, laws_of, part, seats, shapes, solids
 from ..bearing.profile import roller_profile
 from ..bearing.simulation import warm_up
 from ..laws import RIB_FILMS, ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
@@ -40,6 +40,7 @@ def tapered_roller_bearing(table: TaperedRollerTable) -> TaperedRollerBearing:
         oil=oil,
         contact=lambda: None if table.contact is None else _laws(table.contact, oil()),
         rib=lambda: None if table.contact is None else _rib_laws(table.contact, oil()),
+        cage=lambda: cage(TaperedCage, table.cage),
         drag=lambda: part(Drag, table.drag),
         profile=lambda: roller_profile(table.profile),
         rating=lambda: part(Rating, table.rating),

@@ -4,10 +4,11 @@ from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
 
 from ...bearings.parts import ContactLaws
-from ...bearings.tapered.geometry import TaperedGeometry
+from ...bearings.tapered.geometry import TaperedCage, TaperedGeometry
 from ...bearings.tapered.scene import TaperedOperation
 from ..bearing.profile import ProfileTable
 from ..bearing.schema import (
+    CageBase,
     CatalogueTable,
     FitsTable,
     InnerRingTable,
@@ -48,7 +49,7 @@ class TaperedContactTable(table_of(ContactLaws, leave_out=("entrainment_offset",
 
     `film` and `rolling_resistance` hold for the raceways, `flange_film` for the roller ends on the rib. `thermal` holds
     for both, but the rib always has Gupta's law, because the other law is for line contacts. `traction` holds for the
-    sliding on the rib, and for the friction that the raceways could transmit.
+    sliding on the rib, and for the friction that the raceways transmit, or, without a cage, could transmit.
 
     - `traction_accuracy`: relative error of the traction forces, for which the integration over the contact is resolved
     - `rolling_resistance`: law of the raceways; `true`: the first of these laws; not given: none
@@ -81,6 +82,10 @@ class TaperedContactTable(table_of(ContactLaws, leave_out=("entrainment_offset",
         yield from heating_problems(self)
 
 
+class TaperedCageTable(table_of(TaperedCage, base=CageBase)):
+    """See `bearings.tapered.geometry.TaperedCage`."""
+
+
 class TaperedOperationTable(operation_table(TaperedOperation)):
     """See `bearings.tapered.scene.TaperedOperation`."""
 
@@ -97,6 +102,7 @@ class TaperedRollerTable(Table):
     operation: TaperedOperationTable
     oil: OilTable | None = None
     contact: TaperedContactTable | None = None
+    cage: TaperedCageTable | None = None
     drag: DragTable | None = None
     profile: ProfileTable | None = None
     rating: RatingTable | None = None
@@ -118,6 +124,7 @@ class TaperedRollerTable(Table):
     @check
     def _oil(self) -> Problems:
         if self.contact is not None:
-            density = "" if self.drag is None else "the drag"
+            slips = self.contact.traction is not None and self.cage is not None
+            density = "the cage or the drag" if slips or self.drag is not None else ""
             laws = {**RACEWAY_LAWS, "flange_film": RIB_FILMS}
             yield from require_oil(self.oil, self.operation, self.contact, density, laws)

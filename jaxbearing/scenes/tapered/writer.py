@@ -3,11 +3,11 @@
 from ...bearings.tapered.scene import TaperedRollerBearing
 from ...contacts import MeanPressureTraction
 from ..bearing.simulation_writer import simulation
-from ..bearing.writer import bearing_tables, flow_law, march_accuracy, profile, raceway_laws
+from ..bearing.writer import bearing_tables, cage, flow_law, march_accuracy, profile, raceway_laws
 from ..laws import RIB_FILMS
 from ..mixed import rib_mixed_rows
 from ..part_writer import Rows, law_name, shown, unwritable
-from .schema import TaperedRollerTable
+from .schema import TaperedCageTable, TaperedRollerTable
 
 
 def tapered_tables(scene: TaperedRollerBearing) -> Rows:
@@ -17,6 +17,7 @@ def tapered_tables(scene: TaperedRollerBearing) -> Rows:
         TaperedRollerTable,
         profile=profile(scene.profile),
         contact=_laws(scene),
+        cage=cage(TaperedCageTable, scene.cage),
         simulation=simulation(scene.simulation),
     )
 

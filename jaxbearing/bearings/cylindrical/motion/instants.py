@@ -11,7 +11,7 @@ from ....numerics.arrow import ArrowPoint
 from ...motion.history import CageMotion, PocketPeaks
 from ...solution import RING_FREEDOMS, RingDisplacement
 from ..solution import RollerResults
-from ..steady import cage_slip
+from ..kinematics import cage_slip
 from .energy import kinetic_energy, pocket_energy, power_by_location, raceway_energy
 from .results import RollerInstant
 

@@ -1,0 +1,347 @@
+r"""Equations of tapered rollers that may skid: raceways with traction, rib friction, oil drag and a cage.
+
+The normal direction is that of the dry rollers (`system`): positions and tilt of each roller, with the centrifugal
+force and the gyroscopic moment of its own orbit and spin. Friction does not change the normal loads.
+
+Along the rolling direction a tapered roller has the equations of a cylindrical one (`cylindrical.equations`). Its axis
+and both lines of contact meet in the apex, so all speeds of a contact are proportional to the distance $\rho$ from the
+apex, and a raceway slides everywhere or nowhere. The moments about the apex of all forces on a roller lie in the
+meridian plane. They are balanced along the roller axis, $e_x$, and across it, $e_z$. With all radii at mid length (see
+`RollerKinematics`), a force T along the orbit at a raceway has the moments $\mp TR_R$ and $T\rho\cos\epsilon$, and the
+net load P of the pocket, which acts at mid length on the roller axis, has the moment $-P\rho\cos\epsilon$ across the
+axis and none along it. Dividing by $\rho\cos\epsilon$ leaves
+
+- moment: $R_R(F_{C1} + F_{C2} - F_i - F_o) + G_x + \frac{R_R}{2}(P_i + P_o) = 0$;
+- tangential: $Q_{C1} - Q_{C2} = F_i - F_o + \frac{G_z}{\rho\cos\epsilon} - F_{OL} + F_P$, with $F_P = \sum\pm P_k(
+  \frac{R_k'}{R_R\cos\epsilon} - \frac12)$ of the reduced radii $R_k'$.
+
+The rib gives G, the moment of its circumferential force $F_f$ at $(a_f, r_f)$ and of the moment $M_f$ about its normal.
+Rollers that do not slide are the limit of strong traction (`friction`). There the equations are the same, with
+constraint forces in place of traction.
+
+A roller without load on a raceway has no friction there.
+
+**Validity:** as `friction`, except for pure rolling. The axial component of the pocket friction on the cage, and the
+friction of the pockets in the normal balance of the rollers, are left out.
+**Reference:** own derivation.
+"""
+
+import dataclasses
+from typing import ClassVar, NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ...contacts import LineContact
+from ...contacts.laws import ContactLaws
+from ...contacts.point_laws import PointLaws
+from ...gaps import EndForces, Pocket, RollerDrag
+from ...lubricants import InletOil, Lubricant
+from ...numerics.arrow import ArrowPoint
+from ...numerics.newton import NewtonResult
+from ..cylindrical.equations import EASED_ENTRAINMENT, AbstractLubricatedRollers
+from ..cylindrical.forces import CageParts, friction_on_rings
+from ..cylindrical.kinematics import RollerKinematics, cage_slip
+from ..elastic_ring import ElasticRing
+from ..inlet import OilElsewhere, oil_elsewhere, oil_of_races, oil_temperature
+from ..interactions import Interaction, friction_totals, of_land
+from ..parts import azimuths, drag_density
+from ..ring import LENGTH_UNIT, InnerRing
+from ..solution import CageState
+from .build import RollerBody, TaperedMotion, roller_body, roller_inertia
+from .friction import (
+    RaceFriction,
+    RibFriction,
+    RollerBalance,
+    TaperedFriction,
+    rib_friction,
+    rib_motion,
+    where_loaded,
+)
+from .geometry import TaperedGeometry
+from .scene import TaperedRollerBearing
+from .solution import TaperedPowerLoss
+from .system import LONGEST_STEP, Inertia, TaperedState, TaperedSystem
+
+LIGHT = 1e-6
+"""Load from which a raceway contact has films and friction, over the scale of the loads of a roller. The change is
+smooth: friction is 0 without load."""
+
+
+class PressedTapered(NamedTuple):
+    """Contacts of all rollers.
+
+    - `place`: unknowns of the normal direction; `inertia`: inertia forces on each roller.
+    """
+
+    contacts: TaperedState
+    inertia: Inertia
+    place: Float[Array, "3 roller"]
+
+    @property
+    def load(self) -> Float[Array, "2 roller"]:
+        return self.contacts.load
+
+    @property
+    def along(self) -> None:
+        """Always `None`: contacts are not cut into laminae."""
+
+
+class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
+    """Tapered rollers that may skid (see the module).
+
+    - `dry`: the same bearing without friction, with its equilibrium as first guess.
+    - `rib`: laws of the rib; `None`: it has no films and no friction.
+    - `body`: mass and inertia of a roller.
+    """
+
+    normal_names: ClassVar[tuple[str, ...]] = (
+        "force balance along a roller",
+        "force balance across a roller",
+        "moment balance in the plane of a roller",
+    )
+    normal_caps: ClassVar[tuple[float, ...]] = (LONGEST_STEP / LENGTH_UNIT,) * 3
+    normal_bounds: ClassVar[tuple[tuple[float, float], ...]] = ((0.0, 0.0),) * 3
+
+    dry: TaperedSystem
+    ring: InnerRing
+    outer: ElasticRing | None
+    inner: ElasticRing | None
+    azimuth: Float[Array, " roller"]
+    kinematics: RollerKinematics
+    geometry: TaperedGeometry
+    body: RollerBody
+    roller_mass: Float[Array, ""]
+    contact: LineContact
+    laws: ContactLaws
+    rib: PointLaws | None
+    oil: Lubricant
+    inlet: InletOil
+    cage: CageParts | None
+    elsewhere: OilElsewhere | None
+
+    @property
+    def cage_row(self) -> int:
+        return len(self.freedoms)
+
+    def load_scale(self) -> Array:
+        return self.ring.scale()
+
+    def initial(self) -> ArrowPoint:
+        """Starts from pure rolling at the equilibrium of the dry bearing."""
+        guess = self.dry.initial()
+        return ArrowPoint(jnp.pad(guess.elements, ((0, 1), (0, 0))), jnp.append(guess.globals, 0.0))
+
+    def bounds(self):
+        """Positions and tilts have the bounds of the dry rollers."""
+        own, dry = super().bounds(), self.dry.bounds()
+        joined = [
+            ArrowPoint(
+                jnp.concatenate([jnp.broadcast_to(of_dry.elements, (3, 1)), end.elements[3:]]),
+                jnp.concatenate([of_dry.globals, end.globals[self.ring_unknowns :]]),
+            )
+            for end, of_dry in zip(own, dry, strict=True)
+        ]
+        return joined[0], joined[1]
+
+    @property
+    def homotopies(self) -> int:
+        return 1 + self.dry.homotopies
+
+    def homotopy(self, parameter, path):
+        """Path 0 adds entrainment in every contact (as for cylindrical rollers), path 1 inertia forces (as for dry
+        rollers)."""
+        extra = EASED_ENTRAINMENT * jnp.abs(self.kinematics.orbit_scale) * self.kinematics.outer_radius
+        offset = self.laws.entrainment_offset + jnp.where(path == 0, parameter**3 * extra, 0.0)
+        eased = eqx.tree_at(lambda system: system.laws.entrainment_offset, self, offset)
+        if not self.dry.homotopies:
+            return eased
+        heavier = jnp.where(path == 1, parameter, 0.0)
+        return dataclasses.replace(eased, dry=self.dry.homotopy(heavier, path))
+
+    def under(self, factor):
+        ring, outer = self.rings_under(factor)
+        dry = dataclasses.replace(self.dry, ring=ring, outer=outer)
+        return dataclasses.replace(self, dry=dry, ring=ring, outer=outer)
+
+    def normal(self, unknowns, shared, orbit, spin):
+        own = roller_inertia(self.geometry, self.body, TaperedMotion(orbit, spin))
+        free = self.dry.inertia
+        if self.dry.seated is not None:
+            # the homotopy of the dry rollers multiplies their inertia forces
+            motion = TaperedMotion(self.kinematics.free_orbit, self.kinematics.free_spin)
+            actual = roller_inertia(self.geometry, self.body, motion).force
+            factor = jnp.where(actual > 0, free.force / jnp.where(actual > 0, actual, 1.0), 1.0)
+            own = own._replace(force=own.force * factor, moment=own.moment * factor)
+        return PressedTapered(self.dry.state(unknowns[:3], shared), own, unknowns[:3])
+
+    def films(self, pressed, mean_speed, sliding):
+        load = jnp.maximum(pressed.load, 0.0)
+        pressing, share = self.pressing(load)
+        state = self.laws.evaluate(self.contact, pressing, mean_speed, sliding, self.oil, self.inlet)
+        carried = lambda force: None if force is None else force * share
+        forces = {"traction": carried(state.traction), "rolling_force": carried(state.rolling_force)}
+        return state._replace(**forces), None
+
+    def pressing(self, load: Array) -> tuple[Array, Array]:
+        """Loads at which the laws of a contact are evaluated, N, and the factor of its friction (`LIGHT`)."""
+        pressing = jnp.sqrt(jnp.square(load) + jnp.square(LIGHT * self.dry.roller_scale()))
+        return pressing, load / pressing
+
+    def normal_errors(self, pressed, contact):
+        del contact
+        balance = self.dry.balance(pressed.contacts, pressed.inertia) + self.dry.anchors(pressed.place)
+        return tuple(balance / self.dry.roller_scale())
+
+    def on_ring(self, pressed):
+        return self.dry.on_rings_of(pressed.contacts)
+
+    def ring_rows(self, globals_, totals):
+        return self.ring_balance(globals_, totals, floats=True) / self.load_scale()
+
+    def forces(self, state, cage):
+        forces = super().forces(state, cage)
+        friction = self.rib_friction(state)
+        if friction is None or friction.traction is None:
+            return forces
+        end = self._on_end(friction)
+        moment, tangential = forces.moment + end.moment, forces.tangential + end.tangential_force
+        return forces._replace(moment=moment, tangential=tangential, inner_flange=end)
+
+    def rib_friction(self, state) -> RibFriction | None:
+        """Films and friction of the roller ends on the rib; `None` if they are not modelled."""
+        if self.rib is None:
+            return None
+        motion = self.kinematics
+        # the speed of the inner ring relative to the orbit, without cancellation
+        free = motion.free_spin * motion.roller_radius / motion.inner_radius
+        relative = free - (state.orbital_speed - motion.free_orbit)
+        moving = rib_motion(self.geometry, state.spin_speed, relative)
+        load = state.pressed.contacts.flange_load
+        pressing, share = self.pressing(jnp.maximum(load, 0.0))
+        oil, modulus = self.oil_of("flange"), self.contact.reduced_modulus
+        return rib_friction(self.rib, self.geometry, modulus, self.oil, oil, moving, (load, pressing, share))
+
+    def _on_end(self, friction: RibFriction) -> EndForces:
+        """Forces of the rib on the rollers: the force at mid length on the roller axis and the moment about this axis
+        that have the same moments about the apex."""
+        rib, geometry, motion = friction.traction, self.geometry, self.kinematics
+        assert rib is not None
+        axial, radial = geometry.rib_moment(rib.rolling, rib.moment)
+        sine, cosine = jnp.sin(geometry.axis_angle), jnp.cos(geometry.axis_angle)
+        return EndForces(
+            tangential_force=(axial * sine + radial * cosine) * sine / motion.pitch_radius,
+            moment=axial * cosine - radial * sine,
+            ring_moment=-axial,
+            power=rib.power,
+        )
+
+
+def build_skidding(scene: TaperedRollerBearing, dry: TaperedSystem) -> SkiddingSystem:
+    """Equations of rollers that may skid.
+
+    **Arguments:** `scene`: it has a cage and traction; `dry`: the same bearing without friction, with its equilibrium
+    as first guess, or without a guess for equations that are not solved.
+    """
+    geometry, operation = scene.geometry, scene.operation
+    assert scene.contact is not None
+    assert scene.oil is not None
+    body = roller_body(geometry, jnp.asarray(scene.materials.rollers.density))
+    kinematics = RollerKinematics(
+        inner_speed=jnp.asarray(operation.inner_speed),
+        outer_speed=jnp.asarray(operation.outer_speed),
+        pitch_radius=0.5 * geometry.pitch_diameter,
+        roller_radius=0.5 * geometry.mean_roller_diameter,
+        axis_cosine=jnp.cos(geometry.axis_angle),
+        half_cosine=jnp.cos(jnp.asarray(geometry.roller_half_angle)),
+    )
+    return SkiddingSystem(
+        dry=dry,
+        ring=dry.ring,
+        outer=dry.outer,
+        inner=dry.inner,
+        azimuth=azimuths(geometry, geometry.n_rollers),
+        kinematics=kinematics,
+        geometry=geometry,
+        body=body,
+        roller_mass=body.mass,
+        contact=scene.race_lines(None),
+        laws=scene.contact,
+        rib=scene.rib,
+        oil=scene.oil,
+        inlet=oil_of_races(scene),
+        cage=_cage_parts(scene, kinematics),
+        elsewhere=oil_elsewhere(scene),
+    )
+
+
+def _cage_parts(scene: TaperedRollerBearing, motion: RollerKinematics) -> CageParts:
+    """Models of the forces on rollers and cage except those of raceways and rib."""
+    cage, geometry = scene.cage, scene.geometry
+    assert cage is not None
+    drag, density = None, None
+    if scene.drag is not None:
+        assert scene.oil is not None
+        thickness = 0.5 * (cage.outside(geometry) - cage.bore(geometry))
+        area = jnp.asarray(geometry.roller_length) * jnp.maximum(geometry.mean_roller_diameter - thickness, 0.0)
+        drag = RollerDrag(coefficient=jnp.asarray(scene.drag.coefficient), area=area)
+        fraction, temperature = scene.drag.through_flow_fraction, oil_temperature(scene, "drag")
+        density = drag_density(scene.oil, scene.operation, geometry.pitch_diameter, fraction, temperature)
+    pocket = Pocket(
+        clearance=jnp.asarray(cage.pocket_clearance),
+        length=jnp.asarray(geometry.roller_length),
+        roller_radius=motion.roller_radius,
+    )
+    return CageParts(
+        pocket=pocket, land=cage.land(geometry), guidance=cage.guidance, drag=drag, drag_density=density
+    )
+
+
+def skidding_friction(system: SkiddingSystem, result: NewtonResult) -> TaperedFriction:
+    """Films, friction, losses and torques, and the state of the cage, of a solution."""
+    state, motion, parts = system.at(result.point), system.kinematics, system.cage
+    assert parts is not None
+    assert state.pocket is not None
+    contact, load, pocket = state.contact, state.load, state.pocket
+    loaded = load > 0
+    only = lambda values, absent=jnp.nan: None if values is None else jnp.where(loaded, values, absent)
+    mixed = system.mixed(state)
+    races = RaceFriction(
+        film=jnp.where(loaded, contact.film, jnp.nan),
+        temperature_rise=only(contact.temperature_rise),
+        rolling=contact.rolling_force,
+        capacity=None,
+        speed=state.mean_speed,
+        radius=jnp.broadcast_to(system.contact.reduced_radius, (2, 1)),
+        residual=contact.inner_residual,
+        asperities=None,
+        starved=contact.supply,
+        sliding=state.sliding_speed,
+        mixed=None if mixed is None else where_loaded(mixed, loaded),
+    )
+    land = system.land_at(result.point, state)
+    orbit = system.orbit(result.point.globals[-1])
+    speeds = (state.sliding_speed, state.mean_speed)
+    interactions = friction_on_rings(motion, contact, *speeds, state.inner_flange, None)
+    friction = pocket.friction_front + pocket.friction_rear
+    interactions.append(Interaction("pocket", jnp.sum(friction * motion.roller_radius * state.spin_speed)))
+    interactions.append(of_land(land.power, land.ring_torque, parts.guidance))
+    if state.drag_force is not None:
+        interactions.append(Interaction("drag", jnp.sum(state.drag_force * motion.pitch_radius * state.orbital_speed)))
+    traction = contact.traction
+    assert traction is not None
+    return TaperedFriction(
+        races=races,
+        rib=system.rib_friction(state),
+        drag_force=state.drag_force,
+        balance=RollerBalance(None, traction * jnp.asarray([[1.0], [-1.0]])),
+        totals=friction_totals(TaperedPowerLoss, interactions, motion),
+        cage=CageState(
+            speed=orbit,
+            slip=cage_slip(orbit, motion),
+            eccentricity_ratio=land.eccentricity_ratio,
+            attitude_angle=land.attitude_angle,
+        ),
+        pocket=pocket,
+    )
