@@ -89,7 +89,7 @@ def feasible(scene):
         moved = approaches(zero, columns[f])
         for j in range(n):
             matrix[3 * n + f, 5 * j : 5 * j + 5] = system.multiplicity * moved[:, j]
-    unloaded = system.balance(system._loaded(-jnp.ones((2, n)), jnp.zeros((2, n)), -jnp.ones(n)))
+    unloaded = system.balance(system._loaded(-jnp.ones((2, n)), jnp.zeros((2, n)), -jnp.ones(n)), system.inertia)
     rollers = np.broadcast_to(np.asarray(unloaded), (3, n)).T.ravel()
     # balance = contact forces' part + unloaded part = 0; sign: contacts enter as + d approach / d unknown
     right = np.concatenate([-rollers, np.asarray(system.ring.load)])

@@ -40,7 +40,7 @@ from ...gaps import EndForces, Pocket, RollerDrag
 from ...lubricants import InletOil, Lubricant
 from ...numerics.arrow import ArrowPoint
 from ...numerics.newton import NewtonResult
-from ..cylindrical.equations import EASED_ENTRAINMENT, AbstractLubricatedRollers
+from ..cylindrical.equations import EASED_ENTRAINMENT, AbstractLubricatedRollers, RollerState
 from ..cylindrical.forces import CageParts, friction_on_rings
 from ..cylindrical.kinematics import RollerKinematics, cage_slip
 from ..elastic_ring import ElasticRing
@@ -298,9 +298,12 @@ def _cage_parts(scene: TaperedRollerBearing, motion: RollerKinematics) -> CagePa
     )
 
 
-def skidding_friction(system: SkiddingSystem, result: NewtonResult) -> TaperedFriction:
-    """Films, friction, losses and torques, and the state of the cage, of a solution."""
-    state, motion, parts = system.at(result.point), system.kinematics, system.cage
+def skidding_friction(
+    system: SkiddingSystem, result: NewtonResult, state: RollerState[PressedTapered]
+) -> TaperedFriction:
+    """Films, friction, losses and torques, and the state of the cage, of a solution. **Arguments:** `state`: of the
+    rollers."""
+    motion, parts = system.kinematics, system.cage
     assert parts is not None
     assert state.pocket is not None
     contact, load, pocket = state.contact, state.load, state.pocket

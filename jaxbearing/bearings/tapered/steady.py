@@ -65,7 +65,7 @@ def solve_tapered(
     if isinstance(system, SkiddingSystem):
         dry, solved = system.dry, system.at(result.point)
         state, motion = solved.pressed.contacts, TaperedMotion(solved.orbital_speed, solved.spin_speed)
-        friction = skidding_friction(system, result)
+        friction = skidding_friction(system, result, solved)
     else:
         state, motion = system.at(result.point), rolling_motion(scene.geometry, scene.operation)
         if scene.contact is not None:

@@ -85,7 +85,7 @@ def test_kinematics_against_rotations(name):
     point = 0.11 * line(CONE)
     moved = Rotation.from_rotvec(inner * time * A).apply(point) - turned.apply(point)
     assert np.linalg.norm(moved) < 1e-4 * 1e-7 * np.linalg.norm(point @ R)
-    rib = rib_motion(geometry, motion)
+    rib = rib_motion(geometry, motion.spin_speed)
     end, on_rib = (np.cross(speed - orbit * A, AT_RIB) @ T for speed in (roller, inner * A))
     np.testing.assert_allclose(rib.sliding_speed, on_rib - end, rtol=1e-12, atol=1e-13 * scale)
     np.testing.assert_allclose(rib.mean_speed, 0.5 * (on_rib + end), rtol=1e-12, atol=1e-13 * scale)
