@@ -64,6 +64,8 @@ from .scene import TaperedRollerBearing
 from .solution import TaperedPowerLoss
 from .system import LONGEST_STEP, Inertia, TaperedState, TaperedSystem
 
+LEAST_BRAKES = 1e-4
+"""Factor of all resistance at the start of homotopy path 0 (`SkiddingSystem.homotopy`)."""
 LIGHT = 1e-6
 """Load from which a raceway contact has films and friction, over the scale of the loads of a roller. The change is
 smooth: friction is 0 without load."""
@@ -94,6 +96,7 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
     - `dry`: the same bearing without friction, with its equilibrium as first guess.
     - `rib`: laws of the rib; `None`: it has no films and no friction.
     - `body`: mass and inertia of a roller.
+    - `brakes`: factor of all forces but those of traction; not 1 in the homotopies only.
     """
 
     normal_names: ClassVar[tuple[str, ...]] = (
@@ -120,6 +123,7 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
     inlet: InletOil
     cage: CageParts | None
     elsewhere: OilElsewhere | None
+    brakes: Float[Array, ""]
 
     @property
     def cage_row(self) -> int:
@@ -147,18 +151,23 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
 
     @property
     def homotopies(self) -> int:
-        return 1 + self.dry.homotopies
+        return 2 + self.dry.homotopies
 
     def homotopy(self, parameter, path):
-        """Path 0 adds entrainment in every contact (as for cylindrical rollers), path 1 inertia forces (as for dry
-        rollers)."""
+        """Path 0 begins without resistance, at rollers that hardly slide. Path 1 adds entrainment in every contact (as
+        for cylindrical rollers), path 2 inertia forces (as for dry rollers)."""
+        brakes = jnp.where(path == 0, LEAST_BRAKES**parameter, 1.0)
         extra = EASED_ENTRAINMENT * jnp.abs(self.kinematics.orbit_scale) * self.kinematics.outer_radius
-        offset = self.laws.entrainment_offset + jnp.where(path == 0, parameter**3 * extra, 0.0)
-        eased = eqx.tree_at(lambda system: system.laws.entrainment_offset, self, offset)
+        offset = self.laws.entrainment_offset + jnp.where(path == 1, parameter**3 * extra, 0.0)
+        eased = eqx.tree_at(lambda system: (system.brakes, system.laws.entrainment_offset), self, (brakes, offset))
         if not self.dry.homotopies:
             return eased
-        heavier = jnp.where(path == 1, parameter, 0.0)
+        heavier = jnp.where(path == 2, parameter, 0.0)
         return dataclasses.replace(eased, dry=self.dry.homotopy(heavier, path))
+
+    def oil_of(self, place):
+        oil = super().oil_of(place)
+        return oil if place == "flange" else dataclasses.replace(oil, viscosity=oil.viscosity * self.brakes)
 
     def under(self, factor):
         ring, outer = self.rings_under(factor)
@@ -180,9 +189,10 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
         load = jnp.maximum(pressed.load, 0.0)
         pressing, share = self.pressing(load)
         state = self.laws.evaluate(self.contact, pressing, mean_speed, sliding, self.oil, self.inlet)
-        carried = lambda force: None if force is None else force * share
-        forces = {"traction": carried(state.traction), "rolling_force": carried(state.rolling_force)}
-        return state._replace(**forces), None
+        traction, rolling = state.traction, state.rolling_force
+        assert traction is not None
+        rolling = None if rolling is None else rolling * share * self.brakes
+        return state._replace(traction=traction * share, rolling_force=rolling), None
 
     def pressing(self, load: Array) -> tuple[Array, Array]:
         """Loads at which the laws of a contact are evaluated, N, and the factor of its friction (`LIGHT`)."""
@@ -201,6 +211,8 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
         return self.ring_balance(globals_, totals, floats=True) / self.load_scale()
 
     def forces(self, state, cage):
+        if cage.drag is not None:
+            cage = eqx.tree_at(lambda parts: parts.drag.coefficient, cage, cage.drag.coefficient * self.brakes)
         forces = super().forces(state, cage)
         friction = self.rib_friction(state)
         if friction is None or friction.traction is None:
@@ -231,8 +243,8 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
         axial, radial = geometry.rib_moment(rib.rolling, rib.moment)
         sine, cosine = jnp.sin(geometry.axis_angle), jnp.cos(geometry.axis_angle)
         return EndForces(
-            tangential_force=(axial * sine + radial * cosine) * sine / motion.pitch_radius,
-            moment=axial * cosine - radial * sine,
+            tangential_force=self.brakes * (axial * sine + radial * cosine) * sine / motion.pitch_radius,
+            moment=self.brakes * (axial * cosine - radial * sine),
             ring_moment=-axial,
             power=rib.power,
         )
@@ -273,6 +285,7 @@ def build_skidding(scene: TaperedRollerBearing, dry: TaperedSystem) -> SkiddingS
         inlet=oil_of_races(scene),
         cage=_cage_parts(scene, kinematics),
         elsewhere=oil_elsewhere(scene),
+        brakes=jnp.ones(()),
     )
 
 
