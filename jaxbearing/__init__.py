@@ -93,6 +93,7 @@ if TYPE_CHECKING:
     from .bearings.profile import RollerProfile as RollerProfile
     from .bearings.rating import Rating as Rating
     from .bearings.solution import Solution as Solution
+    from .bearings.tapered.geometry import TaperedCage as TaperedCage
     from .bearings.tapered.geometry import TaperedGeometry as TaperedGeometry
     from .bearings.tapered.scene import TaperedOperation as TaperedOperation
     from .bearings.tapered.scene import TaperedRollerBearing as TaperedRollerBearing
@@ -174,6 +175,7 @@ _LAZY = {
     "State": ".spectrum.states",
     "StatesUnusedWarning": ".scenes.errors",
     "Status": ".numerics.status",
+    "TaperedCage": ".bearings.tapered.geometry",
     "TaperedGeometry": ".bearings.tapered.geometry",
     "TaperedOperation": ".bearings.tapered.scene",
     "TaperedRollerBearing": ".bearings.tapered.scene",

@@ -32,6 +32,7 @@ _LAZY = {
     "SharedCouple": "ball.gyroscopic",
     "Simulation": "motion.settings",
     "Solution": "solution",
+    "TaperedCage": "tapered.geometry",
     "TaperedGeometry": "tapered.geometry",
     "TaperedOperation": "tapered.scene",
     "TaperedRollerBearing": "tapered.scene",

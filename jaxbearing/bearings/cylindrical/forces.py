@@ -52,9 +52,11 @@ class RollerForces(NamedTuple):
 
 def rolling_force_factor(contact: LineContact, motion: RollerKinematics) -> Float[Array, "2"]:
     r"""Tangential force that rolling resistance exerts on a roller, divided by this resistance, at the inner and at the
-    outer race: $R/R_R - 1/2$ with the reduced radius R. For tapered rollers it is $R/(R_R\cos\epsilon) - 1/2$: the force
-    at mid length on the roller axis that has the same moment about the apex, across that axis, as the shear of the film
-    and the displaced pressure together (`tapered.friction`)."""
+    outer race: $R/R_R - 1/2$ with the reduced radius R.
+
+    For tapered rollers it is $R/(R_R\cos\epsilon) - 1/2$. This force at mid length on the roller axis has the same
+    moment about the apex, across that axis, as the shear of the film and the displaced pressure together
+    (`tapered.friction`)."""
     radius = per_race(contact.reduced_radius) / motion.roller_radius
     return (radius if motion.half_cosine is None else radius / motion.half_cosine) - 0.5
 

@@ -30,8 +30,9 @@ Gyroscopic and normal forces have no moment in that plane. The torques that driv
 forces: $\sum[A_i\sin\alpha_i + P_iR_i\cos\alpha_i + F_fr_f + M_f\cos\alpha_f]$ and $\sum[A_o\sin\alpha_o +
 P_oR_o\cos\alpha_o]$. Their power must be the sum of the dissipations, which tests every sign.
 
-**Validity:** pure rolling (`skidding`: rollers that may slide on the raceways). Friction does not change the normal loads and does not skew the rollers: the force of the
-rib along its generator and the effect of friction on the equilibrium of the cone are left out. There is no cage: if
+**Validity:** pure rolling (`skidding`: rollers that may slide on the raceways). Friction does not change the normal
+loads and does not skew the rollers: the force of the rib along its generator and the effect of friction on the
+equilibrium of the cone are left out. There is no cage: if
 drag acts on a roller without load on the cone, the constraint forces stand for the pocket that would push it, not for
 forces of the raceways.
 **Reference:** own derivation; the source's tapered bearing is frictionless.

@@ -85,8 +85,8 @@ class TaperedOperation(AbstractOperation):
 class TaperedRollerBearing(AbstractBearing):
     """A steady single-row tapered roller bearing under axial load, radial load and moment.
 
-    The rollers roll without sliding about the apex, unless the scene has a cage. Results are loads of raceways and rib, displacements, films and
-    friction losses (`friction`). A part that is `None` is not modelled.
+    The rollers roll without sliding about the apex (`friction`), unless the scene has a cage (`skidding`). Results are
+    loads of raceways and rib, displacements, films and friction losses. A part that is `None` is not modelled.
 
     - `contact`: laws of the raceway contacts: films and, if given, rolling resistance and traction. Without a `cage`
       the traction has no effect on the motion. It tells whether the films can carry the forces that keep the rollers
@@ -194,7 +194,7 @@ class TaperedRollerBearing(AbstractBearing):
         slides = self.rib is not None and self.rib.traction is not None
         return self.contact.resists_rolling or slides or self.drag is not None or self.slips
 
-    def race_lines(self, elements: "TaperedResults") -> LineContact:
+    def race_lines(self, elements: "TaperedResults | None") -> LineContact:
         radii = self.geometry.race_reduced_radii(jnp.asarray(0.5))[:, None]
         return LineContact(radii, jnp.asarray(self.geometry.roller_length), self.materials.race_modulus)
 

@@ -306,9 +306,7 @@ def _cage_parts(scene: TaperedRollerBearing, motion: RollerKinematics) -> CagePa
         length=jnp.asarray(geometry.roller_length),
         roller_radius=motion.roller_radius,
     )
-    return CageParts(
-        pocket=pocket, land=cage.land(geometry), guidance=cage.guidance, drag=drag, drag_density=density
-    )
+    return CageParts(pocket=pocket, land=cage.land(geometry), guidance=cage.guidance, drag=drag, drag_density=density)
 
 
 def skidding_friction(

@@ -61,12 +61,13 @@ def solve_tapered(
     none = sliding | (~result.converged & minimum.outside)
     result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
     result = result._replace(residual_norm=jnp.where(sliding, jnp.nan, result.residual_norm))
-    dry, friction = system, None
+    friction = None
     if isinstance(system, SkiddingSystem):
         dry, solved = system.dry, system.at(result.point)
         state, motion = solved.pressed.contacts, TaperedMotion(solved.orbital_speed, solved.spin_speed)
         friction = skidding_friction(system, result, solved)
     else:
+        dry = system
         state, motion = system.at(result.point), rolling_motion(scene.geometry, scene.operation)
         if scene.contact is not None:
             friction = tapered_friction(scene, state)

@@ -10,8 +10,8 @@ from ...._types import Scalar
 from ....numerics.arrow import ArrowPoint
 from ...motion.history import CageMotion, PocketPeaks
 from ...solution import RING_FREEDOMS, RingDisplacement
-from ..solution import RollerResults
 from ..kinematics import cage_slip
+from ..solution import RollerResults
 from .energy import kinetic_energy, pocket_energy, power_by_location, raceway_energy
 from .results import RollerInstant
 
