@@ -68,15 +68,18 @@ def forces_without_pocket(
     parts: CageParts,
     orbit: Float[Array, " roller"],
     spin: Float[Array, " roller"],
+    behind: Float[Array, " roller"] | None = None,
 ) -> RollerForces:
     """Forces of raceways, flanges, cage rails and oil drag on the rollers.
 
-    **Arguments:** `state`: films and friction on the raceways; `orbit`, `spin`: orbital speeds and spins, rad/s.
+    **Arguments:** `state`: films and friction on the raceways; `orbit`, `spin`: orbital speeds and spins, rad/s;
+    `behind`: orbital speeds less the speed of the cage, rad/s, `None` if all rollers orbit with the cage.
     """
     ends = lambda part, ring_speed: None if part is None else part.evaluate(-spin, ring_speed - orbit)
     inner_flange = ends(parts.inner_flange, motion.inner_speed)
     outer_flange = ends(parts.outer_flange, motion.outer_speed)
-    rails = None if parts.rails is None else parts.rails.evaluate(-spin)
+    against_cage = -spin if behind is None else behind - spin
+    rails = None if parts.rails is None else parts.rails.evaluate(against_cage)
     traction = state.traction
     assert traction is not None
     tangential = traction[0] - traction[1]

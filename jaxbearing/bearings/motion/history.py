@@ -9,6 +9,7 @@ from typing import Any, ClassVar, Generic, TypeVar
 
 import equinox as eqx
 import jax
+import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
@@ -193,7 +194,8 @@ class History(AbstractHistory, Generic[Moment]):
         run = jax.tree.map(lambda leaf: np.asarray(np.asarray(leaf)[index]), self)
         reached = np.isfinite(run.time)
         instants = jax.tree.map(lambda leaf: leaf[reached], run.instants)
-        return eqx.tree_at(lambda h: (h.time, h.instants), run, (run.time[reached], instants))
+        lane = eqx.tree_at(lambda h: (h.time, h.instants), run, (run.time[reached], instants))
+        return jax.tree.map(jnp.asarray, lane)
 
     def solver_failure(self) -> str:
         if np.size(self.time) == 0:

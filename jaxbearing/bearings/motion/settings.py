@@ -26,7 +26,8 @@ class Simulation(Checked):
       chooses between tsit5 and kvaerno5 by the stiffness that it measures.
     - `tolerance`: relative tolerance, also the absolute tolerance in the units of the state.
     - `entrainment_smoothing`: speed by which the absolute value of the mean surface speed in the raceway films is
-      smoothed, m/s. It determines the film that remains where the surface of a roller passes through rest.
+      smoothed, m/s; not given: that of `contact`, as in the steady state. It determines the film that remains where the
+      surface of a roller passes through rest.
     - `ring_mass`: mass of the inner ring and its share of the shaft for a ball bearing whose ring moves under loads,
       kg.
     - `ring_damping`: external damping of the moving inner ring, by default 0 for ball bearings, N s/m.
@@ -44,7 +45,7 @@ class Simulation(Checked):
     rotating_load: RotatingLoad | None = None
     solver: str = choice("simulation.solver", SOLVERS, DEFAULT_SOLVER)
     tolerance: Scalar = number(DEFAULT_TOLERANCE, bound="> 0", unit="1")
-    entrainment_smoothing: Scalar = number(0.05, bound="> 0", unit="m/s")
+    entrainment_smoothing: Scalar | None = optional_number(bound="> 0", unit="m/s")
     ring_mass: Scalar | None = optional_number(bound="> 0", unit="kg")
     ring_damping: Scalar | None = optional_number(bound=">= 0", unit="N s/m")
     contact_damping: Scalar | None = optional_number(bound=">= 0", unit="s/m")

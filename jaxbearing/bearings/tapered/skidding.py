@@ -95,8 +95,9 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
 
     - `dry`: the same bearing without friction, with its equilibrium as first guess.
     - `rib`: laws of the rib; `None`: it has no films and no friction.
-    - `body`: mass and inertia of a roller.
-    - `brakes`: factor of all forces but those of traction; not 1 in the homotopies only.
+    - `azimuth`: of the rollers, rad.
+    - `body`: mass and inertia of a roller; `roller_mass`: its mass, kg.
+    - `brakes`: factor of all forces but those of traction; a number that is not 1 in the homotopies only.
     """
 
     normal_names: ClassVar[tuple[str, ...]] = (

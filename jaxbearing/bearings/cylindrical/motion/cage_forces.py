@@ -57,6 +57,7 @@ def pocket_state(
     velocity: tuple[Array, Array, Array],
     azimuth: Float[Array, " roller"],
     orbit: Float[Array, " roller"],
+    pitch_radius: Float[Array, ""],
 ) -> PocketState:
     """Films, loads and friction on both walls of every pocket.
 
@@ -67,14 +68,20 @@ def pocket_state(
     - `roller`: q, m, and v and u, m/s, of each roller (see `rates`).
     - `position`: X, Y and q_c of the cage, m; `velocity`: V_x, V_y and v_c of the cage, m/s.
     - `azimuth`: of each roller, rad; `orbit`: orbital speed of each roller, rad/s.
+    - `pitch_radius`: R_m, m.
     """
     (q, v, u), (x, y, q_c), (v_x, v_y, v_c) = roller, position, velocity
+    # the speed of the roller's surface against the cage
+    sliding = u - (v - v_c) * (face.roller_radius / pitch_radius)
     cosine, sine = cosine_and_sine(azimuth)
     ahead = (q_c - q) - (x * cosine + y * sine)
     rate = (v_c - v) - (v_x * cosine + v_y * sine) + (x * sine - y * cosine) * orbit
     half = 0.5 * clearance
     # one search for both walls needs half as many loops
-    walls = face.face(jnp.stack([half + ahead, half - ahead]), jnp.stack([rate, -rate]), jnp.stack([u, u]), viscosity)
+    gaps, rates, speeds = (
+        jnp.stack(pair) for pair in ((half + ahead, half - ahead), (rate, -rate), (sliding, sliding))
+    )
+    walls = face.face(gaps, rates, speeds, viscosity)
     front, rear = (jax.tree.map(lambda leaf, i=i: leaf[i], walls) for i in (0, 1))
     return PocketState(front, rear, rate)
 

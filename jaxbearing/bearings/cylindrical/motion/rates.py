@@ -10,7 +10,8 @@ displacement are not part of the state; they follow from it (`loads.distributed_
 $$m\dot v = Q_2 - Q_1 - F_{OL} + F_i - F_o + F_E + F_{Ec} + F_P,\qquad
 J(\dot v/R_m - \dot u/R_R) = R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} + \tfrac12R_R(P_i + P_o)$$
 
-The reactions of the rollers and the forces of the lands act on the cage. A pocket wall is a compliant squeeze film
+Pocket walls and side rails rub on a roller with its spin against the cage, $s + W_c - W$. The reactions of the rollers
+and the forces of the lands act on the cage. A pocket wall is a compliant squeeze film
 (`gaps.CompliantPocketFace`) in the gap $H_1 = J_p/2 + q_c - q_j - (X\cos\Psi + Y\sin\Psi)$ in front of the roller, or
 $H_2 = J_p - H_1$ behind it. `energy` has the energy balance that follows from these equations.
 """
@@ -240,11 +241,11 @@ class RollerDynamics(AbstractDynamics):
         contact = system.laws.evaluate(system.contact, distribution.load, mean_speed, sliding, system.oil, system.inlet)
         parts = system.cage
         assert parts is not None
-        forces = forces_without_pocket(motion, system.contact, contact, parts, orbit, spin)
+        cage_orbit = turning + v_c / pitch
+        forces = forces_without_pocket(motion, system.contact, contact, parts, orbit, spin, orbit - cage_orbit)
         tangential, moment = forces.tangential, forces.moment
         pocket, land = None, None
         force, cage_moment = jnp.zeros(2), jnp.zeros(())
-        cage_orbit = turning + v_c / pitch
         centre, velocity = jnp.stack([x, y]), jnp.stack([v_x, v_y])
         if self.pocket is not None:
             pocket = self.pocket_state((q, v, u), (x, y, q_c), (v_x, v_y, v_c), azimuth, orbit)
@@ -298,8 +299,9 @@ class RollerDynamics(AbstractDynamics):
         """Contacts with both walls of every pocket, see `cage_forces.pocket_state`."""
         assert self.pocket is not None
         assert self.pocket_clearance is not None
-        viscosity = self.system.inlet.viscosity
-        return pocket_state(self.pocket, self.pocket_clearance, viscosity, rollers, place, velocity, azimuth, orbit)
+        viscosity, pitch = self.system.inlet.viscosity, self.system.kinematics.pitch_radius
+        moving = (rollers, place, velocity, azimuth, orbit)
+        return pocket_state(self.pocket, self.pocket_clearance, viscosity, *moving, pitch)
 
     # -- rates ----------------------------------------------------------------------------------------------------
 

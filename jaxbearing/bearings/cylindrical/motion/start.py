@@ -82,8 +82,9 @@ def build_dynamics(
     scene, _, _ = running_scene(scene)
     system = build_system(scene)
     assert isinstance(system, LubricatedRollerSystem)
-    smoothing = jnp.asarray(simulation.entrainment_smoothing)
-    system = eqx.tree_at(lambda s: s.laws.entrainment_smoothing, system, smoothing)
+    if simulation.entrainment_smoothing is not None:
+        smoothing = jnp.asarray(simulation.entrainment_smoothing)
+        system = eqx.tree_at(lambda s: s.laws.entrainment_smoothing, system, smoothing)
     geometry, materials, cage = scene.geometry, scene.materials, scene.cage
     pocket = clearance = mass = inertia = None
     if cage is not None:
