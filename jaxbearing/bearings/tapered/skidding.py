@@ -96,7 +96,8 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
     - `dry`: the same bearing without friction, with its equilibrium as first guess.
     - `rib`: laws of the rib; `None`: it has no films and no friction.
     - `azimuth`: of the rollers, rad.
-    - `body`: mass and inertia of a roller; `roller_mass`: its mass, kg.
+    - `body`: mass and inertia of a roller.
+    - `roller_mass`: mass of a roller, kg.
     - `brakes`: factor of all forces but those of traction; a number that is not 1 in the homotopies only.
     """
 
