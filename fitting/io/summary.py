@@ -131,7 +131,8 @@ def _print_correlation(result: FitResult, console: Console) -> None:
     for symbol in symbols[:-1]:
         table.add_column(symbol, justify="right", no_wrap=True)
     for number, symbol in enumerate(symbols[1:], start=1):
-        table.add_row(symbol, *(f"{value:+.2f}" for value in result.correlation[number, :number]))
+        values = result.correlation[number, :number]
+        table.add_row(symbol, *(f"{value:+.2f}" if np.isfinite(value) else "unknown" for value in values))
     console.print(Padding(table, (0, 1)))
     strong = [
         f"{symbols[j]} and {symbols[i]} ({result.correlation[i, j]:+.3f})"

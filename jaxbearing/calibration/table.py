@@ -85,7 +85,9 @@ def read_data(
     try:
         data = Data(conditions, values, deviations, held, table.file)
     except ValueError as error:
-        raise SceneError(table.file, "", str(error), EXPECTED) from None
+        where, _, rest = str(error).partition(": found ")
+        found, _, expected = rest.partition("; expected ")
+        raise SceneError(table.file, where, found, expected or EXPECTED) from None
     return data, [f"column '{name}' of {table.file} is ignored" for name in ignored if name]
 
 

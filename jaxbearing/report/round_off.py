@@ -41,9 +41,11 @@ RESOLUTIONS = {
 RELATIVE = 1e-9
 """Resolution of entries of a force vector relative to its largest force (moments with a lever of 1 m), and of entries
 of a stiffness matrix relative to the geometric mean of the diagonal entries of their row and column."""
-_FORCES = ("force", "on_shaft")
+_FORCES = ("force", "on_shaft", "load")
 _INPUTS = ("scene", "operation")
 """Fields with inputs, which are shown as given."""
+_DISPLACEMENTS = ("displacement", "outer")
+"""Fields whose numbers are lengths and angles, m and rad."""
 _OVERFLOWN = 1e30
 """Larger numbers belong to failed cases of a batch and do not count as the largest value of a unit."""
 _DIAGNOSTICS = ("residual_norm", "inner_residual")
@@ -96,7 +98,9 @@ def _cleaned(part: Any, floors: Mapping[str, float]) -> Any:
             new = value if all(new[name] is member for name, member in value.items()) else new
         elif field.name in _DIAGNOSTICS:
             new = value
-        elif field.name in _FORCES:
+        elif field.name in _DISPLACEMENTS and field.metadata.get("unit") == "mixed":
+            new = _zeroed(value, RESOLUTIONS["m"].absolute)
+        elif field.name in _FORCES and field.metadata.get("unit") == "mixed":
             new = _zeroed(value, RELATIVE * _largest(np.asarray(value)[..., :3]))
         elif field.name == "stiffness":
             # of a failed solve it may not be finite

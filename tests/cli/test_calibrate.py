@@ -167,6 +167,7 @@ def test_bad_input(jaxbearing_command, folder, arguments, said):
         ("operation.radial_load [kN]\n1\n", "no column with a measured result"),
         ("operation.radial_load,ring.radial [um]\n1,2\n", "radial_load"),
         ("operation.radial_load [kN],ring.radial [um],ring.axial.deviation [um]\n1,2,3\n", "ring.axial.deviation"),
+        ("operation.radial_load [kN],ring.radial [um],ring.radial.deviation [um]\n1,2,0\n", "expected numbers > 0."),
         ("operation.radial_load [kN],ring.radial [um],ring.radial [um]\n1,2,3\n", "twice"),
         (
             "operation.radial_load [kN],inner_torque [N m]\n1,2\n",

@@ -85,6 +85,9 @@ def test_correlation_and_notes_on_the_screen():
     assert "- Lack of fit: neighbouring residuals are alike." in text
     assert "- Column 'count' is ignored." in text
     assert text.index("Lack of fit") < text.index("'count'")
+    unknown = replaced(made_up(), correlation=np.full((3, 3), np.nan))
+    assert "unknown" in printed(unknown)
+    assert "nan" not in printed(unknown)
     one = replaced(made_up(), fitted=("stress",), correlation=np.ones((1, 1)))
     assert "Correlation" not in printed(one)
 

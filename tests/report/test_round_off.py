@@ -71,6 +71,14 @@ def test_round_off_of_a_run_is_0_at_the_instants_that_have_it():
     assert np.array_equal(flow(cleaned), flow(run).at[-1].set(0.0))
 
 
+def test_displacements_of_a_shaft_are_rounded_to_a_picometre():
+    solution = solution_of(jb.load_scene("spindle_pair"))
+    moved = lambda solution: solution.shaft.displacement
+    numbers = moved(solution).at[0].set(jnp.asarray([2e-6, -3e-21, 5e-13, 1e-19, 2e-5]))
+    cleaned = without_round_off(eqx.tree_at(moved, solution, numbers))
+    assert moved(cleaned)[0].tolist() == [2e-6, 0.0, 0.0, 0.0, 2e-5]
+
+
 def test_an_axially_loaded_bearing_has_no_motion_across():
     """Ball bearings under axial load only: round-off of 1e-16 stood as an eccentricity, a tilt and a displacement."""
     scene = jb.load_scene("deep_groove_6205", {"operation.radial_load": "0 N"})

@@ -171,8 +171,10 @@ class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings, Generic[Pres
     """Names of the equations of the normal direction of a roller."""
     normal_caps: ClassVar[tuple[float, ...]]
     """Longest steps of its unknowns."""
-    normal_bounds: ClassVar[tuple[tuple[float, float], ...]]
-    """Bounds of its unknowns."""
+
+    @abc.abstractmethod
+    def normal_bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
+        """Lower and upper bounds of the unknowns of the normal direction and of the rings."""
 
     @abc.abstractmethod
     def load_scale(self) -> Array:
@@ -236,11 +238,16 @@ class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings, Generic[Pres
         return ArrowPoint(jnp.asarray(caps)[:, None], jnp.asarray(ring))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        ends, ring = list(self.normal_bounds), [1e4] * self.ring_unknowns
-        if self.cage is not None:
-            ends, ring = [*ends, (-3.0, 3.0)], [*ring, 2.0]
-        low, high = (jnp.asarray([end[k] for end in ends])[:, None] for k in (0, 1))
-        return ArrowPoint(low, -jnp.asarray(ring)), ArrowPoint(high, jnp.asarray(ring))
+        ends = self.normal_bounds()
+        if self.cage is None:
+            return ends
+        low, high = (
+            ArrowPoint(
+                jnp.concatenate([end.elements, jnp.full((1, 1), 3.0 * side)]), jnp.append(end.globals, 2.0 * side)
+            )
+            for end, side in zip(ends, (-1.0, 1.0), strict=True)
+        )
+        return low, high
 
     @property
     def homotopies(self) -> int:
@@ -250,13 +257,17 @@ class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings, Generic[Pres
         """Path 0 adds entrainment in every contact. Where a ring and the cage turn at nearly the same speed, a film
         collapses, and the friction on a roller falls with its slip; added entrainment makes the friction grow with the
         slip again. Path 1 adds load, which forces the rollers to roll without slip."""
-        extra = EASED_ENTRAINMENT * jnp.abs(self.kinematics.orbit_scale) * self.kinematics.outer_radius
-        offset = self.laws.entrainment_offset + jnp.where(path == 0, parameter**3 * extra, 0.0)
         contact = jax.tree.map(lambda values: per_race(values)[0], self.contact)
         per_roller = 2.0 * jnp.pi * EASED_PRESSURE**2 * contact.reduced_radius * contact.length
         heavy = per_roller / contact.reduced_modulus * self.azimuth.shape[0] / 4.0
         factor = jnp.where(path == 1, jnp.maximum(heavy / self.load_scale(), 1.0) ** parameter, 1.0)
-        return eqx.tree_at(lambda system: system.laws.entrainment_offset, self, offset).under(factor)
+        return self.with_entrainment(jnp.where(path == 0, parameter, 0.0)).under(factor)
+
+    def with_entrainment(self: Rollers, parameter: Float[Array, ""]) -> Rollers:
+        """The same system with entrainment added in every contact (see `homotopy`)."""
+        extra = EASED_ENTRAINMENT * jnp.abs(self.kinematics.orbit_scale) * self.kinematics.outer_radius
+        offset = self.laws.entrainment_offset + parameter**3 * extra
+        return eqx.tree_at(lambda system: system.laws.entrainment_offset, self, offset)
 
     @abc.abstractmethod
     def under(self: Rollers, factor: Float[Array, ""]) -> Rollers:
@@ -392,7 +403,6 @@ class LubricatedRollerSystem(AbstractInPlane, AbstractLubricatedRollers[PressedR
 
     normal_names: ClassVar[tuple[str, ...]] = (APPROACH,)
     normal_caps: ClassVar[tuple[float, ...]] = (LOG_LOAD_STEP,)
-    normal_bounds: ClassVar[tuple[tuple[float, float], ...]] = (LOG_LOAD_RANGE,)
 
     kinematics: RollerKinematics
     contact: LineContact
@@ -440,6 +450,11 @@ class LubricatedRollerSystem(AbstractInPlane, AbstractLubricatedRollers[PressedR
         if self.cage is None:
             return ArrowPoint(log_load[None, :], ring)
         return ArrowPoint(jnp.stack([log_load, jnp.zeros(n)]), jnp.concatenate([ring, jnp.zeros(1)]))
+
+    def normal_bounds(self):
+        ring = jnp.full(self.ring_unknowns, 1e4)
+        low, high = (jnp.full((1, 1), end) for end in LOG_LOAD_RANGE)
+        return ArrowPoint(low, -ring), ArrowPoint(high, ring)
 
     def under(self, factor):
         ring, outer = self.rings_under(factor)

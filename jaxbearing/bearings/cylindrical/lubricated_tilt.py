@@ -63,7 +63,6 @@ class LubricatedTiltingSystem(AbstractLubricatedRollers[PressedRollers]):
 
     normal_names: ClassVar[tuple[str, ...]] = (APPROACH, "tilting moment of a roller")
     normal_caps: ClassVar[tuple[float, ...]] = (LOG_LOAD_STEP, 5.0)
-    normal_bounds: ClassVar[tuple[tuple[float, float], ...]] = (LOG_LOAD_RANGE, (-1e4, 1e4))
 
     dry: TiltingRollers
     ring: InnerRing
@@ -105,14 +104,14 @@ class LubricatedTiltingSystem(AbstractLubricatedRollers[PressedRollers]):
             return ArrowPoint(jnp.stack([log_load, guess.elements[1]]), ring)
         return ArrowPoint(jnp.stack([log_load, guess.elements[1], jnp.zeros_like(log_load)]), jnp.append(ring, 0.0))
 
-    def bounds(self):
+    def normal_bounds(self):
         """Tilts and rings have the bounds of the dry rollers: no equilibrium is sought beyond them."""
-        (low, high), (dry_low, dry_high) = super().bounds(), self.dry.bounds()
-        joined = lambda own, dry: ArrowPoint(
-            own.elements.at[1].set(MOST_TILT * self.dry.line.length / LENGTH_UNIT * jnp.sign(own.elements[1])),
-            jnp.concatenate([dry.globals, own.globals[self.ring_unknowns :]]),
+        tilt = MOST_TILT * self.dry.line.length / LENGTH_UNIT
+        low, high = (
+            ArrowPoint(jnp.stack([jnp.asarray(load), side * tilt])[:, None], dry.globals)
+            for load, side, dry in zip(LOG_LOAD_RANGE, (-1.0, 1.0), self.dry.bounds(), strict=True)
         )
-        return joined(low, dry_low), joined(high, dry_high)
+        return low, high
 
     def under(self, factor):
         ring, outer = self.rings_under(factor)

@@ -40,7 +40,7 @@ from ...gaps import EndForces, Pocket, RollerDrag
 from ...lubricants import InletOil, Lubricant
 from ...numerics.arrow import ArrowPoint
 from ...numerics.newton import NewtonResult
-from ..cylindrical.equations import EASED_ENTRAINMENT, AbstractLubricatedRollers, RollerState
+from ..cylindrical.equations import AbstractLubricatedRollers, RollerState
 from ..cylindrical.forces import CageParts, friction_on_rings
 from ..cylindrical.kinematics import RollerKinematics, cage_slip
 from ..elastic_ring import ElasticRing
@@ -107,7 +107,6 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
         "moment balance in the plane of a roller",
     )
     normal_caps: ClassVar[tuple[float, ...]] = (LONGEST_STEP / LENGTH_UNIT,) * 3
-    normal_bounds: ClassVar[tuple[tuple[float, float], ...]] = ((0.0, 0.0),) * 3
 
     dry: TaperedSystem
     ring: InnerRing
@@ -139,17 +138,9 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
         guess = self.dry.initial()
         return ArrowPoint(jnp.pad(guess.elements, ((0, 1), (0, 0))), jnp.append(guess.globals, 0.0))
 
-    def bounds(self):
+    def normal_bounds(self):
         """Positions and tilts have the bounds of the dry rollers."""
-        own, dry = super().bounds(), self.dry.bounds()
-        joined = [
-            ArrowPoint(
-                jnp.concatenate([jnp.broadcast_to(of_dry.elements, (3, 1)), end.elements[3:]]),
-                jnp.concatenate([of_dry.globals, end.globals[self.ring_unknowns :]]),
-            )
-            for end, of_dry in zip(own, dry, strict=True)
-        ]
-        return joined[0], joined[1]
+        return self.dry.bounds()
 
     @property
     def homotopies(self) -> int:
@@ -159,9 +150,7 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
         """Path 0 begins without resistance, at rollers that hardly slide. Path 1 adds entrainment in every contact (as
         for cylindrical rollers), path 2 inertia forces (as for dry rollers)."""
         brakes = jnp.where(path == 0, LEAST_BRAKES**parameter, 1.0)
-        extra = EASED_ENTRAINMENT * jnp.abs(self.kinematics.orbit_scale) * self.kinematics.outer_radius
-        offset = self.laws.entrainment_offset + jnp.where(path == 1, parameter**3 * extra, 0.0)
-        eased = eqx.tree_at(lambda system: (system.brakes, system.laws.entrainment_offset), self, (brakes, offset))
+        eased = dataclasses.replace(self.with_entrainment(jnp.where(path == 1, parameter, 0.0)), brakes=brakes)
         if not self.dry.homotopies:
             return eased
         heavier = jnp.where(path == 2, parameter, 0.0)
