@@ -19,6 +19,7 @@ from .numerics.compiling import inside_a_program
 from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
+from .numerics.safe import largest as largest_value
 from .programs import KeptProgram
 from .shafts.solution import ShaftSolution
 from .solve import require_solvable, solution_at, solve_with_roots
@@ -216,7 +217,7 @@ def _stiffness_of(solution: Solution, freedom: str) -> Array | None:
 
 def _hottest(thermal: ThermalResult) -> Array:
     """The highest temperature of the nodes, K."""
-    return jnp.max(jnp.stack([getattr(thermal.temperatures, name) for name in thermal.nodes]))
+    return largest_value(jnp.stack([getattr(thermal.temperatures, name) for name in thermal.nodes]))
 
 
 def _slopes(

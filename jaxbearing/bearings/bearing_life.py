@@ -34,6 +34,7 @@ from ..life.reference import (
 from ..life.result import CatalogueLife, Life
 from ..life.static import ball_static_capacity, contact_safety, rated_modulus, roller_static_capacity
 from ..lubricants import Lubricant
+from ..numerics.safe import largest
 from .bearing import AbstractBearing
 from .flanks import on_heavier_flanks
 from .inlet import race_temperatures
@@ -240,7 +241,7 @@ def _viscosity_ratio(
         return None
     temperature = jnp.asarray(race_temperatures(scene))
     if temperature.ndim:
-        temperature = jnp.max(temperature)
+        temperature = largest(temperature)
     kinematic = oil.viscosity.viscosity(0.0, temperature) / oil.density.density(temperature)
     return kinematic / reference_viscosity(speed, pitch_diameter)
 

@@ -20,6 +20,7 @@ from ..materials import Material
 from ..mounting.bent_ring import BentRing
 from ..numerics.convex import anchored
 from ..numerics.newton import NewtonResult
+from ..numerics.safe import largest
 from ..numerics.status import Status
 from ..numerics.structure import switch
 from .ring import ANCHOR, LENGTH_UNIT, InnerRing
@@ -113,7 +114,7 @@ class ElasticRing(eqx.Module):
             lean = jnp.cos(ring.supports.angle) * along[0] + jnp.sin(ring.supports.angle) * along[1]
             lean = jnp.where(lean > LEANS, lean, 0.0)
             stiffness = stiffness + jnp.sum(ring.supports.stiffness * jnp.square(lean))
-            gap = jnp.max(jnp.where(lean > 0, ring.supports.gap / jnp.where(lean > 0, lean, 1.0), 0.0))
+            gap = largest(jnp.where(lean > 0, ring.supports.gap / jnp.where(lean > 0, lean, 1.0), 0.0))
         leaning = stiffness > 0
         shift = gap + jnp.where(leaning, size / jnp.where(leaning, stiffness, 1.0), 0.0)
         # the cosines of all orders come first; order 1 is the first order with a sine

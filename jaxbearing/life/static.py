@@ -11,6 +11,7 @@ from jaxtyping import Array, Float
 from .._types import Scalar
 from ..materials import BALL_PRESSURE, ROLLER_PRESSURE, Material, reduced_modulus
 from ..numerics.arguments import require_choice, require_count, require_numbers
+from ..numerics.safe import largest
 from .capacity import CONFORMITIES, ball_size_ratio
 from .modification import Family
 
@@ -104,6 +105,6 @@ def contact_safety(
     require_choice("family", family, _LIMITS)
     require_numbers(">= 0", inner=inner, outer=outer)
     limit, power = _LIMITS[family]
-    largest = jnp.maximum(jnp.max(inner), jnp.max(outer))
-    loaded = largest > 0
-    return jnp.where(loaded, (limit / jnp.where(loaded, largest, 1.0)) ** power, jnp.inf + 0.0 * largest)
+    most = jnp.maximum(largest(inner), largest(outer))
+    loaded = most > 0
+    return jnp.where(loaded, (limit / jnp.where(loaded, most, 1.0)) ** power, jnp.inf + 0.0 * most)

@@ -4,6 +4,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Values
+from .safe import largest
 
 
 def peak(positions: Values, values: Float[Array, "... place"]) -> Float[Array, "..."]:
@@ -18,7 +19,7 @@ def peak(positions: Values, values: Float[Array, "... place"]) -> Float[Array, "
     values = jnp.asarray(values)
     count = values.shape[-1]
     if count < 3:
-        return jnp.max(values, axis=-1)
+        return largest(values, axis=-1)
     positions = jnp.broadcast_to(jnp.asarray(positions), values.shape)
     middle = jnp.clip(jnp.argmax(values, axis=-1, keepdims=True), 1, count - 2)
     at = lambda array, index: jnp.take_along_axis(array, index, axis=-1)[..., 0]
@@ -29,4 +30,5 @@ def peak(positions: Values, values: Float[Array, "... place"]) -> Float[Array, "
     vertex = 0.5 * (x0 + x1) - 0.5 * before / jnp.where(hollow, bend, -1.0)
     vertex = jnp.clip(vertex, x0, x2)
     top = y0 + (vertex - x0) * (before + bend * (vertex - x1))
-    return jnp.where(hollow, jnp.maximum(top, jnp.max(values, axis=-1)), jnp.max(values, axis=-1))
+    highest = largest(values, axis=-1)
+    return jnp.where(hollow, jnp.maximum(top, highest), highest)

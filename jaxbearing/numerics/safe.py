@@ -124,14 +124,16 @@ def safe_norm(x: Values, y: Values, floor: float = NORM_FLOOR) -> Batch:
 
 
 @partial(jax.jit, static_argnames=("axis",))
-def largest(x: Values, axis: int) -> Float[Array, "..."]:
-    """Largest value along an axis; its derivative is that of the entry which is largest, of the first one if several
-    are.
+def largest(x: Values, axis: int | None = None) -> Float[Array, "..."]:
+    """Largest value along an axis, or of all values. Its derivative is that of the entry which is largest, of the first
+    one if several are.
 
     The derivative of `jnp.max` compares the entries with the result. A program may compute an entry twice, with other
     last bits: then none is equal to the result, and the derivative is 0/0.
     """
     x = jnp.asarray(x)
+    if axis is None:
+        x, axis = jnp.ravel(x), 0
     place = jnp.argmax(jax.lax.stop_gradient(x), axis=axis, keepdims=True)
     return jnp.squeeze(jnp.take_along_axis(x, place, axis=axis), axis=axis)
 

@@ -25,6 +25,7 @@ from ..bearings.row import AbstractRow, HeldRow, RowState
 from ..bearings.solution import RING_FREEDOMS, Solution
 from ..numerics.newton import NewtonOptions
 from ..numerics.once import once
+from ..numerics.safe import largest
 from .mounting import LinearBearing
 from .scene import Place
 
@@ -193,7 +194,7 @@ def pressure_centre(scene: AbstractBearing) -> Float[Array, ""]:
 
 def largest_load(solution: Solution) -> Float[Array, ""]:
     """Largest load on the inner raceway, N."""
-    return jnp.max(on_heavier_flanks(solution.elements).load_inner)
+    return largest(on_heavier_flanks(solution.elements).load_inner)
 
 
 FREEDOM_WORDS = dict(zip(RING_FREEDOMS, ("X", "Y", "Z", "the tilt", "the lateral tilt"), strict=True))

@@ -24,6 +24,7 @@ from .._types import Scalar
 from ..life.duty import common_rates, life_of, lives_of
 from ..life.result import Life
 from ..numerics.arguments import require_numbers
+from ..numerics.safe import largest
 from .solution import SystemLifeResult
 
 SLOPES = {"ball": 10.0 / 9.0, "roller": 9.0 / 8.0}
@@ -43,9 +44,9 @@ def system_rate(
     require_numbers(">= 0", rates=rates)
     require_numbers("> 0", slopes=slopes)
     rates, slopes = jnp.asarray(rates), jnp.asarray(slopes)
-    largest = jnp.max(rates)
+    most = largest(rates)
     loaded = rates > 0
-    logs = jnp.log(jnp.where(loaded, rates, 1.0)) - jnp.log(jnp.where(largest > 0, largest, 1.0))
+    logs = jnp.log(jnp.where(loaded, rates, 1.0)) - jnp.log(jnp.where(most > 0, most, 1.0))
 
     def residual(log_rate: Array, logs: Array, slopes: Array) -> Array:
         """Logarithm of the sum; it decreases with `log_rate` and is convex."""
@@ -56,11 +57,11 @@ def system_rate(
         return log_rate - value / jnp.where(slope < 0, slope, -1.0)
 
     root = jax.lax.fori_loop(0, STEPS, better, jnp.zeros(()))
-    root = jax.lax.stop_gradient(jnp.where(largest > 0, root, 0.0))
+    root = jax.lax.stop_gradient(jnp.where(most > 0, root, 0.0))
     slope = jax.lax.stop_gradient(jax.grad(residual)(root, logs, slopes))
     root = root - residual(root, logs, slopes) / jnp.where(slope < 0, slope, -1.0)
     # a rate that is NaN gives NaN, not an infinite life
-    return jnp.where(largest > 0, largest * jnp.exp(root), 0.0 * jnp.sum(rates))
+    return jnp.where(most > 0, most * jnp.exp(root), 0.0 * jnp.sum(rates))
 
 
 def system_life(lives: Float[Array, " bearing"], slopes: Float[Array, " bearing"]) -> Float[Array, ""]:

@@ -13,6 +13,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from ..bearings.row import AbstractRow, RowState
 from ..numerics.once import once
+from ..numerics.safe import largest
 from .balance import Spring
 from .batches import AbstractBatch, spread
 from .mounting import Preload
@@ -232,7 +233,7 @@ def _travels(
         return {}, {}
     displacements = displaced(rest, groups, additional)
     own = {name: jnp.stack([displacements[i] for i, other in enumerate(owner) if other == name]) for name in owner}
-    return {name: jnp.sum(each) for name, each in own.items()}, {name: jnp.max(each) for name, each in own.items()}
+    return {name: jnp.sum(each) for name, each in own.items()}, {name: largest(each) for name, each in own.items()}
 
 
 def _mounted(
@@ -261,8 +262,7 @@ def _mounted(
     place = place - signs @ axial_forces(rest, closure + signs.T @ place, held.states) / slope
     mounted = first @ axial_forces(rest, closure + signs.T @ place, held.states)
     # the other group is unloaded where the closure of its last loaded bearing is used up
-    largest = jnp.max(jnp.where(second > 0, closure[None], -jnp.inf), axis=1)
-    lost = closure + signs.T @ largest
+    lost = closure + signs.T @ largest(jnp.where(second > 0, closure[None], -jnp.inf), axis=1)
     held = _held(fixed[0], jax.lax.stop_gradient(lost), when=jnp.all(jnp.isfinite(lost)))
     loss = first @ axial_forces(rest, lost, held.states)
     return dict(zip(sets, mounted, strict=True)), dict(zip(sets, loss, strict=True))

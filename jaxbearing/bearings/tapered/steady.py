@@ -10,7 +10,7 @@ from jaxtyping import Array, Bool, Float
 from ...contacts import LineContact, lamina_points
 from ...numerics.arrow import ArrowPoint, linearize
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
-from ...numerics.safe import safe_norm
+from ...numerics.safe import largest, safe_norm
 from ...numerics.status import Status
 from ..assemble import Results, assemble
 from ..computed import computed_results
@@ -372,7 +372,7 @@ def line_pressure(scene: TaperedRollerBearing, system: TaperedSystem, state: Tap
     radii = jnp.stack([geometry.race_reduced_radii(place[:, side])[side] for side in (0, 1)], axis=1)
     # positions are the first axis
     contact = LineContact(radii, jnp.ones(()), modulus[None] if jnp.ndim(modulus) else modulus)
-    return jnp.max(jnp.where(load > 0, contact.hertz_pressure(load), 0.0), axis=0)
+    return largest(jnp.where(load > 0, contact.hertz_pressure(load), 0.0), axis=0)
 
 
 def _end_reach(scene: TaperedRollerBearing, state: TaperedState) -> Array:

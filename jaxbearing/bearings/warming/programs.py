@@ -9,6 +9,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from ..._types import Scalar
 from ...numerics.newton import NewtonOptions
+from ...numerics.safe import largest
 from ...programs import KeptProgram
 from ...thermal.network import Network, NodeHeat
 from ...thermal.result import NodeTemperatures, named
@@ -124,8 +125,8 @@ def _instant(lane: AbstractBearing, network: Network, nodes: Array, heat: NodeHe
         ring=solution.ring,
         cage=solution.cage,
         fit=solution.fit,
-        largest_load=jnp.max(both("load")),
-        largest_pressure=jnp.max(both("pressure")),
+        largest_load=largest(both("load")),
+        largest_pressure=largest(both("pressure")),
         # elements without contact have no film (NaN)
         smallest_film=None if filmless else jnp.nanmin(both("film")),
     )
