@@ -63,6 +63,11 @@ class AbstractCage(Checked, Generic[Geometry]):
     def pocket_opening(self, geometry: Geometry) -> tuple[Scalar, Scalar]:
         """Size of a pocket along the axis and along the circumference, m."""
 
+    def raceways(self, geometry: Geometry) -> tuple[Scalar, Scalar]:
+        """Diameters of both raceways between which the cage turns, m."""
+        pitch = geometry.pitch_diameter
+        return pitch - geometry.element_diameter, pitch + geometry.element_diameter
+
     @property
     def lands(self) -> int:
         return ASSUMED_LANDS if self.n_lands is None else self.n_lands
@@ -127,8 +132,8 @@ class AbstractCage(Checked, Generic[Geometry]):
             gap = pitch * math.sin(math.pi / max(geometry.n_elements, 2)) - geometry.element_diameter
             return 0.0, gap
 
-        inside = lambda: (pitch - geometry.element_diameter, outside)
-        beyond = lambda: (bore, pitch + geometry.element_diameter)
+        inside = lambda: (self.raceways(geometry)[0], outside)
+        beyond = lambda: (bore, self.raceways(geometry)[1])
         yield "inner_diameter", bore, inside, "inner raceway", "cage outside diameter"
         yield "outer_diameter", outside, beyond, "cage bore", "outer raceway"
         gap = f"gap between neighbouring {self.element}s"

@@ -76,12 +76,12 @@ class CageState(eqx.Module):
 
 
 def losses_not_modelled(loss: eqx.Module) -> tuple[str, ...]:
-    """Names of the losses that this scene does not model (`None`), and of those that its kind of scene never models.
+    """Names of the losses that this scene does not model (`None`).
 
     **Arguments:** `loss`: a `PowerLoss`, `BallPowerLoss` or `TaperedPowerLoss`.
     """
-    absent = [field.name for field in dataclasses.fields(loss) if getattr(loss, field.name) is None]
-    return (*(name for name in absent if name != "total"), *getattr(loss, "never", ()))
+    absent = (field.name for field in dataclasses.fields(loss) if getattr(loss, field.name) is None)
+    return tuple(name for name in absent if name != "total")
 
 
 class RacewayPower(eqx.Module):

@@ -53,12 +53,14 @@ from ...lubricants import InletOil, Lubricant
 from ...numerics.arrow import ArrowPoint, seen_by_elements
 from ..elastic_ring import ElasticRing
 from ..inlet import AbstractOils, OilElsewhere
+from ..interactions import Interaction, of_land
 from ..land import LandState, guided_land
 from ..ring import LENGTH_UNIT, InnerRing
 from ..rings import AbstractBetweenRings
-from .forces import CageParts, RollerForces, forces_without_pocket, on_cage
+from ..solution import CageState
+from .forces import CageParts, RollerForces, forces_without_pocket, friction_on_rings, on_cage
 from .in_plane import AbstractInPlane
-from .kinematics import RollerKinematics
+from .kinematics import RollerKinematics, cage_slip
 from .loads import LOG_LOAD_RANGE, approach_error, guessed_loads, per_race
 
 EASED_ENTRAINMENT = 0.3
@@ -396,6 +398,33 @@ class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings, Generic[Pres
         assert state.cage_force is not None
         force = jnp.sum(state.cage_force, axis=1)
         return self.land(self.orbit(point.globals[-1]), force[0], force[1])
+
+    def cage_state(self, point: ArrowPoint, land: LandState) -> CageState:
+        orbit = self.orbit(point.globals[-1])
+        return CageState(
+            speed=orbit,
+            slip=cage_slip(orbit, self.kinematics),
+            eccentricity_ratio=land.eccentricity_ratio,
+            attitude_angle=land.attitude_angle,
+        )
+
+    def interactions(self, state: RollerState[Pressed], land: LandState) -> list[Interaction]:
+        """All friction of a bearing with sliding rollers. The power of each interaction is computed from its own force
+        and its own speed."""
+        motion, pocket, cage = self.kinematics, state.pocket, self.cage
+        assert pocket is not None
+        assert cage is not None
+        speeds, flanges = (state.sliding_speed, state.mean_speed), (state.inner_flange, state.outer_flange)
+        interactions = friction_on_rings(motion, state.contact, *speeds, *flanges)
+        friction = pocket.friction_front + pocket.friction_rear
+        interactions.append(Interaction("pocket", jnp.sum(friction * motion.roller_radius * state.spin_speed)))
+        if state.rails is not None:
+            interactions.append(Interaction("element_ends", jnp.sum(state.rails.power)))
+        interactions.append(of_land(land.power, land.ring_torque, cage.guidance))
+        if state.drag_force is not None:
+            power = jnp.sum(state.drag_force * motion.pitch_radius * state.orbital_speed)
+            interactions.append(Interaction("drag", power))
+        return interactions
 
 
 class LubricatedRollerSystem(AbstractInPlane, AbstractLubricatedRollers[PressedRollers]):

@@ -1,7 +1,7 @@
 """Forces on the rollers and on the cage of a cylindrical roller bearing, steady or moving. Frames and signs: see
 `cylindrical.scene`."""
 
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -11,7 +11,9 @@ from ...contacts import LineContact
 from ...contacts.laws import ContactState
 from ...gaps import EndForces, FlangeCoefficients, Pocket, PocketEdgeCoefficients, RollerDrag, ShortJournal
 from ...numerics.series import cosine_and_sine
+from ..inlet import oil_temperature
 from ..interactions import FrictionTotals, Interaction, friction_totals
+from ..parts import drag_density
 from .kinematics import RollerKinematics
 from .loads import per_race
 from .solution import PowerLoss
@@ -48,6 +50,24 @@ class RollerForces(NamedTuple):
     outer_flange: EndForces | None
     rails: EndForces | None
     drag_force: Float[Array, " roller"] | None
+
+
+def drag_of(scene: Any) -> tuple[RollerDrag | None, Float[Array, ""] | None]:
+    """Oil drag on the rollers of a bearing with a cage, and the density of the oil-air mixture, kg/m^3; `None` if drag
+    is not modelled.
+
+    The frontal area of a roller is its length times (diameter - thickness of the cage), which the cage does not cover:
+    the analogue of the source's formula for balls. It is 0 if the cage is thicker than the roller.
+
+    **Arguments:** `scene`: of a bearing with cylindrical or tapered rollers."""
+    if scene.drag is None:
+        return None, None
+    geometry, cage = scene.geometry, getattr(scene, "cage", None)
+    thickness = 0.0 if cage is None else (cage.outside(geometry) - cage.bore(geometry)) / 2.0
+    area = jnp.asarray(geometry.roller_length) * jnp.maximum(geometry.element_diameter - thickness, 0.0)
+    fraction, temperature = scene.drag.through_flow_fraction, oil_temperature(scene, "drag")
+    density = drag_density(scene.oil, scene.operation, geometry.pitch_diameter, fraction, temperature)
+    return RollerDrag(coefficient=jnp.asarray(scene.drag.coefficient), area=area), density
 
 
 def rolling_force_factor(contact: LineContact, motion: RollerKinematics) -> Float[Array, "2"]:

@@ -4,27 +4,25 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ...contacts import alike_modulus, palmgren_stiffness
-from ...gaps import Flange, Pocket, PocketEdge, RollerDrag
+from ...gaps import Flange, Pocket, PocketEdge
 from ...numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results
 from ..computed import computed_results
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
-from ..interactions import FrictionTotals, Interaction, friction_totals, of_land
-from ..land import LandState
+from ..interactions import FrictionTotals, friction_totals
 from ..mixed import boundary_power, mixed_results
-from ..parts import azimuths, drag_density
+from ..parts import azimuths
 from ..profile import pressed_load
 from ..ring import LENGTH_UNIT, InnerRing, Port
 from ..ring_shape import out_of_round, shaped_parts
-from ..solution import CageState, Solution
+from ..solution import Solution
 from .dry import DryRollerSystem
-from .equations import AbstractLubricatedRollers, LubricatedRollerSystem, RollerState
-from .forces import CageParts, friction_on_rings, rolling_alone
-from .geometry import RollerCage, RollerGeometry
+from .equations import AbstractLubricatedRollers, LubricatedRollerSystem
+from .forces import CageParts, drag_of, rolling_alone
 from .in_plane import IN_PLANE, outward
-from .kinematics import RollerKinematics, cage_slip, roller_kinematics
+from .kinematics import RollerKinematics, roller_kinematics
 from .loads import LEAST_LOAD
 from .lubricated_tilt import FRICTION_LAMINAE, LubricatedTiltingSystem, least_films
 from .ring import bending_rings, roller_ring
@@ -83,7 +81,7 @@ def build_system(scene: CylindricalRollerBearing) -> DryRollerSystem | Lubricate
 
 def cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> CageParts:
     """Models of all forces on rollers and cage except those of the raceways."""
-    cage, oil, geometry, operation = scene.cage, scene.oil, scene.geometry, scene.operation
+    cage, oil, geometry = scene.cage, scene.oil, scene.geometry
     assert oil is not None
     viscosity_at = lambda place: oil.viscosity.viscosity(0.0, jnp.asarray(oil_temperature(scene, place)))
     at_flanges = viscosity_at("flange")
@@ -112,11 +110,7 @@ def cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Cag
             roller_radius=motion.roller_radius,
         ).coefficients(at_flanges)
 
-    drag, density = None, None
-    if scene.drag is not None:
-        drag = RollerDrag(coefficient=jnp.asarray(scene.drag.coefficient), area=drag_area(geometry, cage))
-        fraction, temperature = scene.drag.through_flow_fraction, oil_temperature(scene, "drag")
-        density = drag_density(oil, operation, geometry.pitch_diameter, fraction, temperature)
+    drag, density = drag_of(scene)
     pocket = None
     if cage is not None:
         pocket = Pocket(
@@ -134,15 +128,6 @@ def cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Cag
         drag=drag,
         drag_density=density,
     )
-
-
-def drag_area(geometry: RollerGeometry, cage: RollerCage | None) -> Array:
-    """Frontal area of a roller that the cage does not cover: length times (diameter - cage thickness), m^2.
-
-    It is the analogue of the source's formula for balls, and 0 if the cage is thicker than the roller.
-    """
-    thickness = 0.0 if cage is None else (cage.outside(geometry) - cage.bore(geometry)) / 2.0
-    return jnp.asarray(geometry.roller_length) * jnp.maximum(geometry.roller_diameter - thickness, 0.0)
 
 
 def solve_rollers(
@@ -336,30 +321,6 @@ def _lubricated(
         return Results(elements, totals, facts, laminae=rated)
 
     land = system.land_at(result.point, state)
-    orbit = system.orbit(result.point.globals[-1])
-    cage = CageState(
-        speed=orbit,
-        slip=cage_slip(orbit, motion),
-        eccentricity_ratio=land.eccentricity_ratio,
-        attitude_angle=land.attitude_angle,
-    )
-    totals = friction_totals(PowerLoss, _interactions(system, state, land), motion)
+    cage = system.cage_state(result.point, land)
+    totals = friction_totals(PowerLoss, system.interactions(state, land), motion)
     return Results(elements, totals, facts, cage=cage, laminae=rated, boundary_power=boundary_power(mixed))
-
-
-def _interactions(system: AbstractLubricatedRollers, state: RollerState, land: LandState) -> list[Interaction]:
-    """All friction of a bearing with sliding rollers. The power of each interaction is computed from its own force and
-    its own speed."""
-    motion, pocket, cage = system.kinematics, state.pocket, system.cage
-    assert pocket is not None
-    assert cage is not None
-    speeds, flanges = (state.sliding_speed, state.mean_speed), (state.inner_flange, state.outer_flange)
-    interactions = friction_on_rings(motion, state.contact, *speeds, *flanges)
-    friction = pocket.friction_front + pocket.friction_rear
-    interactions.append(Interaction("pocket", jnp.sum(friction * motion.roller_radius * state.spin_speed)))
-    if state.rails is not None:
-        interactions.append(Interaction("element_ends", jnp.sum(state.rails.power)))
-    interactions.append(of_land(land.power, land.ring_torque, cage.guidance))
-    if state.drag_force is not None:
-        interactions.append(Interaction("drag", jnp.sum(state.drag_force * motion.pitch_radius * state.orbital_speed)))
-    return interactions

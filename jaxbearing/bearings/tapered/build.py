@@ -17,8 +17,8 @@ from .system import Inertia, TaperedForm, TaperedSystem
 
 
 class TaperedMotion(NamedTuple):
-    """Rolling without sliding about the apex: orbital speed of the rollers and their spin relative to the orbiting
-    frame, rad/s. Both are positive in normal running."""
+    """Orbital speed of the rollers and their spin relative to the orbiting frame, rad/s. Both are positive in normal
+    running."""
 
     orbital_speed: Array
     spin_speed: Array

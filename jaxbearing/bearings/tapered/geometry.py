@@ -221,6 +221,11 @@ class TaperedCage(AbstractCage[TaperedGeometry]):
     def pocket_opening(self, geometry: TaperedGeometry) -> tuple[Scalar, Scalar]:
         return geometry.roller_length, geometry.mean_roller_diameter + self.pocket_clearance
 
+    def raceways(self, geometry: TaperedGeometry) -> tuple[Scalar, Scalar]:
+        """Diameters of both raceways at mid length, m."""
+        across = geometry.mean_roller_diameter * jnp.cos(geometry.axis_angle)
+        return geometry.pitch_diameter - across, geometry.pitch_diameter + across
+
 
 def _check(n_rollers: int, diameter: Any, length: Any, cup: Any, half: Any, flange: Any, end_radius: Any) -> None:
     """Checks the dimensions, which may be numbers or traced. **Raises:** `ValueError` for a bearing that is known to be

@@ -147,8 +147,10 @@ class TaperedRollerBearing(AbstractBearing):
             yield "oil: a scene with a [contact] table needs an oil"
         if self.cage is not None:
             yield from refusals_of(self.cage.check_fits, self.geometry)
-        if self.oil is not None and self.oil.density is None and (self.drag is not None or self.slips):
-            yield "oil.density: the cage land and the drag need it"
+        needing = {"the cage land": self.slips, "the drag": self.drag is not None}
+        if self.oil is not None and self.oil.density is None and any(needing.values()):
+            names = [name for name, needs in needing.items() if needs]
+            yield f"oil.density: {' and '.join(names)} need{'s' * (len(names) == 1)} it"
         if self.rib is not None and self.rib.resists_rolling:
             yield "rib.rolling: the rib has none, the roller ends slide on it"
         yield from refusals_of(self.operation.check_rings_turn)

@@ -36,19 +36,18 @@ from jaxtyping import Array, Float
 from ...contacts import LineContact
 from ...contacts.laws import ContactLaws
 from ...contacts.point_laws import PointLaws
-from ...gaps import EndForces, Pocket, RollerDrag
+from ...gaps import EndForces, Pocket
 from ...lubricants import InletOil, Lubricant
 from ...numerics.arrow import ArrowPoint
 from ...numerics.newton import NewtonResult
 from ..cylindrical.equations import AbstractLubricatedRollers, RollerState
-from ..cylindrical.forces import CageParts, friction_on_rings
-from ..cylindrical.kinematics import RollerKinematics, cage_slip
+from ..cylindrical.forces import CageParts, drag_of
+from ..cylindrical.kinematics import RollerKinematics
 from ..elastic_ring import ElasticRing
-from ..inlet import OilElsewhere, oil_elsewhere, oil_of_races, oil_temperature
-from ..interactions import Interaction, friction_totals, of_land
-from ..parts import azimuths, drag_density
+from ..inlet import OilElsewhere, oil_elsewhere, oil_of_races
+from ..interactions import friction_totals
+from ..parts import azimuths
 from ..ring import LENGTH_UNIT, InnerRing
-from ..solution import CageState
 from .build import RollerBody, TaperedMotion, roller_body, roller_inertia
 from .friction import (
     RaceFriction,
@@ -67,8 +66,8 @@ from .system import LONGEST_STEP, Inertia, TaperedState, TaperedSystem
 LEAST_BRAKES = 1e-4
 """Factor of all resistance at the start of homotopy path 0 (`SkiddingSystem.homotopy`)."""
 LIGHT = 1e-6
-"""Load from which a raceway contact has films and friction, over the scale of the loads of a roller. The change is
-smooth: friction is 0 without load."""
+"""Load from which a contact of raceway or rib has films and friction, over the scale of the loads of a roller. The
+change is smooth: friction is 0 without load."""
 
 
 class PressedTapered(NamedTuple):
@@ -98,7 +97,9 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
     - `azimuth`: of the rollers, rad.
     - `body`: mass and inertia of a roller.
     - `roller_mass`: mass of a roller, kg.
-    - `brakes`: factor of all forces but those of traction; a number that is not 1 in the homotopies only.
+    - `brakes`: factor of rolling resistance, drag and rib friction, and of the viscosity in pockets and lands; not 1 in
+      a homotopy only.
+    - `heavier`: factor of the inertia forces; not 1 in a homotopy, and 0 for loads that have no equilibrium.
     """
 
     normal_names: ClassVar[tuple[str, ...]] = (
@@ -125,6 +126,7 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
     cage: CageParts | None
     elsewhere: OilElsewhere | None
     brakes: Float[Array, ""]
+    heavier: Float[Array, ""]
 
     @property
     def cage_row(self) -> int:
@@ -153,8 +155,9 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
         eased = dataclasses.replace(self.with_entrainment(jnp.where(path == 1, parameter, 0.0)), brakes=brakes)
         if not self.dry.homotopies:
             return eased
-        heavier = jnp.where(path == 2, parameter, 0.0)
-        return dataclasses.replace(eased, dry=self.dry.homotopy(heavier, path))
+        seated = jnp.where(path == 2, parameter, 0.0)
+        heavier = self.heavier * jnp.maximum(self.dry.slowness(), 1.0) ** seated
+        return dataclasses.replace(eased, dry=self.dry.homotopy(seated, path), heavier=heavier)
 
     def oil_of(self, place):
         oil = super().oil_of(place)
@@ -166,14 +169,7 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
         return dataclasses.replace(self, dry=dry, ring=ring, outer=outer)
 
     def normal(self, unknowns, shared, orbit, spin):
-        own = roller_inertia(self.geometry, self.body, TaperedMotion(orbit, spin))
-        free = self.dry.inertia
-        if self.dry.seated is not None:
-            # the homotopy of the dry rollers multiplies their inertia forces
-            motion = TaperedMotion(self.kinematics.free_orbit, self.kinematics.free_spin)
-            actual = roller_inertia(self.geometry, self.body, motion).force
-            factor = jnp.where(actual > 0, free.force / jnp.where(actual > 0, actual, 1.0), 1.0)
-            own = own._replace(force=own.force * factor, moment=own.moment * factor)
+        own = roller_inertia(self.geometry, self.body, TaperedMotion(orbit, spin)).times(self.heavier)
         return PressedTapered(self.dry.state(unknowns[:3], shared), own, unknowns[:3])
 
     def films(self, pressed, mean_speed, sliding):
@@ -241,11 +237,11 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
         )
 
 
-def build_skidding(scene: TaperedRollerBearing, dry: TaperedSystem) -> SkiddingSystem:
+def build_skidding(scene: TaperedRollerBearing, dry: TaperedSystem, heavier: Float[Array, ""]) -> SkiddingSystem:
     """Equations of rollers that may skid.
 
     **Arguments:** `scene`: it has a cage and traction; `dry`: the same bearing without friction, with its equilibrium
-    as first guess, or without a guess for equations that are not solved.
+    as first guess, or without a guess for equations that are not solved; `heavier`: factor of the inertia forces.
     """
     geometry, operation = scene.geometry, scene.operation
     assert scene.contact is not None
@@ -277,6 +273,7 @@ def build_skidding(scene: TaperedRollerBearing, dry: TaperedSystem) -> SkiddingS
         cage=_cage_parts(scene, kinematics),
         elsewhere=oil_elsewhere(scene),
         brakes=jnp.ones(()),
+        heavier=heavier,
     )
 
 
@@ -284,14 +281,7 @@ def _cage_parts(scene: TaperedRollerBearing, motion: RollerKinematics) -> CagePa
     """Models of the forces on rollers and cage except those of raceways and rib."""
     cage, geometry = scene.cage, scene.geometry
     assert cage is not None
-    drag, density = None, None
-    if scene.drag is not None:
-        assert scene.oil is not None
-        thickness = 0.5 * (cage.outside(geometry) - cage.bore(geometry))
-        area = jnp.asarray(geometry.roller_length) * jnp.maximum(geometry.mean_roller_diameter - thickness, 0.0)
-        drag = RollerDrag(coefficient=jnp.asarray(scene.drag.coefficient), area=area)
-        fraction, temperature = scene.drag.through_flow_fraction, oil_temperature(scene, "drag")
-        density = drag_density(scene.oil, scene.operation, geometry.pitch_diameter, fraction, temperature)
+    drag, density = drag_of(scene)
     pocket = Pocket(
         clearance=jnp.asarray(cage.pocket_clearance),
         length=jnp.asarray(geometry.roller_length),
@@ -305,10 +295,7 @@ def skidding_friction(
 ) -> TaperedFriction:
     """Films, friction, losses and torques, and the state of the cage, of a solution. **Arguments:** `state`: of the
     rollers."""
-    motion, parts = system.kinematics, system.cage
-    assert parts is not None
-    assert state.pocket is not None
-    contact, load, pocket = state.contact, state.load, state.pocket
+    contact, load = state.contact, state.load
     loaded = load > 0
     only = lambda values, absent=jnp.nan: None if values is None else jnp.where(loaded, values, absent)
     mixed = system.mixed(state)
@@ -326,14 +313,6 @@ def skidding_friction(
         mixed=None if mixed is None else where_loaded(mixed, loaded),
     )
     land = system.land_at(result.point, state)
-    orbit = system.orbit(result.point.globals[-1])
-    speeds = (state.sliding_speed, state.mean_speed)
-    interactions = friction_on_rings(motion, contact, *speeds, state.inner_flange, None)
-    friction = pocket.friction_front + pocket.friction_rear
-    interactions.append(Interaction("pocket", jnp.sum(friction * motion.roller_radius * state.spin_speed)))
-    interactions.append(of_land(land.power, land.ring_torque, parts.guidance))
-    if state.drag_force is not None:
-        interactions.append(Interaction("drag", jnp.sum(state.drag_force * motion.pitch_radius * state.orbital_speed)))
     traction = contact.traction
     assert traction is not None
     return TaperedFriction(
@@ -341,12 +320,7 @@ def skidding_friction(
         rib=system.rib_friction(state),
         drag_force=state.drag_force,
         balance=RollerBalance(None, traction * jnp.asarray([[1.0], [-1.0]])),
-        totals=friction_totals(TaperedPowerLoss, interactions, motion),
-        cage=CageState(
-            speed=orbit,
-            slip=cage_slip(orbit, motion),
-            eccentricity_ratio=land.eccentricity_ratio,
-            attitude_angle=land.attitude_angle,
-        ),
-        pocket=pocket,
+        totals=friction_totals(TaperedPowerLoss, system.interactions(state, land), system.kinematics),
+        cage=system.cage_state(result.point, land),
+        pocket=state.pocket,
     )

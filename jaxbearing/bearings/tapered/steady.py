@@ -48,17 +48,30 @@ def solve_tapered(
     The status is `no_equilibrium` if no equilibrium is found and there is a proof that none exists. There are two
     proofs. The first needs the loads only: they are beyond a static bound (`slides_out`, `tips_over`). The second is
     that the cone, with all else in equilibrium, is still pushed further at a tilt of 0.1 rad or at a displacement of
-    the apex distance (`numerics.convex.find_minimum`).
+    the apex distance (`numerics.convex.find_minimum`). Rollers that may skid have centrifugal forces and gyroscopic
+    moments that the loads do not tell: for them the only proof is `slides_out`, without these forces.
 
     **Arguments:** as `AbstractBearing.solve_ring`; `exact_tilt` has no effect, because rollers have no grooves.
     """
     asked = build_tapered(scene, ring)
-    sliding = slides_out(scene, asked.inertia) | tips_over(scene) if _bounded(scene, ring) else jnp.asarray(False)
+    # what is known of the inertia forces: those of rollers that may skid are smaller, if they orbit more slowly
+    known = asked.inertia.times(0.0) if scene.slips else asked.inertia
+    bounded, sliding = _bounded(scene, ring), jnp.asarray(False)
+    if bounded:
+        sliding = slides_out(scene, known)
+        sliding = sliding if scene.slips else sliding | tips_over(scene)
     # loads without equilibrium are replaced by loads with one: a few steps then lead to finite values and derivatives
     easy = jnp.where(sliding, _axial_only(asked), asked.ring.load)
-    started, minimum = dataclasses.replace(asked, ring=asked.ring.under(easy)).started(sliding)
-    system, result = newton_solve(build_skidding(scene, started) if scene.slips else started, options)
-    none = sliding | (~result.converged & minimum.outside)
+    begun = dataclasses.replace(asked, ring=asked.ring.under(easy))
+    if scene.slips and bounded:
+        begun = dataclasses.replace(begun, inertia=asked.inertia.times(_held_part(scene, asked.inertia)))
+    started, minimum = begun.started(sliding)
+    if scene.slips:
+        system, result = newton_solve(build_skidding(scene, started, jnp.where(sliding, 0.0, 1.0)), options)
+        none = sliding
+    else:
+        system, result = newton_solve(started, options)
+        none = sliding | (~result.converged & minimum.outside)
     result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
     result = result._replace(residual_norm=jnp.where(sliding, jnp.nan, result.residual_norm))
     friction = None
@@ -74,7 +87,7 @@ def solve_tapered(
     if friction is not None:
         result = _with_nested(result, friction, options)
     results = _results(scene, dry, result.point.elements[:3], state, motion, friction)
-    causes, steps = _reasons(scene, asked.inertia) if _bounded(scene, ring) else {}, minimum.steps + result.iterations
+    causes, steps = _reasons(scene, known) if bounded else {}, minimum.steps + result.iterations
     results = results._replace(**system.bent.results(system.amplitudes(result.point.globals)))
     if system.outer is not None:
         result, unsupported = system.outer.judged(system.ring, result)
@@ -111,6 +124,16 @@ def slides_out(scene: TaperedRollerBearing, inertia: Inertia) -> Bool[Array, ""]
     if scene.geometry.n_rollers < 2:
         return jnp.asarray(False)
     return jnp.asarray(scene.operation.axial_load) < least_axial_load(scene, inertia)
+
+
+def _held_part(scene: TaperedRollerBearing, inertia: Inertia) -> Float[Array, ""]:
+    """The part of the inertia forces with which rollers that may skid have a dry equilibrium, where the iteration
+    starts: with it, `least_axial_load` is at most in the middle between the given axial load and that without inertia
+    forces."""
+    nothing = least_axial_load(scene, inertia.times(0.0))
+    needed = least_axial_load(scene, inertia) - nothing
+    spare = jnp.maximum(0.5 * (jnp.asarray(scene.operation.axial_load) - nothing), 0.0)
+    return jax.lax.stop_gradient(jnp.where(needed > spare, spare / jnp.where(needed > spare, needed, 1.0), 1.0))
 
 
 def least_axial_load(scene: TaperedRollerBearing, inertia: Inertia) -> Float[Array, ""]:
@@ -176,6 +199,7 @@ def _moment_ranges(scene: TaperedRollerBearing) -> dict[str, _MomentRange]:
 def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, FailureCause]:
     """Possible causes of a failed solve: loads beyond the static bounds, with the bounds."""
     sliding, least = slides_out(scene, inertia), least_axial_load(scene, inertia)
+    tipping = jnp.asarray(False) if scene.slips else tips_over(scene) & ~sliding
     axial_load = jnp.asarray(scene.operation.axial_load)
     causes = {
         "the axial load of {:.6g} N must be at least {:.6g} N to hold the cone in the cup; where an opposed bearing "
@@ -183,7 +207,7 @@ def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Failure
             sliding, jnp.stack([axial_load, least * (1.0 + ROUNDED_UP)])
         )
     }
-    ranges, tipping = _moment_ranges(scene), tips_over(scene) & ~sliding
+    ranges = {} if scene.slips else _moment_ranges(scene)
     for name, (moment, middle, most, shift) in ranges.items():
         ends = jnp.stack([moment + shift, middle - most + shift, middle + most + shift])
         text = f"the {name} of {{:.4g}} N m must lie between {{:.4g}} and {{:.4g}} N m"
@@ -390,7 +414,7 @@ def _port(scene: TaperedRollerBearing, system: TaperedSystem | SkiddingSystem, r
     cage in equilibrium."""
     full = build_tapered(scene, system.ring.released(system.load_scale()))
     if isinstance(system, SkiddingSystem):
-        full = build_skidding(scene, full)
+        full = build_skidding(scene, full, system.heavier)
     rows = result.point.elements
     elements = jnp.broadcast_to(rows, (rows.shape[0], scene.geometry.n_rollers))
     point = ArrowPoint(elements, system.ring.released_unknowns(result.point.globals))

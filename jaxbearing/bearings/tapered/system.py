@@ -34,6 +34,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
+from ..._types import Scalar
 from ...contacts import AbstractTiltedLine
 from ...numerics.arrow import ArrowPoint, seen_by_elements
 from ...numerics.batching import in_turn
@@ -86,6 +87,10 @@ class Inertia(NamedTuple):
     force: Array
     centre: Array
     moment: Array
+
+    def times(self, factor: Scalar) -> "Inertia":
+        """The same with forces and moments multiplied by a factor."""
+        return self._replace(force=self.force * factor, moment=self.moment * factor)
 
 
 class TaperedState(NamedTuple):
@@ -229,12 +234,10 @@ class TaperedSystem(AbstractRowSystem):
         guess = None
         if self.guess is not None and self.seated is not None:
             guess = jax.tree.map(lambda own, other: jnp.where(parameter < 1.0, own, other), self.guess, self.seated)
-        force = self.inertia.force
-        factor = jnp.maximum(self._slowness(), 1.0) ** parameter
-        inertia = self.inertia._replace(force=force * factor, moment=self.inertia.moment * factor)
-        return dataclasses.replace(self, inertia=inertia, guess=guess)
+        factor = jnp.maximum(self.slowness(), 1.0) ** parameter
+        return dataclasses.replace(self, inertia=self.inertia.times(factor), guess=guess)
 
-    def _slowness(self) -> Array:
+    def slowness(self) -> Array:
         """Centrifugal force that `SEATING` asks for, divided by the actual one; 0 at rest."""
         force = self.inertia.force
         least = SEATING * self.load_scale() / self.roller_count
@@ -342,6 +345,6 @@ def _minima(inputs: tuple[TaperedSystem, Bool[Array, ""]]) -> Minimum:
         # a bearing that turns fast enough needs no second minimum
         there = dataclasses.replace(system.homotopy(parameter, jnp.asarray(0)), guess=start)
         find = lambda: find_minimum(there, tolerance=START_TOLERANCE, hopeless=hopeless)
-        return jax.lax.cond((parameter > 0.0) & ((system._slowness() <= 1.0) | hopeless), lambda: nothing, find)
+        return jax.lax.cond((parameter > 0.0) & ((system.slowness() <= 1.0) | hopeless), lambda: nothing, find)
 
     return jax.lax.map(search, jnp.asarray([0.0, 1.0]))

@@ -64,6 +64,7 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         place = f"eccentricity ratio {digits(float(cage.eccentricity_ratio), 3)}"
         angle = f"attitude angle {with_unit(float(cage.attitude_angle), 'rad', 3)}"
         yield "Cage", f"{with_unit(float(cage.speed), 'rad/s')}, {slip}, {place}, {angle}"
+        yield from _sliding_facts(solution)
     rolling = solution.rolling_by_race
     if rolling is not None:
         parts = f"inner {digits(float(rolling.inner))} W, outer {digits(float(rolling.outer))} W"
@@ -101,6 +102,19 @@ def bending(ring: AbstractRingDeflection) -> str:
     deflection = np.asarray(ring.deflection)
     least, most = (with_unit(float(value), "m") for value in (np.min(deflection), np.max(deflection)))
     return f"bends outwards by {least} to {most}"
+
+
+def _sliding_facts(solution: Solution) -> Iterator[tuple[str, str]]:
+    """Where the elements slide fastest along the rolling direction."""
+    elements, texts = on_heavier_flanks(solution.elements), []
+    for side in ("inner", "outer"):
+        sliding = getattr(elements, f"sliding_{side}", None)
+        if sliding is not None and np.all(np.isfinite(sliding)):
+            most = int(np.argmax(np.abs(sliding)))
+            place = with_unit(float(elements.azimuth[most]), "rad", 3)
+            texts.append(f"{side} race {with_unit(float(sliding[most]), 'm/s', 3)} (at {place})")
+    if texts:
+        yield "Fastest sliding", ", ".join(texts)
 
 
 def _mixed_facts(solution: Solution) -> Iterator[tuple[str, str]]:

@@ -25,6 +25,8 @@ _POINTS = {
 }
 _ROW, _NAMES = 0.34, 0.46
 """Largest height of a row of numbers, inches, and the fraction of the width of the axes reserved for the row names."""
+_LETTER = 0.085
+"""Width of a letter of a table of numbers at its usual size of 10 points, inches."""
 _FEWEST_BARS = 4
 """Smallest number of bars that the axes leave room for: with fewer bars, the bars do not become thicker."""
 _SCALE_AZIMUTH = math.radians(157.5)
@@ -69,7 +71,13 @@ def _numbers(axes: Any, panel: Numbers) -> None:
     title_of(axes, panel.title)
     height = axes.get_window_extent().height / axes.figure.dpi
     step = min(_ROW / height, 0.9 / (len(panel.rows) + 1))
-    style = {"transform": axes.transAxes, "fontsize": 10, "color": INK, "va": "center"}
+    # texts of neighbouring columns must not meet: smaller ones in narrow axes
+    width, names = axes.get_window_extent().width / axes.figure.dpi, [name for name, _ in panel.rows]
+    numbers = [text for _, texts in panel.rows for text in texts] + [name for name, _ in panel.columns]
+    longest = lambda texts: _LETTER * (1 + max((len(text) for text in texts), default=0))
+    column = width * (1.0 - _NAMES) / len(panel.columns)
+    size = 10.0 * min(1.0, column / longest(numbers), width * _NAMES / longest(names))
+    style = {"transform": axes.transAxes, "fontsize": size, "color": INK, "va": "center"}
     ends = np.linspace(1.0, _NAMES, len(panel.columns), endpoint=False)[::-1]
     for end, (name, colour) in zip(ends, panel.columns, strict=True):
         axes.text(end, 1.0 - step, name, **(style | {"color": colour, "ha": "right", "fontweight": "bold"}))
