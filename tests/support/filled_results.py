@@ -37,6 +37,12 @@ _RATING = {
     "rating.cleanliness": "online_filter_15",
 }
 _ROUGH = {"contact.mixed.roughness": "0.2 um"}
+_CAGE = {
+    "cage.guidance": "inner_ring",
+    "cage.guiding_clearance": "0.3 mm",
+    "cage.pocket_clearance": "0.3 mm",
+    "cage.land_width": "2 mm",
+}
 
 SCENES = {
     "ball": lambda: jb.load_scene(
@@ -55,7 +61,7 @@ SCENES = {
     "dry roller": lambda: jb.load_scene("turbine_roller", dict.fromkeys(("contact", "cage", "flange", "drag"), "none")),
     "flexible roller": lambda: flexible_roller(),
     "misaligned roller": lambda: page_scene(),
-    "tapered": lambda: jb.load_scene("tapered_example", {"contact.supply.layer": "2 um", **_ROUGH, **_RATING}),
+    "tapered": lambda: jb.load_scene("tapered_example", {"contact.supply.layer": "2 um", **_CAGE, **_ROUGH, **_RATING}),
     "one temperature": lambda: warm("roller", 1),
     "four temperatures": lambda: warm("roller", 4, stability="true"),
     "six temperatures": lambda: warm(

@@ -78,10 +78,8 @@ def pocket_state(
     rate = (v_c - v) - (v_x * cosine + v_y * sine) + (x * sine - y * cosine) * orbit
     half = 0.5 * clearance
     # one search for both walls needs half as many loops
-    gaps, rates, speeds = (
-        jnp.stack(pair) for pair in ((half + ahead, half - ahead), (rate, -rate), (sliding, sliding))
-    )
-    walls = face.face(gaps, rates, speeds, viscosity)
+    gaps = jnp.stack([half + ahead, half - ahead])
+    walls = face.face(gaps, jnp.stack([rate, -rate]), jnp.stack([sliding, sliding]), viscosity)
     front, rear = (jax.tree.map(lambda leaf, i=i: leaf[i], walls) for i in (0, 1))
     return PocketState(front, rear, rate)
 
