@@ -24,6 +24,8 @@ from .reader import (
 from .units import number
 from .words import describe
 
+MOST_STATES = 10_000
+"""Largest number of states, as on a shaft. Each state is first made as a scene of its own, in about 5 ms."""
 NAME, SHARE = "name", "share"
 EXAMPLE = '[[state]] tables, each with share = 0.6 and changes such as operation.radial_load = "3 kN"'
 
@@ -74,6 +76,8 @@ def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple
         raise SceneError(label, STATES, "nothing", f"a load spectrum: {EXAMPLE}")
     if not isinstance(tables, list) or not tables or not all(isinstance(entry, Mapping) for entry in tables):
         raise SceneError(label, STATES, describe(tables), EXAMPLE)
+    if len(tables) > MOST_STATES:
+        raise SceneError(label, STATES, f"{len(tables)} states", f"at most {MOST_STATES}; join those that are alike")
     texts = as_texts(overrides)
     # an error of the scene itself is reported once, not for every state
     scene_from_tables(mapping, label, texts)

@@ -7,7 +7,7 @@ import pytest
 
 import jaxbearing as jb
 from jaxbearing.scenes.data_files import builtin_text
-from jaxbearing.scenes.states import load_states
+from jaxbearing.scenes.states import MOST_STATES, load_states
 from jaxbearing.sweeps.fields import SceneSource
 
 BASE = builtin_text("deep_groove_6205") + "\n[rating]\n"
@@ -97,6 +97,12 @@ def test_refusals(case, written):
     states, message = REFUSED[case]
     with pytest.raises(jb.SceneError, match=message):
         load_states(written(states), {"geometry.n_balls": 9})
+
+
+def test_more_states_than_can_be_solved_are_refused(written):
+    states = '[[state]]\nshare = 1e-4\noperation.radial_load = "4 kN"\n' * (MOST_STATES + 1)
+    with pytest.raises(jb.SceneError, match=f"state: found {MOST_STATES + 1} states; expected at most {MOST_STATES}"):
+        load_states(written(states))
 
 
 def test_all_states_that_are_wrong_are_named(written):
