@@ -192,21 +192,24 @@ def test_a_file_has_the_cage_and_what_it_lacks_is_said(scene, tmp_path):
 
 @pytest.mark.slow
 def test_derivatives_of_a_skidding_bearing(scene):
+    """Loss, cage slip, spin of a light roller and load of a pocket, by numbers of the scene, against differences."""
     names = ["operation.axial_load", "operation.inner_speed", "cage.pocket_clearance", "operation.oil_temperature"]
     start = jnp.asarray([5e3, 300.0, 3e-4, 350.0])
 
-    @jax.jit
     def results(values):
-        solution = jb.solve(scene.replace({name: values[k] for k, name in enumerate(names)}))
-        elements = solution.elements
-        return jnp.stack(
-            [solution.power_loss.total, solution.cage.slip, elements.spin_speed[8], elements.pocket_load_rear[3]]
-        )
+        changed = scene.replace({name: values[k] for k, name in enumerate(names)})
+        dry, _ = build_tapered(changed).started(jnp.asarray(False))
+        system, result = newton_solve(build_skidding(changed, dry, jnp.ones(())), NewtonOptions())
+        state = system.at(result.point)
+        friction = skidding_friction(system, result, state)
+        loss, pocket = friction.totals.power_loss.total, friction.pocket
+        return jnp.stack([loss, friction.cage.slip, state.spin_speed[8], pocket.load_rear[3]])
 
-    slopes = jax.jit(jax.jacrev(results))(start)
+    slopes = jax.jit(jax.jacfwd(results))(start)
+    values = jax.jit(results)
     for k in range(len(names)):
         step = jnp.zeros(4).at[k].set(1e-4 * start[k])
-        ends = [results(start + sign * step) for sign in (-2.0, -1.0, 1.0, 2.0)]
+        ends = [values(start + sign * step) for sign in (-2.0, -1.0, 1.0, 2.0)]
         difference = (ends[0] - 8.0 * ends[1] + 8.0 * ends[2] - ends[3]) / (12.0 * step[k])
         np.testing.assert_allclose(slopes[:, k], difference, rtol=1e-5)
 
@@ -245,14 +248,21 @@ def test_random_and_lightly_loaded_bearings_with_a_cage(scene):
 STEEL = {"conductivity": "46 W/(m*K)", "heat_capacity": "460 J/(kg*K)"}
 BOUNDARY = {"geometry.bore": "30 mm", "geometry.outside_diameter": "62 mm", "geometry.width": "17.25 mm"}
 PARTS = {
-    "tilt": {"operation.load_position": "-88 mm", "operation.moment": "240 N*m"},
-    "flexible cup": {"outer_ring.thickness": "4 mm", "outer_ring.housing_stiffness": "1e10 N/m^2"},
-    "rough": {"contact.mixed.roughness": "0.2 um", "contact.mixed.slide_width": "1 mm/s"},
-    "starved": {"contact.supply.level": "jet"},
+    "tilt and flexible cup": {
+        "operation.load_position": "-88 mm",
+        "operation.moment": "240 N*m",
+        "outer_ring.thickness": "4 mm",
+        "outer_ring.housing_stiffness": "1e10 N/m^2",
+    },
+    "rough, starved, guided by the cup": {
+        "contact.mixed.roughness": "0.2 um",
+        "contact.mixed.slide_width": "1 mm/s",
+        "contact.supply.level": "jet",
+        "cage.guidance": "outer_ring",
+    },
     "thermal network": BOUNDARY
     | {f"materials.{part}.{name}": value for part in ("rings", "rollers") for name, value in STEEL.items()}
     | {"oil.heat_capacity": "2150 J/(kg*K)", "thermal.ambient": "20 degC"},
-    "guided by the cup": {"cage.guidance": "outer_ring"},
     "held": {"operation.axial_load": "none", "operation.displacement.axial": "30 um"},
 }
 
@@ -267,10 +277,10 @@ def test_with_other_parts(parts):
     assert solution.converged
     np.testing.assert_allclose(solution.drive_power, solution.power_loss.total, rtol=1e-9)
     # the cone drags the cage along, the cup holds it back
-    assert (float(solution.cage.slip) > 0.0) == (parts == "guided by the cup")
+    assert (float(solution.cage.slip) > 0.0) == ("guided by the cup" in parts)
     assert abs(float(solution.cage.slip)) < 0.05
     rubbed = solution.boundary_power
-    assert (rubbed is not None and float(rubbed.inner_raceway) > 0.0) == (parts == "rough")
+    assert (rubbed is not None and float(rubbed.inner_raceway) > 0.0) == ("rough" in parts)
 
 
 @pytest.mark.slow
