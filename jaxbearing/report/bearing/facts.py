@@ -105,7 +105,7 @@ def bending(ring: AbstractRingDeflection) -> str:
 
 
 def _sliding_facts(solution: Solution) -> Iterator[tuple[str, str]]:
-    """Where the elements slide fastest along the rolling direction."""
+    """The fastest sliding of the elements along the rolling direction, on each race."""
     elements, texts = on_heavier_flanks(solution.elements), []
     for side in ("inner", "outer"):
         sliding = getattr(elements, f"sliding_{side}", None)
