@@ -86,8 +86,8 @@ def read_data(
         data = Data(conditions, values, deviations, held, table.file)
     except ValueError as error:
         where, _, rest = str(error).partition(": found ")
-        found, _, expected = rest.partition("; expected ")
-        raise SceneError(table.file, where, found, expected or EXPECTED) from None
+        value, _, expected = rest.partition("; expected ")
+        raise SceneError(table.file, where, value, expected or EXPECTED) from None
     return data, [f"column '{name}' of {table.file} is ignored" for name in ignored if name]
 
 

@@ -178,9 +178,9 @@ class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings, Generic[Pres
     def normal_bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
         """Lower and upper bounds of the unknowns of the normal direction and of the rings."""
 
-    @abc.abstractmethod
     def load_scale(self) -> Array:
         """Scale of the ring's balances, N."""
+        return self.ring.scale()
 
     @abc.abstractmethod
     def normal(
@@ -212,9 +212,9 @@ class AbstractLubricatedRollers(AbstractOils, AbstractBetweenRings, Generic[Pres
         """Residuals of the balances of both rings, divided by `load_scale`."""
 
     @property
-    @abc.abstractmethod
     def cage_row(self) -> int:
         """Row of the cage speed in `shared`."""
+        return len(self.freedoms)
 
     # -- scales ---------------------------------------------------------------------------------------------------
 

@@ -80,13 +80,6 @@ class LubricatedTiltingSystem(AbstractLubricatedRollers[PressedRollers]):
     elsewhere: OilElsewhere | None
     laminae: int = eqx.field(static=True)
 
-    @property
-    def cage_row(self) -> int:
-        return len(self.freedoms)
-
-    def load_scale(self) -> Array:
-        return self.ring.scale()
-
     def initial(self) -> ArrowPoint:
         """Starts from rolling without slip at the equilibrium of the dry bearing, with Martin's film force on the
         rollers outside the loaded zone. Under a multiple of the loads, loads and displacements are larger as in a dry

@@ -128,13 +128,6 @@ class SkiddingSystem(AbstractLubricatedRollers[PressedTapered]):
     brakes: Float[Array, ""]
     heavier: Float[Array, ""]
 
-    @property
-    def cage_row(self) -> int:
-        return len(self.freedoms)
-
-    def load_scale(self) -> Array:
-        return self.ring.scale()
-
     def initial(self) -> ArrowPoint:
         """Starts from pure rolling at the equilibrium of the dry bearing."""
         guess = self.dry.initial()

@@ -47,7 +47,7 @@ def solved(scene):
     of the same rollers without skidding."""
 
     @jax.jit
-    def found(scene):
+    def solution_of(scene):
         asked = build_tapered(scene)
         # rolling rollers would push the cone out in the fast case
         start = dataclasses.replace(asked, inertia=asked.inertia.times(0.3))
@@ -58,9 +58,8 @@ def solved(scene):
         rolling = tapered_friction(scene, state.pressed.contacts)
         return result, state, skidding_friction(system, result, state), land, rolling
 
-    return functools.cache(
-        lambda **changes: found(scene.at_operation(**{name: np.float64(value) for name, value in changes.items()}))
-    )
+    at = lambda changes: {name: np.float64(value) for name, value in changes.items()}
+    return functools.cache(lambda **changes: solution_of(scene.at_operation(**at(changes))))
 
 
 CASES = {
@@ -237,17 +236,17 @@ def test_random_and_lightly_loaded_bearings_with_a_cage(scene):
         "oil_temperature": rng.uniform(290.0, 420.0, count),
     }
     solve = jax.jit(lambda point: jb.solve(scene.at_operation(**point), throw=False))
-    found = [solve({name: jnp.asarray(numbers[k]) for name, numbers in values.items()}) for k in range(count)]
+    solutions = [solve({name: jnp.asarray(numbers[k]) for name, numbers in values.items()}) for k in range(count)]
     held = values["axial_load"] > values["radial_load"] * np.tan(CUP)
     expected = np.where(held, int(jb.Status.CONVERGED), int(jb.Status.NO_EQUILIBRIUM))
-    np.testing.assert_array_equal([int(solution.status) for solution in found], expected)
+    np.testing.assert_array_equal([int(solution.status) for solution in solutions], expected)
     point = {"radial_load": 0.0, "outer_speed": 0.0, "oil_temperature": 353.0}
     for axial, speed, slip in ((120.0, 1500.0, 0.5), (1.0, 314.0, 0.6), (150.0, 2500.0, 0.6)):
         light = point | {"axial_load": axial, "inner_speed": speed}
-        found.append(solve({name: jnp.asarray(number) for name, number in light.items()}))
-        assert found[-1].converged
-        assert abs(float(found[-1].cage.slip) - slip) < 0.1
-    for solution in found:
+        solutions.append(solve({name: jnp.asarray(number) for name, number in light.items()}))
+        assert solutions[-1].converged
+        assert abs(float(solutions[-1].cage.slip) - slip) < 0.1
+    for solution in solutions:
         if solution.converged:
             np.testing.assert_allclose(solution.drive_power, solution.power_loss.total, rtol=1e-10)
 
